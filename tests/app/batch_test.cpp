@@ -17,8 +17,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 extern char** environ;
 
@@ -57,15 +56,11 @@ std::vector<std::string> differences(const std::map<std::string, std::string>& a
     return names;
 }
 
-class BatchCommand : public testing::Test {
+class BatchCommand : public test::ProgramTest {
 protected:
     void SetUp() override {
         fs::create_directory(folder_ / "stones");
-        ASSERT_EQ(run_culet({"cut", "emerald", "-o", file("stones/mesh.obj"), "-q"}).exit_code, 0);
-    }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
+        cut("emerald", "stones/mesh.obj");
     }
     // A stone with a reading and without a material: fitted in a moment, not graded.
     void write_stone(const std::string& name, double depth) const {
@@ -78,20 +73,15 @@ protected:
         for (int i = 0; i < count; ++i)
             write_stone("s" + std::to_string(100 + i) + ".toml", 3.6 + 0.001 * i);
     }
-    Json json(const std::string& name) const {
-        std::ifstream stream(folder_ / name);
-        return Json::parse(stream);
-    }
     ProgramRun batch(std::vector<std::string> more) const {
         more.insert(more.begin(), {"batch"});
         return run_culet(more);
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
     write_stone("a.toml", 3.6);
-    ASSERT_EQ(run_culet({"cut", "emerald", "-o", file("stones/b.asc"), "-q"}).exit_code, 0);
+    cut("emerald", "stones/b.asc");
     write("stones/scene.toml", "stone = \"a.toml\"\n[light]\nconstant = 1.0\n");
     write("stones/bad.toml", "[stone\n");
     const ProgramRun run = batch(
@@ -222,10 +212,7 @@ TEST_F(BatchCommand, RefusesInOneLine) {
     write_stone("a.toml", 3.6);
     const auto refused = [&](const std::string& csv, const char* why) {
         write("jobs.csv", csv);
-        const ProgramRun run = batch({file("jobs.csv"), "-o", file("out")});
-        EXPECT_EQ(run.exit_code, 2) << csv;
-        EXPECT_THAT(run.err, HasSubstr(why));
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(refusal_of(batch({file("jobs.csv"), "-o", file("out")})), HasSubstr(why));
         EXPECT_FALSE(fs::exists(folder_ / "out"));
     };
     const std::string stone = "stones/a.toml";

@@ -3,14 +3,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,25 +16,7 @@ using test::run_culet;
 
 const std::string k_design = CULET_SOURCE_DIR "/tests/stone/designs/srb_class_angles.asc";
 
-class ConvertInfo : public testing::Test {
-protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    static std::string text(const std::string& name) {
-        std::ifstream stream(name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    void write(const std::string& name, const std::string& content) const {
-        std::ofstream(file(name), std::ios::binary) << content;
-    }
-    static void expect_one_error_line(const ProgramRun& run) {
-        EXPECT_EQ(run.exit_code, 2);
-        EXPECT_TRUE(run.out.empty()) << run.out;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-        EXPECT_EQ(run.err.rfind("culet: error: ", 0), 0u) << run.err;
-    }
-
-    test::ScratchFolder folder_;
-};
+class ConvertInfo : public test::ProgramTest {};
 
 TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
     std::string from = k_design;
@@ -78,7 +56,7 @@ TEST_F(ConvertInfo, MessagesGoToStderrAndResultsToStdout) {
     EXPECT_EQ(info.exit_code, 0);
     EXPECT_TRUE(info.err.empty()) << info.err;
     EXPECT_NE(info.out.find("73 facets"), std::string::npos);
-    EXPECT_EQ(nlohmann::json::parse(text(file("a.json"))).at("gear"), 96);
+    EXPECT_EQ(json("a.json").at("gear"), 96);
     // -v lists the facets.
     const ProgramRun table = run_culet({"info", k_design, "-v"});
     EXPECT_NE(table.out.find("inclination"), std::string::npos);
@@ -96,24 +74,24 @@ TEST_F(ConvertInfo, BrokenMeshIsConvertedWithAWarning) {
     EXPECT_EQ(object.at("faults").size(), 3u);
     EXPECT_EQ(object.at("faults")[0].at("kind"), "open");
     // A cut design cannot hold it.
-    expect_one_error_line(run_culet({"convert", file("open.obj"), file("open.asc")}));
+    refusal({"convert", file("open.obj"), file("open.asc")});
     EXPECT_FALSE(std::filesystem::exists(file("open.asc")));
 }
 
 TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
-    expect_one_error_line(run_culet({"convert", k_design, file("a.3mf")}));
-    expect_one_error_line(run_culet({"convert", k_design, file("a.gem")}));
-    expect_one_error_line(run_culet({"convert", file("missing.obj"), file("a.obj")}));
-    expect_one_error_line(run_culet({"convert", k_design, file("no/such/folder.obj")}));
-    expect_one_error_line(run_culet({"convert", k_design}));
-    expect_one_error_line(run_culet({"convert", k_design, file("a.obj"), "--meet-tolerance", "7"}));
-    expect_one_error_line(run_culet({"info", file("missing.asc")}));
-    expect_one_error_line(run_culet({"info", folder_.path().string()}));
-    expect_one_error_line(run_culet({"info", k_design, "--json", folder_.path().string()}));
+    refusal({"convert", k_design, file("a.3mf")});
+    refusal({"convert", k_design, file("a.gem")});
+    refusal({"convert", file("missing.obj"), file("a.obj")});
+    refusal({"convert", k_design, file("no/such/folder.obj")});
+    refusal({"convert", k_design});
+    refusal({"convert", k_design, file("a.obj"), "--meet-tolerance", "7"});
+    refusal({"info", file("missing.asc")});
+    refusal({"info", folder_.path().string()});
+    refusal({"info", k_design, "--json", folder_.path().string()});
     write("a.xyz", "1 2 3\n");
-    expect_one_error_line(run_culet({"info", file("a.xyz")}));
+    refusal({"info", file("a.xyz")});
     write("bad\n\033[31m.obj", "v 0 0\n");
-    expect_one_error_line(run_culet({"info", file("bad\n\033[31m.obj")}));
+    refusal({"info", file("bad\n\033[31m.obj")});
     EXPECT_FALSE(std::filesystem::exists(file("a.obj")));
 }
 
@@ -173,12 +151,10 @@ TEST_F(ConvertInfo, SceneGoesToPovray) {
     EXPECT_TRUE(set.err.empty()) << set.err;
     EXPECT_NE(text(file("scene.pov")).find("max_trace_level 9 "), std::string::npos);
     // Neither a mesh to POV-Ray nor a scene to a mesh.
-    expect_one_error_line(run_culet({"convert", file("stone.obj"), file("a.pov")}));
-    expect_one_error_line(run_culet({"convert", file("scene.toml"), file("a.obj")}));
-    expect_one_error_line(
-        run_culet({"convert", k_design, file("a.obj"), "--set", "render.depth=8"}));
-    expect_one_error_line(
-        run_culet({"convert", file("scene.toml"), file("a.pov"), "--set", "camera.analyzer=0"}));
+    refusal({"convert", file("stone.obj"), file("a.pov")});
+    refusal({"convert", file("scene.toml"), file("a.obj")});
+    refusal({"convert", k_design, file("a.obj"), "--set", "render.depth=8"});
+    refusal({"convert", file("scene.toml"), file("a.pov"), "--set", "camera.analyzer=0"});
     EXPECT_FALSE(std::filesystem::exists(file("a.pov")));
 }
 
@@ -213,7 +189,7 @@ TEST_F(ConvertInfo, AFileThatMayNotGrowIsRefusedInALine) {
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
     const ProgramRun run = run_culet({"convert", k_design, file("large.obj"), "-q"});
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-    expect_one_error_line(run);
+    refusal_of(run);
     EXPECT_NE(run.err.find("cannot be written"), std::string::npos) << run.err;
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/run_program.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {

@@ -14,8 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -109,14 +108,13 @@ const Change in_triangles = [](Drawing& d) {
     d.faces = std::move(pieces);
 };
 
-class FitInput : public testing::Test {
+class FitInput : public test::ProgramTest {
 protected:
     FitInput() {
         fs::copy(k_sample / "readings.csv", folder_ / "readings.csv");
         fs::copy(k_sample / "stone.toml", folder_ / "stone.toml");
         fs::copy(k_sample / "hand.obj", folder_ / "hand.obj");
     }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
     ProgramRun fit() const {
         return run_culet(
@@ -138,12 +136,9 @@ protected:
     }
     /// Nothing was done, and one line says why.
     void expect_refused(const ProgramRun& run) const {
-        EXPECT_EQ(run.exit_code, 2) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        refusal_of(run);
         EXPECT_FALSE(fs::exists(file("fitted.obj")));
     }
-
-    test::ScratchFolder folder_;
 };
 
 TEST_F(FitInput, BadlyMadeMeshesAreMendedAndFitted) {
@@ -170,8 +165,9 @@ TEST_F(FitInput, BadlyMadeMeshesAreMendedAndFitted) {
 }
 
 TEST_F(FitInput, NeedsNoMaterialUnlessTheStoneIsWeighed) {
-    std::ofstream(file("stone.toml")) << "[stone]\nmesh = \"hand.obj\"\nup = \"T\"\n"
-                                         "readings = \"readings.csv\"\n";
+    write("stone.toml",
+          "[stone]\nmesh = \"hand.obj\"\nup = \"T\"\n"
+          "readings = \"readings.csv\"\n");
     const ProgramRun weighed = fit();
     expect_refused(weighed);
     EXPECT_THAT(weighed.err, HasSubstr("needs the density"));

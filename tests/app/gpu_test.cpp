@@ -9,8 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,9 +19,8 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-class GpuProgramRuns : public testing::Test {
+class GpuProgramRuns : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
     ProgramRun render(std::vector<std::string> more) const {
         std::vector<std::string> arguments{
             "render",   CULET_SOURCE_DIR "/samples/effects/garnet-depth.toml",
@@ -32,7 +30,6 @@ protected:
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_culet(arguments);
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(GpuProgramRuns, DrawAndNameTheDriver) {

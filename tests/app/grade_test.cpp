@@ -6,11 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -21,18 +19,9 @@ using test::run_culet;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-class GradeCommand : public testing::Test {
+class GradeCommand : public test::ProgramTest {
 protected:
-    void SetUp() override {
-        ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("round.obj"), "-q"}).exit_code,
-                  0);
-    }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string bytes(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    test::ScratchFolder folder_;
+    void SetUp() override { cut("round-brilliant", "round.obj"); }
 };
 
 TEST_F(GradeCommand, WritesWhatTheContractNames) {
@@ -91,13 +80,13 @@ TEST_F(GradeCommand, PageHoldsSeveralDesignsAndLoadsNothing) {
         run_culet({"grade", file("round.obj"), file("deep.obj"), "--material", "diamond", "--tilts",
                    "-20:20:10", "--size", "64", "-o", file("page"), "-q"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const std::string page = bytes("page/report.html");
+    const std::string page = text("page/report.html");
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
     EXPECT_THAT(page, HasSubstr("round"));
     EXPECT_THAT(page, HasSubstr("deep"));
     EXPECT_THAT(page, HasSubstr("light-paths"));
     EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
-    const Json json = Json::parse(bytes("page/grade.json"));
+    const Json json = this->json("page/grade.json");
     EXPECT_EQ(json.at("designs").size(), 2u);
     EXPECT_TRUE(fs::exists(folder_ / "page/1-aset.png"));
     EXPECT_TRUE(fs::exists(folder_ / "page/2-hearts.png"));
@@ -133,19 +122,16 @@ TEST_F(GradeCommand, TellsSigmasByAFitReport) {
 }
 
 TEST_F(GradeCommand, RefusesWithOneLineAndWritesNothing) {
-    std::ofstream(folder_ / "bad.asc") << "GemCad 5.0\ng 96 0\nI 1.5\na 10 0.5 0\n";
-    std::ofstream(folder_ / "notes.txt") << "no stone\n";
-    std::ofstream(folder_ / "no.json") << "[1, 2";
+    write("bad.asc", "GemCad 5.0\ng 96 0\nI 1.5\na 10 0.5 0\n");
+    write("notes.txt", "no stone\n");
+    write("no.json", "[1, 2");
     const auto refused = [&](std::vector<std::string> arguments, const std::string& words) {
         arguments.insert(arguments.begin(), "grade");
         for (const char* more : {"-o", "--json"}) {
             arguments.emplace_back(more);
             arguments.push_back(file(std::string(more) == "-o" ? "never" : "never.json"));
         }
-        const ProgramRun run = run_culet(arguments);
-        EXPECT_EQ(run.exit_code, 2) << run.err;
-        EXPECT_THAT(run.err, HasSubstr(words));
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(refusal(arguments), HasSubstr(words));
         EXPECT_FALSE(fs::exists(folder_ / "never.json"));
         EXPECT_FALSE(fs::exists(folder_ / "never/report.html"));
     };

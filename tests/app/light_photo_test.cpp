@@ -3,18 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "compare/photo/photo.h"
 #include "render/image/image_io.h"
-#include "tests/app/run_program.h"
+#include "tests/app/program_test.h"
 #include "tests/compare/light_probe/simulated_ball.h"
-#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -24,9 +21,9 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-class LightAndPhoto : public testing::Test {
+class LightAndPhoto : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    using ProgramTest::write;
     std::string write(const Photo& photo, const std::string& name) const {
         Picture picture;
         picture.width = photo.width;
@@ -56,13 +53,8 @@ protected:
         return write(photo, name);
     }
     static void expect_refused(const std::vector<std::string>& words, const std::string& about) {
-        const ProgramRun run = run_culet(words);
-        EXPECT_EQ(run.exit_code, 2) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-        EXPECT_THAT(run.err, HasSubstr(about));
-        EXPECT_TRUE(run.out.empty());
+        EXPECT_THAT(refusal(words), HasSubstr(about));
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {
@@ -102,7 +94,7 @@ TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {
         std::ofstream(file("scene.toml"))
             << "material = \"diamond\"\nmesh = \"cut.obj\"\n[light]\nenvironment = \"" << map
             << "\"\n[camera]\nsize = [16, 16]\n";
-        ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("cut.obj"), "-q"}).exit_code, 0);
+        cut("round-brilliant", "cut.obj");
         const ProgramRun info = run_culet({"info", file("scene.toml")});
         EXPECT_EQ(info.exit_code, 0) << map << info.err;
     }
@@ -183,7 +175,7 @@ TEST_F(LightAndPhoto, ANearWindowBecomesAPlaneOfTheScene) {
     EXPECT_NEAR(light.at("distance").get<double>(), 10 * glm::length(middle), 3 * bound);
     EXPECT_NEAR(light.at("radiance").at(0).get<double>(), 7, 0.05);
 
-    ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("cut.obj"), "-q"}).exit_code, 0);
+    cut("round-brilliant", "cut.obj");
     std::ofstream(file("scene.toml"))
         << "material = \"diamond\"\nmesh = \"cut.obj\"\n"
         << std::ifstream(file("light.toml")).rdbuf() << "[camera]\nsize = [16, 16]\n";
@@ -218,7 +210,7 @@ TEST_F(LightAndPhoto, BadBallsAreOneLine) {
     const std::string env = file("env.exr");
     expect_refused({"light", "-o", env}, "name the photographs");
     expect_refused({"light", file("missing.exr"), "-o", env}, "no such file");
-    std::ofstream(file("text.jpg")) << "no picture";
+    write("text.jpg", "no picture");
     expect_refused({"light", file("text.jpg"), "-o", env}, "no picture");
     expect_refused({"light", empty, "-o", env}, "--ball X,Y,RADIUS");
     expect_refused({"light", good, "-o", env, "--ball", "170,70,60"}, "outside the picture");
@@ -255,7 +247,7 @@ TEST_F(LightAndPhoto, ExposuresAreMergedAndBadOnesRefused) {
     expect_refused({"photo", a, "-o", out, "--camera", file("missing.toml")}, "no such file");
     expect_refused({"photo", a, flat("other.exr", 0.2f, 90, 75), "-o", out, "--exposure", "1,2"},
                    "one size");
-    std::ofstream(file("broken.dng")) << "II*";
+    write("broken.dng", "II*");
     expect_refused({"photo", file("broken.dng"), "-o", out}, "raw file");
     expect_refused({"photo", a, "-o", file("out.png")}, ".exr");
     EXPECT_FALSE(fs::exists(out));

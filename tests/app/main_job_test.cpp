@@ -2,14 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,19 +17,14 @@ using test::run_culet;
 
 const fs::path k_samples = fs::path(CULET_SOURCE_DIR) / "samples";
 
-class MainJob : public testing::Test {
+class MainJob : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    static std::string text(const std::string& name) {
-        std::ifstream stream(name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
     // The sample's scene, small enough for a test.
     std::string scene_with_objects() const {
-        std::ofstream(file("objects.toml"))
-            << "[camera]\nposition = [0, -9, 5]\nlook_at = [0, 0, 0]\nsize = [16, 16]\n"
-               "[light]\nconstant = 1\n[[object]]\nshape = \"sphere\"\nradius = 1\n"
-               "material = { kind = \"diffuse\" }\n";
+        write("objects.toml",
+              "[camera]\nposition = [0, -9, 5]\nlook_at = [0, 0, 0]\nsize = [16, 16]\n"
+              "[light]\nconstant = 1\n[[object]]\nshape = \"sphere\"\nradius = 1\n"
+              "material = { kind = \"diffuse\" }\n");
         return file("objects.toml");
     }
     std::string small_scene() const {
@@ -48,8 +40,6 @@ protected:
         std::ofstream(file("scene.toml")) << scene;
         return file("scene.toml");
     }
-
-    test::ScratchFolder folder_;
 };
 
 TEST_F(MainJob, FitRenderAndCompareEndInOneReport) {
@@ -65,12 +55,12 @@ TEST_F(MainJob, FitRenderAndCompareEndInOneReport) {
                              "stats.json", "scores.json"}) {
         EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
     }
-    const auto fit = nlohmann::json::parse(text(file("out/fit.json")));
+    const auto fit = json("out/fit.json");
     EXPECT_EQ(fit.at("status"), "converged");
     EXPECT_TRUE(fit.at("closed"));
     EXPECT_TRUE(fit.at("convex"));
     EXPECT_EQ(fit.at("facets").size(), 57u);
-    const auto stats = nlohmann::json::parse(text(file("out/stats.json")));
+    const auto stats = json("out/stats.json");
     for (const char* key :
          {"engine", "depth", "effects", "error_bound", "remainder", "seconds", "beams", "rays"}) {
         EXPECT_TRUE(stats.contains(key)) << key;
@@ -90,7 +80,7 @@ TEST_F(MainJob, ExactMeetsContradictTheReadingsOfARealStone) {
         run_culet({"fit", (k_samples / "real-brilliant/stone.toml").string(), "-o",
                    file("exact.obj"), "--report", file("exact.json"), "--set", "fit.meets=exact"});
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_EQ(nlohmann::json::parse(text(file("exact.json"))).at("status"), "contradictory");
+    EXPECT_EQ(json("exact.json").at("status"), "contradictory");
     EXPECT_TRUE(fs::exists(file("exact.obj"))) << "the outputs are written and say why";
 }
 
@@ -108,7 +98,7 @@ TEST_F(MainJob, SamePictureForAnyNumberOfThreads) {
 
 TEST_F(MainJob, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
     const std::string stone = (k_samples / "real-brilliant/stone.toml").string();
-    std::ofstream(file("old.obj")) << "kept";
+    write("old.obj", "kept");
     const std::vector<std::vector<std::string>> cases{
         {"bogus"},
         {"fit"},
@@ -134,14 +124,7 @@ TEST_F(MainJob, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
         {"compare", file("missing.png"), small_scene(), "-o", file("cmp"), "--calibrate"},
         {"compare", file("missing.png"), small_scene(), "-o", file("cmp"), "--draws", "1"},
     };
-    for (const auto& words : cases) {
-        const ProgramRun run = run_culet(words);
-        std::string line;
-        for (const std::string& word : words) line += word + " ";
-        EXPECT_EQ(run.exit_code, 2) << line << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << line << run.err;
-        EXPECT_TRUE(run.out.empty()) << line;
-    }
+    for (const auto& words : cases) refusal(words);
     EXPECT_EQ(text(file("old.obj")), "kept");
     for (const char* name : {"a.gif", "a.png", "a.obj", "out", "cmp"})
         EXPECT_FALSE(fs::exists(file(name))) << name;

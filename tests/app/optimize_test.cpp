@@ -7,8 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -17,14 +16,9 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-class OptimizeCommand : public testing::Test {
+class OptimizeCommand : public test::ProgramTest {
 protected:
-    void SetUp() override {
-        ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("round.obj"), "-q"}).exit_code,
-                  0);
-    }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    test::ScratchFolder folder_;
+    void SetUp() override { cut("round-brilliant", "round.obj"); }
 };
 
 TEST_F(OptimizeCommand, WritesADesignThatGradesAsItSays) {

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/image/image_io.h"
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,13 +19,8 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-class RayTables : public testing::Test {
+class RayTables : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string bytes(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return std::string{std::istreambuf_iterator<char>(stream), {}};
-    }
     ProgramRun render(std::vector<std::string> more) const {
         std::vector<std::string> arguments{
             "render",      CULET_SOURCE_DIR "/samples/effects/garnet-depth.toml",
@@ -51,13 +45,12 @@ protected:
             << run.err;
         EXPECT_THAT(run.err, HasSubstr(words));
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(RayTables, ArePutIntoAFileAndLitAnew) {
     const ProgramRun first = by_table({"-o", file("a.png"), "--stats", file("a.json")});
     EXPECT_EQ(first.exit_code, 0) << first.err;
-    const std::string table = bytes("stone.rays");
+    const std::string table = text("stone.rays");
     EXPECT_EQ(table.substr(0, 8), "culetray");
     std::ifstream stats(folder_ / "a.json");
     EXPECT_EQ(nlohmann::json::parse(stats)["engine"], "raytable");
@@ -66,10 +59,10 @@ TEST_F(RayTables, ArePutIntoAFileAndLitAnew) {
     EXPECT_THAT(info.out, HasSubstr("32 x 32 pixels, samples 1, depth 5"));
     const ProgramRun again = by_table({"-o", file("b.png")});
     EXPECT_EQ(again.exit_code, 0) << again.err;
-    EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+    EXPECT_EQ(text("a.png"), text("b.png"));
     const ProgramRun aset = by_table({"-o", file("c.exr"), "--light", "aset"});
     EXPECT_EQ(aset.exit_code, 0) << aset.err;
-    EXPECT_EQ(bytes("stone.rays"), table);
+    EXPECT_EQ(text("stone.rays"), table);
     // The same drawn anew along the same rays: single precision is all that lies between.
     const ProgramRun anew = render({"-o", file("d.exr"), "--light", "aset", "--engine", "reference",
                                     "--set", "render.samples=1"});
@@ -94,7 +87,7 @@ TEST_F(RayTables, OfViewsAroundStandInAFolder) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "views"), {}), 3);
     const ProgramRun again = between({"-o", file("b.png")});
     EXPECT_EQ(again.exit_code, 0) << again.err;
-    EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+    EXPECT_EQ(text("a.png"), text("b.png"));
     expect_refusal(between({"-o", file("c.png"), "--table", file("stone.rays")}), "excludes");
     expect_refusal(render({"-o", file("c.png"), "--view-step", "0.2"}), "requires");
     EXPECT_FALSE(fs::exists(folder_ / "c.png"));
@@ -102,7 +95,7 @@ TEST_F(RayTables, OfViewsAroundStandInAFolder) {
 
 TEST_F(RayTables, AreRefusedInALineAndLeaveNoPicture) {
     EXPECT_EQ(by_table({"-o", file("a.png")}).exit_code, 0);
-    const std::string table = bytes("stone.rays");
+    const std::string table = text("stone.rays");
     expect_refusal(by_table({"-o", file("b.png"), "--set", "camera.fov=11"}), "another view");
     expect_refusal(by_table({"-o", file("b.png"), "--material", "diamond"}), "refractive indices");
     expect_refusal(by_table({"-o", file("b-#.png"), "--frames", "3"}), "one view");
@@ -112,7 +105,7 @@ TEST_F(RayTables, AreRefusedInALineAndLeaveNoPicture) {
     expect_refusal(by_table({"-o", file("b.png")}), "cut off");
     expect_refusal(run_culet({"info", file("stone.rays")}), "cut off");
     EXPECT_FALSE(fs::exists(folder_ / "b.png"));
-    EXPECT_EQ(bytes("stone.rays"), table.substr(0, table.size() / 2));
+    EXPECT_EQ(text("stone.rays"), table.substr(0, table.size() / 2));
 }
 
 }  // namespace

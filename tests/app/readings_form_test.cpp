@@ -8,8 +8,7 @@
 #include <regex>
 
 #include "stone/output_file.h"
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,9 +19,8 @@ using ::testing::HasSubstr;
 
 const std::string k_form_design = CULET_SOURCE_DIR "/tests/stone/designs/own_oval_135.asc";
 
-class BenchForm : public testing::Test {
+class BenchForm : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
     // Some rows with the value that their note expects, in the words of a bench; the rest empty.
     void fill_in(const std::string& form, const std::string& rows) const {
         const std::regex row("(" + rows + ")(,.*expected ([0-9.]+).*)");
@@ -36,7 +34,6 @@ protected:
         }
         std::ofstream(form) << text;
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(BenchForm, CutFillInFit) {
@@ -143,23 +140,17 @@ TEST_F(BenchForm, CuttingSheetIsAPageOrText) {
 }
 
 TEST_F(BenchForm, WhatCannotBeDoneIsOneLine) {
-    const auto error_of = [&](const std::vector<std::string>& arguments) {
-        const ProgramRun run = run_culet(arguments);
-        EXPECT_EQ(run.exit_code, 2) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-        return run.err;
-    };
-    EXPECT_THAT(error_of({"cut", "oval", "-o", file("a.obj"), "--stone", file("a.toml")}),
+    EXPECT_THAT(refusal({"cut", "oval", "-o", file("a.obj"), "--stone", file("a.toml")}),
                 HasSubstr("--readings"));
-    EXPECT_THAT(error_of({"cut", "oval", "--readings", file("a.csv")}), HasSubstr("-o MESH"));
-    EXPECT_THAT(error_of({"cut", "oval", "--width", "6.5 deg", "-o", file("a.obj")}),
+    EXPECT_THAT(refusal({"cut", "oval", "--readings", file("a.csv")}), HasSubstr("-o MESH"));
+    EXPECT_THAT(refusal({"cut", "oval", "--width", "6.5 deg", "-o", file("a.obj")}),
                 HasSubstr("--width"));
-    EXPECT_THAT(error_of({"cut", "oval", "--width", "wide", "-o", file("a.obj")}),
+    EXPECT_THAT(refusal({"cut", "oval", "--width", "wide", "-o", file("a.obj")}),
                 HasSubstr("--width"));
-    EXPECT_THAT(error_of({"convert", "--width", "0mm", k_form_design, file("a.obj")}),
+    EXPECT_THAT(refusal({"convert", "--width", "0mm", k_form_design, file("a.obj")}),
                 HasSubstr("--width"));
-    EXPECT_THAT(error_of({"info", CULET_SOURCE_DIR "/samples/dravite-step/scene.toml", "--readings",
-                          file("a.csv")}),
+    EXPECT_THAT(refusal({"info", CULET_SOURCE_DIR "/samples/dravite-step/scene.toml", "--readings",
+                         file("a.csv")}),
                 HasSubstr("a mesh, a cut design or a stone file"));
     EXPECT_FALSE(std::filesystem::exists(file("a.obj")));
     EXPECT_FALSE(std::filesystem::exists(file("a.csv")));

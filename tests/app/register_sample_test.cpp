@@ -14,7 +14,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/app/run_program.h"
+#include "tests/app/program_test.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

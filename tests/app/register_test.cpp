@@ -3,15 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,11 +16,10 @@ namespace fs = std::filesystem;
 using test::ProgramRun;
 using test::run_culet;
 
-class Register : public testing::Test {
+class Register : public test::ProgramTest {
 protected:
     Register() {
-        EXPECT_EQ(run_culet({"cut", "round-brilliant", "-o", file("stone.obj"), "-q"}).exit_code,
-                  0);
+        cut("round-brilliant", "stone.obj");
         write("truth.toml", scene("[6.8, 3.1, 39.3]", "[0.1, 1, 0]"));
         write("start.toml", scene("[-2, 9, 44]", "[-0.15, 1, 0]"));
         EXPECT_EQ(
@@ -41,16 +36,6 @@ protected:
                "[[light.lobe]]\ndirection = [0.4, 0.2, 1]\nexponent = 3\nradiance = 0.8\n"
                "[render]\nengine = \"beams\"\ntolerance = 0.05\n";
     }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& content) const {
-        std::ofstream(file(name), std::ios::binary) << content;
-    }
-    static std::string text(const std::string& name) {
-        std::ifstream stream(name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-
-    test::ScratchFolder folder_;
 };
 
 TEST_F(Register, WritesASceneThatRendersAtOnce) {
@@ -81,13 +66,13 @@ TEST_F(Register, WritesASceneThatRendersAtOnce) {
 }
 
 TEST_F(Register, RefusesWithItsOutputsWritten) {
-    EXPECT_EQ(run_culet({"cut", "trillion", "-o", file("stone.obj"), "-q"}).exit_code, 0);
+    cut("trillion", "stone.obj");
     const ProgramRun run =
         run_culet({"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"),
                    "--overlay", file("overlay.png"), "--json", file("pose.json")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("refused: "), std::string::npos) << run.err;
-    const auto pose = nlohmann::json::parse(text(file("pose.json")));
+    const auto pose = json("pose.json");
     EXPECT_EQ(pose.at("status"), "refused");
     // What to do ends the line that is shown.
     const std::string remedy = pose.at("remedy").get<std::string>() + ".\n";
@@ -107,9 +92,7 @@ TEST_F(Register, LeavesNothingBehindWhenItCannot) {
         {"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"),
          "--within-deg", "0"}};
     for (const auto& call : calls) {
-        const ProgramRun run = run_culet(call);
-        EXPECT_EQ(run.exit_code, 2) << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        refusal(call);
         EXPECT_FALSE(fs::exists(file("posed.toml")));
     }
 }

@@ -5,11 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -26,17 +24,8 @@ const std::vector<std::string> k_lines{
     "aperture",    "coherence",          "depth",        "wavelengths", "samples",
     "light_edges", "environment_filter", "objects"};
 
-class RenderPlan : public testing::Test {
+class RenderPlan : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    nlohmann::json json(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return nlohmann::json::parse(std::string{std::istreambuf_iterator<char>(stream), {}});
-    }
-    std::string bytes(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return std::string{std::istreambuf_iterator<char>(stream), {}};
-    }
     bool nothing_was_written() const { return fs::is_empty(folder_.path()); }
 
     // Pictures of 48 x 48 pixels.
@@ -47,7 +36,6 @@ protected:
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_culet(arguments);
     }
-    test::ScratchFolder folder_;
 };
 
 nlohmann::json item_of(const nlohmann::json& plan, const std::string& name) {
@@ -187,7 +175,7 @@ TEST_F(RenderPlan, APlanThatWasKeptDrawsTheSamePicture) {
                                                 file("again.json"), "--plan", file("first.json")});
         EXPECT_EQ(again.exit_code, 0) << again.err;
         EXPECT_THAT(again.err, HasSubstr("the error bound is of that one"));
-        EXPECT_EQ(bytes("again.exr"), bytes("first.exr"));
+        EXPECT_EQ(text("again.exr"), text("first.exr"));
         EXPECT_EQ(json("again.json")["error_bound"], json("first.json")["error_bound"]);
         EXPECT_EQ(json("again.json")["checked_pixels"], 0);
     }
@@ -210,9 +198,9 @@ TEST_F(RenderPlan, APlanOfAnotherStoneIsRefused) {
     refused("garnet-depth.toml", {"--plan", file("plan.json"), "--tolerance", "0.1"}, "excludes");
     refused("garnet-depth.toml", {"--plan", file("plan.json"), "--set", "render.samples=3"},
             "leave out --set render");
-    std::ofstream(folder_ / "text.json") << "{\"plan\": ";
+    write("text.json", "{\"plan\": ");
     refused("garnet-depth.toml", {"--plan", file("text.json")}, "is no JSON");
-    std::ofstream(folder_ / "empty.json") << "{\"plan\": {\"settings\": 3}}";
+    write("empty.json", "{\"plan\": {\"settings\": 3}}");
     refused("garnet-depth.toml", {"--plan", file("empty.json")}, "has no plan");
 }
 
@@ -222,8 +210,8 @@ TEST_F(RenderPlan, ATurntableIsPlannedAndCheckedOnce) {
                                      "--tolerance", "0.2", "--stats", file("stats.json")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("first of 3 frames"));
-    EXPECT_NE(bytes("frame-001.png"), bytes("frame-002.png"));
-    EXPECT_NE(bytes("frame-002.png"), bytes("frame-003.png"));
+    EXPECT_NE(text("frame-001.png"), text("frame-002.png"));
+    EXPECT_NE(text("frame-002.png"), text("frame-003.png"));
     EXPECT_FALSE(fs::exists(folder_ / "frame-004.png"));
     EXPECT_GT(json("stats.json")["checked_pixels"], 0);
     const ProgramRun unnumbered =
@@ -259,7 +247,7 @@ TEST_F(RenderPlan, AFilmIsMadeByFfmpegOrRefused) {
         "while [ \"$1\" != -i ]; do shift; done\n"
         "ls $(dirname \"$2\") > \"$last\"\n");
     EXPECT_EQ(with.exit_code, 0) << with.err;
-    EXPECT_EQ(bytes("turn.mp4"), "ffmpeg.txt\nframe-00001.png\nframe-00002.png\n");
+    EXPECT_EQ(text("turn.mp4"), "ffmpeg.txt\nframe-00001.png\nframe-00002.png\n");
     fs::remove(folder_ / "turn.mp4");
     const ProgramRun failing = pretend("echo no encoder >&2; exit 1\n");
     EXPECT_EQ(failing.exit_code, 2);
@@ -270,11 +258,7 @@ TEST_F(RenderPlan, AFilmIsMadeByFfmpegOrRefused) {
 TEST_F(RenderPlan, RefusesInOneLineAndWritesNothing) {
     const auto refused = [&](const std::string& scene, std::vector<std::string> more,
                              const std::string& why) {
-        const ProgramRun run = render(scene, std::move(more));
-        EXPECT_EQ(run.exit_code, 2) << why;
-        EXPECT_EQ(run.out, "") << why;
-        EXPECT_THAT(run.err, HasSubstr(why));
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(refusal_of(render(scene, std::move(more))), HasSubstr(why));
         EXPECT_TRUE(nothing_was_written()) << why;
     };
     const std::string scene = "garnet-depth.toml";

@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "render/image/image_io.h"
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -22,20 +19,13 @@ using test::run_culet;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class RenderStone : public testing::Test {
+class RenderStone : public test::ProgramTest {
 protected:
     void SetUp() override {
-        ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.obj"), "-q"}).exit_code, 0);
-        ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.asc"), "-q"}).exit_code, 0);
-        std::ofstream(file("stone.toml"))
-            << "[stone]\nmesh = \"stone.obj\"\nmaterial = \"diamond\"\n";
+        cut("step", "stone.obj");
+        cut("step", "stone.asc");
+        write("stone.toml", "[stone]\nmesh = \"stone.obj\"\nmaterial = \"diamond\"\n");
     }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string bytes(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(RenderStone, MeshesDesignsAndStoneFilesNeedNoScene) {
@@ -66,7 +56,7 @@ TEST_F(RenderStone, SaysHowNearThePictureIsWhereNobodyAskedForATolerance) {
                                       file("a.png"), "--stats", file("a.json")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("of the mean radiance"));
-    const nlohmann::json stats = nlohmann::json::parse(bytes("a.json"));
+    const nlohmann::json stats = json("a.json");
     EXPECT_GT(stats["allowed_tolerance"], 0);
     EXPECT_LE(stats["error_bound"], 0.3);
     const ProgramRun asked = run_culet(
@@ -84,7 +74,7 @@ TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
                          "-o", file("same.png")})
                   .exit_code,
               0);
-    EXPECT_EQ(picture.out, bytes("same.png"));
+    EXPECT_EQ(picture.out, text("same.png"));
     const ProgramRun stats = run_culet(
         {"render", file("stone.toml"), "--size", "24", "--tolerance", "0.2", "-q", "--stats", "-"});
     EXPECT_EQ(stats.exit_code, 0) << stats.err;
@@ -99,20 +89,17 @@ TEST_F(RenderStone, WhatIsAllowedGivesTheSameBytesOnAnyNumberOfThreads) {
             {"render", file("stone.obj"), "--material", "quartz", "--size", "20", "--threads",
              threads, "-q", "-o", file(threads + ".exr"), "--stats", file(threads + ".json")});
         ASSERT_EQ(run.exit_code, 0) << run.err;
-        const auto stats = nlohmann::json::parse(bytes(threads + ".json"));
+        const auto stats = nlohmann::json::parse(text(threads + ".json"));
         EXPECT_GT(stats.at("allowed_tolerance").get<double>(), 0.01);
     }
-    EXPECT_EQ(bytes("1.exr"), bytes("3.exr"));
-    EXPECT_FALSE(bytes("1.exr").empty());
+    EXPECT_EQ(text("1.exr"), text("3.exr"));
+    EXPECT_FALSE(text("1.exr").empty());
 }
 
 TEST_F(RenderStone, RefusesInOneLineAndWritesNothing) {
     const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
         arguments.insert(arguments.begin(), "render");
-        const ProgramRun run = run_culet(arguments);
-        EXPECT_EQ(run.exit_code, 2) << why;
-        EXPECT_THAT(run.err, HasSubstr(why));
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(refusal(arguments), HasSubstr(why));
         EXPECT_FALSE(fs::exists(folder_ / "x.png")) << why;
     };
     const std::string out = file("x.png"), stone = file("stone.obj");
@@ -136,15 +123,12 @@ TEST_F(RenderStone, PlainShadingsAreDrawnAndSayWhatTheyAre) {
         EXPECT_EQ(run.exit_code, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr("plain shading"));
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-        const nlohmann::json stats = nlohmann::json::parse(bytes("a.json"));
+        const nlohmann::json stats = json("a.json");
         EXPECT_EQ(stats["engine"], engine);
         EXPECT_TRUE(stats["error_bound"].is_null());
     }
     for (const char* option : {"--explain", "--verify"}) {
-        const ProgramRun refused = run_culet(
-            {"render", file("stone.toml"), "--engine", "phong", option, "-o", file("b.png")});
-        EXPECT_EQ(refused.exit_code, 2) << option;
-        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+        refusal({"render", file("stone.toml"), "--engine", "phong", option, "-o", file("b.png")});
         EXPECT_FALSE(fs::exists(file("b.png")));
     }
 }

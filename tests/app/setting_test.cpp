@@ -5,14 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "render/scene/scene_io.h"
 #include "stone/surface_mesh.h"
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -22,17 +19,9 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-class SettingCommand : public testing::Test {
+class SettingCommand : public test::ProgramTest {
 protected:
-    void SetUp() override {
-        ASSERT_EQ(run_culet({"cut", "oval", "-o", file("oval.obj"), "-q"}).exit_code, 0);
-    }
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string bytes(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    test::ScratchFolder folder_;
+    void SetUp() override { cut("oval", "oval.obj"); }
 };
 
 TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
@@ -43,7 +32,7 @@ TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    const auto json = nlohmann::json::parse(bytes("ring.json"));
+    const auto json = this->json("ring.json");
     EXPECT_EQ(json.at("prongs"), 4);
     EXPECT_EQ(json.at("ring_diameter"), 17);
     EXPECT_GE(json.at("least_gap"), json.at("clearance"));
@@ -76,12 +65,11 @@ TEST_F(SettingCommand, IsTheSameEveryTimeAndInEveryFormat) {
         if (triangles == 0) triangles = read;
         EXPECT_EQ(read, triangles) << name;
     }
-    EXPECT_EQ(bytes("a.obj"), bytes("b.obj"));
+    EXPECT_EQ(text("a.obj"), text("b.obj"));
 }
 
 TEST_F(SettingCommand, CountsInTheUnitOfTheStone) {
-    std::ofstream(file("stone.toml"))
-        << "[stone]\nmesh = \"oval.obj\"\nmaterial = \"peridot\"\nunit = \"cm\"\n";
+    write("stone.toml", "[stone]\nmesh = \"oval.obj\"\nmaterial = \"peridot\"\nunit = \"cm\"\n");
     const ProgramRun run =
         run_culet({"setting", file("stone.toml"), "--prong-diameter", "8mm", "--ring", "60mm", "-q",
                    "-o", file("ring.ply"), "--json", "-"});
@@ -92,7 +80,7 @@ TEST_F(SettingCommand, CountsInTheUnitOfTheStone) {
 }
 
 TEST_F(SettingCommand, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
-    std::ofstream(file("open.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::vector<std::vector<std::string>> cases{
         {"-o", "a.gif"},
         {"-o", "no/folder.obj"},
@@ -114,9 +102,7 @@ TEST_F(SettingCommand, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
             if (word.starts_with("a.") || word.starts_with("no/")) word = file(word);
         }
         words.insert(words.begin(), {"setting", file("oval.obj")});
-        const ProgramRun run = run_culet(words);
-        EXPECT_EQ(run.exit_code, 2) << words.back() << run.err;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        refusal(words);
     }
     const ProgramRun open = run_culet({"setting", file("open.obj"), "-o", file("a.obj")});
     EXPECT_EQ(open.exit_code, 2);
@@ -125,15 +111,14 @@ TEST_F(SettingCommand, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
 }
 
 TEST_F(SettingCommand, SceneOfAStoneFileNamesIt) {
-    std::ofstream(file("stone.toml"))
-        << "[stone]\nmesh = \"oval.obj\"\nmaterial = \"sapphire_blue\"\n";
+    write("stone.toml", "[stone]\nmesh = \"oval.obj\"\nmaterial = \"sapphire_blue\"\n");
     fs::create_directory(folder_ / "made");
     ASSERT_EQ(run_culet({"setting", file("stone.toml"), "-q", "--style", "bezel", "-o",
                          file("made/bezel.obj"), "--scene", file("scene.toml")})
                   .exit_code,
               0);
-    EXPECT_THAT(bytes("scene.toml"), HasSubstr("stone = \"stone.toml\""));
-    EXPECT_THAT(bytes("scene.toml"), HasSubstr("file = \"made/bezel.obj\""));
+    EXPECT_THAT(text("scene.toml"), HasSubstr("stone = \"stone.toml\""));
+    EXPECT_THAT(text("scene.toml"), HasSubstr("file = \"made/bezel.obj\""));
     EXPECT_EQ(read_scene(file("scene.toml")).stone.material.id, "sapphire_blue");
     // In another material for this picture.
     ASSERT_EQ(run_culet({"setting", file("stone.toml"), "-q", "--material", "garnet_almandine",

@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -18,39 +15,24 @@ namespace {
 using test::ProgramRun;
 using test::run_culet;
 
-class Slips : public testing::Test {
+class Slips : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    static std::string text(const std::string& name) {
-        std::ifstream stream(name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    std::string write(const std::string& name, const std::string& content) const {
-        std::ofstream(file(name), std::ios::binary) << content;
-        return file(name);
-    }
     // Exit code 2 and one line of error that holds all of `words`.
     static void expect_answer(const std::vector<std::string>& arguments,
                               const std::vector<std::string>& words) {
-        const ProgramRun run = run_culet(arguments);
-        EXPECT_EQ(run.exit_code, 2) << run.err;
-        EXPECT_TRUE(run.out.empty()) << run.out;
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-        EXPECT_EQ(run.err.rfind("culet: error: ", 0), 0u) << run.err;
+        const std::string said = refusal(arguments);
         for (const std::string& word : words)
-            EXPECT_NE(run.err.find(word), std::string::npos) << word << " in " << run.err;
+            EXPECT_NE(said.find(word), std::string::npos) << word << " in " << said;
     }
     // A cube's stone, a scene of it and a job.
     void write_files() const {
-        ASSERT_EQ(run_culet({"cut", "round-brilliant", "-q", "-o", file("hand.obj")}).exit_code, 0);
+        cut("round-brilliant", "hand.obj");
         write("stone.toml", "[stone]\nmesh = \"hand.obj\"\n");
         write("scene.toml",
               "mesh = \"hand.obj\"\nmaterial = \"glass_bk7\"\n[camera]\nposition = [0, 0, "
               "40]\nfov = 12\nsize = [24, 24]\n[light]\nconstant = 1.0\n");
         write("job.toml", "[fit]\nstone = \"stone.toml\"\n[render]\nscene = \"scene.toml\"\n");
     }
-
-    test::ScratchFolder folder_;
 };
 
 TEST_F(Slips, BareProgramSaysWhatToBeginWith) {
@@ -194,7 +176,7 @@ TEST_F(Slips, MaterialsAreListedByWordAsTextJsonAndPage) {
         {"info", "--materials", "garnet", "--json", file("list.json"), "-o", file("list.html")});
     EXPECT_EQ(some.exit_code, 0) << some.err;
     EXPECT_EQ(some.out.find("diamond"), std::string::npos);
-    const auto list = nlohmann::json::parse(text(file("list.json")));
+    const auto list = json("list.json");
     EXPECT_EQ(list.at("schema"), 1);
     for (const auto& material : list.at("materials")) {
         const std::string id = material.at("id");

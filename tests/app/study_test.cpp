@@ -5,12 +5,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
+#include "tests/app/program_test.h"
 #include "tests/page/xml.h"
-#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -21,23 +19,21 @@ using test::run_culet;
 using test::xml_fault;
 using ::testing::HasSubstr;
 
-class StudyCommand : public testing::Test {
+class StudyCommand : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    std::string text(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
+    static void expect_refused(const ProgramRun& run, const std::string& why) {
+        EXPECT_THAT(refusal_of(run), HasSubstr(why));
     }
     // A cube with edges of 2: six facets, four upright ones tilted a little.
     void write_cube(const std::string& readings) const {
-        std::ofstream(folder_ / "cube.obj")
-            << "v 1 1 1\nv -1 1 1\nv -1 -1 1\nv 1 -1 1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 -1\nv 1 -1 "
-               "-1\n"
-               "g T\nf 1 2 3 4\ng B\nf 8 7 6 5\ng E\nf 1 4 8 5\ng N\nf 2 1 5 6\ng W\nf 3 2 6 7\n"
-               "g S\nf 4 3 7 8\n";
-        std::ofstream(folder_ / "stone.toml")
-            << "[stone]\nname = \"Cube\"\nmesh = \"cube.obj\"\nunit = \"mm\"\nmaterial = "
-               "\"diamond\"\nup = \"T\"\nreadings = \"readings.csv\"\n";
+        write("cube.obj",
+              "v 1 1 1\nv -1 1 1\nv -1 -1 1\nv 1 -1 1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 -1\nv 1 -1 "
+              "-1\n"
+              "g T\nf 1 2 3 4\ng B\nf 8 7 6 5\ng E\nf 1 4 8 5\ng N\nf 2 1 5 6\ng W\nf 3 2 6 7\n"
+              "g S\nf 4 3 7 8\n");
+        write("stone.toml",
+              "[stone]\nname = \"Cube\"\nmesh = \"cube.obj\"\nunit = \"mm\"\nmaterial = "
+              "\"diamond\"\nup = \"T\"\nreadings = \"readings.csv\"\n");
         std::ofstream(folder_ / "readings.csv") << "kind,of,value,sigma\n" << readings;
     }
     static std::string all_readings() {
@@ -54,12 +50,11 @@ protected:
         return text + "width,0,2.02,0.05\nwidth,90,2.02,0.05\n";
     }
     void write_scene() const {
-        std::ofstream(folder_ / "scene.toml")
-            << "stone = \"stone.toml\"\n[camera]\nposition = [6, 5, 9]\nsize = [80, 60]\n"
-               "[light]\nconstant = 0.2\n[[light.lobe]]\ndirection = [0, 0, 1]\nexponent = 4\n"
-               "[render]\ntolerance = 0.1\n";
+        write("scene.toml",
+              "stone = \"stone.toml\"\n[camera]\nposition = [6, 5, 9]\nsize = [80, 60]\n"
+              "[light]\nconstant = 0.2\n[[light.lobe]]\ndirection = [0, 0, 1]\nexponent = 4\n"
+              "[render]\ntolerance = 0.1\n");
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(StudyCommand, WritesTablesChartsJsonAndPage) {
@@ -69,7 +64,7 @@ TEST_F(StudyCommand, WritesTablesChartsJsonAndPage) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("CPU/ms"));
     EXPECT_THAT(run.out, HasSubstr("limit/deg"));
-    const auto json = nlohmann::json::parse(text("out/study.json"));
+    const auto json = this->json("out/study.json");
     EXPECT_EQ(json["schema"], 1);
     EXPECT_EQ(json["name"], "Cube");
     EXPECT_EQ(json["options"]["seed"], 1);
@@ -89,13 +84,6 @@ TEST_F(StudyCommand, GivesItsJsonOnStdoutAlone) {
     EXPECT_TRUE(nlohmann::json::accept(run.out)) << run.out;
     EXPECT_EQ(run.err, "");
     EXPECT_TRUE(nlohmann::json::parse(run.out)["settings"].empty());
-}
-
-void expect_refused(const ProgramRun& run, const std::string& why) {
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_EQ(run.out, "");
-    EXPECT_THAT(run.err, HasSubstr(why));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
 TEST_F(StudyCommand, RefusesInOneLineAndWritesNothing) {
@@ -121,7 +109,7 @@ TEST_F(StudyCommand, OfASceneWritesTablesChartJsonPicturesAndPage) {
     EXPECT_EQ(run.err, "");
     EXPECT_THAT(run.out, HasSubstr("setting on the front"));
     EXPECT_THAT(run.out, HasSubstr("automatic settings took"));
-    const auto json = nlohmann::json::parse(text("out/study.json"));
+    const auto json = this->json("out/study.json");
     EXPECT_EQ(json["kind"], "scene");
     EXPECT_EQ(json["name"], "Cube");
     EXPECT_EQ(json["size"], nlohmann::json({16, 12}));

@@ -3,14 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/app/run_program.h"
-#include "tests/scratch_folder.h"
+#include "tests/app/program_test.h"
 
 namespace culet {
 namespace {
@@ -20,23 +16,14 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-class ViewCommand : public testing::Test {
+class ViewCommand : public test::ProgramTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-    }
-    std::string bytes(const std::string& name) const {
-        std::ifstream stream(folder_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
     // The document in a page.
     Json document(const std::string& name) const {
-        const std::string page = bytes(name), start = "id=\"culet-document\">";
+        const std::string page = text(name), start = "id=\"culet-document\">";
         const std::size_t from = page.find(start) + start.size();
         return Json::parse(page.substr(from, page.find("</script>", from) - from));
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(ViewCommand, MakesAPageOfACutByItsName) {
@@ -53,17 +40,17 @@ TEST_F(ViewCommand, MakesAPageOfACutByItsName) {
     EXPECT_THAT(page.at("items").at(0).at("picture").get<std::string>(),
                 HasSubstr("data:image/png;base64,"));
     // Nothing is fetched: no address but those of namespaces stands in the page.
-    EXPECT_EQ(bytes("a.html").find("https://"), std::string::npos);
+    EXPECT_EQ(text("a.html").find("https://"), std::string::npos);
 }
 
 TEST_F(ViewCommand, IsTheSameBytesEachTime) {
     for (const char* page : {"a.html", "b.html"})
         ASSERT_EQ(run_culet({"view", "step", "-q", "-o", file(page)}).exit_code, 0);
-    EXPECT_EQ(bytes("a.html"), bytes("b.html"));
+    EXPECT_EQ(text("a.html"), text("b.html"));
 }
 
 TEST_F(ViewCommand, CarriesWhatAFitSays) {
-    ASSERT_EQ(run_culet({"cut", "step", "-o", file("start.obj"), "-q"}).exit_code, 0);
+    cut("step", "start.obj");
     ASSERT_EQ(
         run_culet({"cut", "step", "--width", "6.4mm", "-o", file("fitted.obj"), "-q"}).exit_code,
         0);
@@ -102,8 +89,8 @@ TEST_F(ViewCommand, CarriesWhatAFitSays) {
 
 TEST_F(ViewCommand, MakesAGalleryOfAFolderAndNamesWhatItLeavesOut) {
     std::filesystem::create_directory(folder_ / "stones");
-    ASSERT_EQ(run_culet({"cut", "step", "-o", file("stones/b.obj"), "-q"}).exit_code, 0);
-    ASSERT_EQ(run_culet({"cut", "princess", "-o", file("stones/a.asc"), "-q"}).exit_code, 0);
+    cut("step", "stones/b.obj");
+    cut("princess", "stones/a.asc");
     write("stones/broken.obj", "v 0 0 0\nf 1 2 3\n");
     write("stones/broken.toml", "[stone\n");
     write("stones/notes.txt", "nothing to see\n");
@@ -119,7 +106,7 @@ TEST_F(ViewCommand, MakesAGalleryOfAFolderAndNamesWhatItLeavesOut) {
 }
 
 TEST_F(ViewCommand, SaysWhatItDoesNotDraw) {
-    ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.obj"), "-q"}).exit_code, 0);
+    cut("step", "stone.obj");
     write(
         "ball.toml",
         "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n[light]\nconstant = 1\n[[object]]\nshape = "
@@ -139,9 +126,7 @@ TEST_F(ViewCommand, RefusesInOneLineAndWritesNothing) {
                                                   {"view", folder_.path().string()}}) {
         std::vector<std::string> all = words;
         all.insert(all.end(), {"-o", file("none.html")});
-        const ProgramRun run = run_culet(all);
-        EXPECT_EQ(run.exit_code, 2) << words.at(1);
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        refusal(all);
         EXPECT_FALSE(std::filesystem::exists(folder_ / "none.html"));
     }
 }

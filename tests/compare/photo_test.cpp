@@ -11,6 +11,7 @@
 #include "render/colour/colour.h"
 #include "render/image/picture_header.h"
 #include "stone/errors.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -18,32 +19,19 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class PhotoFiles : public testing::Test {
+class PhotoFiles : public test::FolderTest {
 protected:
-    void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / (std::string("culet_photo_") + info->name());
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    fs::path file(const std::string& name) const { return folder_ / name; }
-    void write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(file(name), std::ios::binary) << bytes;
-    }
     // Behind the file's name, which might hold the very words that are looked for.
     std::string complaint(const std::string& name) const {
         try {
             read_photo(file(name));
         } catch (const InputError& error) {
-            const std::string message = error.what(), path = file(name).string();
+            const std::string message = error.what(), path = file(name);
             EXPECT_EQ(message.substr(0, path.size()), path);
             return message.substr(path.size());
         }
         return "read";
     }
-
-private:
-    fs::path folder_;
 };
 
 TEST_F(PhotoFiles, EightAndSixteenBitsAreDecodedAlike) {

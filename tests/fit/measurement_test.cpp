@@ -8,7 +8,7 @@
 #include "fit/fit.h"
 #include "stone/errors.h"
 #include "tests/fit/test_stones.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 using ::testing::HasSubstr;
 
-class ReadingFiles : public ::testing::Test {
+class ReadingFiles : public test::FolderTest {
 protected:
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -37,7 +37,6 @@ protected:
         return "no complaint";
     }
 
-    ScratchFolder folder_;
     Stone stone_ = stone_of(brilliant());
 };
 

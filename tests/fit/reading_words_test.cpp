@@ -13,7 +13,7 @@
 #include "stone/errors.h"
 #include "stone/gemcad_io.h"
 #include "tests/fit/test_stones.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-class Words : public ::testing::Test {
+class Words : public test::FolderTest {
 protected:
     std::filesystem::path write(const std::string& text) const {
         std::ofstream(folder_ / "r.csv", std::ios::binary) << text;
@@ -56,7 +56,6 @@ protected:
         stone_.solid.facets[std::size_t(find_facet(stone_.solid, from))].name = to;
     }
 
-    ScratchFolder folder_;
     Stone stone_ = stone_of(brilliant());  // mains at azimuths 0, 45, ...; diameter 6
     std::vector<std::string> notes_;
 };

@@ -15,7 +15,7 @@
 #include "stone/cuts/cuts.h"
 #include "stone/gemcad_io.h"
 #include "stone/stone_io.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -51,7 +51,7 @@ std::string filled_in(const std::string& form) {
     return text;
 }
 
-class Form : public ::testing::Test {
+class Form : public test::FolderTest {
 protected:
     std::vector<WrittenReading> read(const std::string& text) const {
         std::ofstream(folder_ / "form.csv", std::ios::binary) << text;
@@ -62,7 +62,6 @@ protected:
             return w.of == std::vector<std::string>{name};
         });
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(Form, OfABrilliantHasARowForEveryMain) {

@@ -9,14 +9,14 @@
 #include "fit/silhouettes/silhouette.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
 
 using testing::HasSubstr;
 
-class SilhouetteFiles : public testing::Test {
+class SilhouetteFiles : public test::FolderTest {
 protected:
     std::filesystem::path file(const std::string& name, const std::string& text) const {
         write_text(folder_ / name, text);
@@ -30,7 +30,6 @@ protected:
         }
         return "";
     }
-    test::ScratchFolder folder_;
 };
 
 // A triangle has three sides, and each is held by two points of Gauss's rule: 0.2113 and 0.7887 of

@@ -13,31 +13,20 @@
 #include "render/colour/colour.h"
 #include "render/image/image_io.h"
 #include "stone/errors.h"
+#include "tests/folder_test.h"
 
 namespace {
 
 using namespace culet;
 namespace fs = std::filesystem;
 
-class PictureFormats : public testing::Test {
+class PictureFormats : public test::FolderTest {
 protected:
-    void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) /
-                  ("culet_formats_" +
-                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     static std::string bytes_of(const cv::Mat& image, const char* extension) {
         // TIFF without compression: the default for floats, LogLuv, is lossy.
         std::vector<unsigned char> bytes;
         cv::imencode(extension, image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, 1});
         return {bytes.begin(), bytes.end()};
-    }
-    fs::path write(const char* name, const std::string& bytes) const {
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
-        return folder_ / name;
     }
     ReadPicture read(const char* name, const std::string& bytes) const {
         return read_picture(write(name, bytes));
@@ -50,7 +39,6 @@ protected:
         }
         return "";
     }
-    fs::path folder_;
 };
 
 TEST_F(PictureFormats, GreyAlphaAndSixteenBitAreDecodedFromSrgb) {

@@ -14,23 +14,14 @@
 #include "render/colour/colour.h"
 #include "render/image/image_io.h"
 #include "stone/errors.h"
+#include "tests/folder_test.h"
 
 namespace {
 
 using namespace culet;
 namespace fs = std::filesystem;
 
-class Pictures : public testing::Test {
-protected:
-    void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) /
-                  ("culet_pictures_" +
-                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    fs::path folder_;
-};
+class Pictures : public test::FolderTest {};
 
 Picture gradient(int width, int height) {
     Picture picture;
@@ -104,7 +95,7 @@ TEST_F(Pictures, WhatIsNoPictureEndsInOneClearLine) {
     write_picture(gradient(40, 30), folder_ / "whole.exr");
     std::ifstream file(folder_ / "whole.exr", std::ios::binary);
     const std::string whole((std::istreambuf_iterator<char>(file)), {});
-    std::vector<fs::path> bad{folder_,
+    std::vector<fs::path> bad{folder_.path(),
                               folder_ / "missing.exr",
                               write("empty.exr", ""),
                               write("text.png", "hello"),

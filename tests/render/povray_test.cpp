@@ -17,6 +17,7 @@
 #include "render/render.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "tests/folder_test.h"
 #include "tests/render/ray_stones.h"
 
 namespace {
@@ -227,18 +228,11 @@ TEST(Povray, PlaneLightsAreLeftOutBehindAndClearFromBehind) {
 }
 
 // Root mean square difference of linear radiance from POV-Ray's picture.
-class PovrayPictures : public testing::Test {
+class PovrayPictures : public test::FolderTest {
 protected:
     void SetUp() override {
         if (std::system("povray --version >/dev/null 2>&1") != 0)
             GTEST_SKIP() << "povray is not installed: its pictures are not compared";
-        folder_ = fs::path(testing::TempDir()) /
-                  ("culet_povray_" +
-                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override {
-        if (!folder_.empty()) fs::remove_all(folder_);
     }
     double rmse(const Scene& scene) const {
         const fs::path in = folder_ / "scene.pov", out = folder_ / "picture.png";
@@ -258,7 +252,6 @@ protected:
             squares += std::pow(static_cast<double>(ours.rgb[i]) - theirs.rgb[i], 2);
         return std::sqrt(squares / static_cast<double>(ours.rgb.size()));
     }
-    fs::path folder_;
 };
 
 // 16-bit sRGB is good to 2e-5. A pixel or two on an edge, where POV-Ray's single precision takes

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -17,17 +16,16 @@
 #include "render/setup/scene_checks.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace {
 
 using namespace culet;
-namespace fs = std::filesystem;
 
 const char* const k_tetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-class SceneStones : public testing::Test {
+class SceneStones : public test::FolderTest {
 protected:
     void SetUp() override {
         write("mesh.obj", k_tetrahedron);
@@ -57,7 +55,6 @@ protected:
         picture.rgb.assign(3 * picture.pixels(), value);
         return picture;
     }
-    test::ScratchFolder folder_;
 };
 
 const std::string k_light = "[light]\nconstant = 1\n";

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -14,11 +13,11 @@
 #include "render/render.h"
 #include "render/scene/scene_io.h"
 #include "stone/errors.h"
+#include "tests/folder_test.h"
 
 namespace {
 
 using namespace culet;
-namespace fs = std::filesystem;
 
 Solid octahedron() {
     std::vector<NamedPlane> planes;
@@ -261,16 +260,9 @@ TEST(Probe, WeightsAndLossesSumToOneAndAMissHasNoPaths) {
     }
 }
 
-class SceneFiles : public testing::Test {
+class SceneFiles : public test::FolderTest {
 protected:
-    void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) /
-                  ("culet_scenes_" +
-                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::create_directories(folder_);
-        write_solid(octahedron(), folder_ / "stone.obj");
-    }
-    void TearDown() override { fs::remove_all(folder_); }
+    void SetUp() override { write_solid(octahedron(), folder_ / "stone.obj"); }
     std::string message(const std::string& text) {
         std::ofstream(folder_ / "scene.toml") << text;
         try {
@@ -280,7 +272,6 @@ protected:
         }
         return "";
     }
-    fs::path folder_;
 };
 
 TEST_F(SceneFiles, TheContractsKeysAreRead) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "render/image/exposure.h"
@@ -17,20 +16,15 @@
 #include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
 
-class StoneSceneTest : public testing::Test {
+class StoneSceneTest : public test::FolderTest {
 protected:
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
     std::string mesh(const std::string& name, const Solid& solid) const {
         write_solid(solid, file(name));
-        return file(name);
-    }
-    std::string text_file(const std::string& name, const std::string& text) const {
-        std::ofstream(file(name)) << text;
         return file(name);
     }
     static std::string refusal(const std::string& file, const StoneScene& choices) {
@@ -41,7 +35,6 @@ protected:
         }
         return "none";
     }
-    test::ScratchFolder folder_;
 };
 
 StoneScene of(const std::string& material, const std::string& light = {}) {
@@ -103,13 +96,13 @@ TEST_F(StoneSceneTest, ASceneWithoutACameraIsFramedAndOneWithACameraIsNot) {
     mesh("stone.obj", make_cut("round-brilliant"));
     const std::string head = "mesh = \"stone.obj\"\nmaterial = \"spinel\"\n";
     const std::string light = "[light]\npreset = \"jeweller\"\n";
-    const Scene without = read_scene(text_file("without.toml", head + light));
+    const Scene without = read_scene(write("without.toml", head + light));
     EXPECT_NEAR(spans(draw_quickly(without).picture)[0], 0.85, 0.012);
     const Scene size_alone =
-        read_scene(text_file("size.toml", head + light + "[camera]\nsize = [150, 100]\n"));
+        read_scene(write("size.toml", head + light + "[camera]\nsize = [150, 100]\n"));
     EXPECT_NEAR(spans(draw_quickly(size_alone).picture)[1], 0.85, 0.012);
     const Scene with =
-        read_scene(text_file("with.toml", head + light + "[camera]\nposition = [0, 0, 30]\n"));
+        read_scene(write("with.toml", head + light + "[camera]\nposition = [0, 0, 30]\n"));
     EXPECT_EQ(with.camera.position.z, 30);
     EXPECT_FALSE(with.camera.orthographic_width.has_value());
 }
@@ -132,9 +125,9 @@ TEST_F(StoneSceneTest, HeartsAreSeenFromBelowAndAllElseFromAbove) {
 TEST_F(StoneSceneTest, HeartsDoNotMoveACameraThatIsNamed) {
     mesh("stone.obj", make_cut("round-brilliant"));
     const Scene scene = read_scene(
-        text_file("scene.toml",
-                  "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n[camera]\nposition = [0, 0, 50]\n"
-                  "[light]\npreset = \"hearts\"\n"));
+        write("scene.toml",
+              "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n[camera]\nposition = [0, 0, 50]\n"
+              "[light]\npreset = \"hearts\"\n"));
     EXPECT_EQ(scene.camera.position.z, 50);
 }
 
@@ -172,7 +165,7 @@ TEST_F(StoneSceneTest, DesignsWithoutASizeAreDrawn6Point5MmWideAndItIsSaid) {
 
 TEST_F(StoneSceneTest, StoneFilesKeepTheirSizeAndMaterial) {
     mesh("stone.obj", make_cut("step"));
-    const std::string stone = text_file(
+    const std::string stone = write(
         "stone.toml", "[stone]\nmesh = \"stone.obj\"\nunit = \"cm\"\nmaterial = \"emerald\"\n");
     const Scene own = read_any_scene(stone, {}, {});
     EXPECT_EQ(own.stone.unit, LengthUnit::cm);
@@ -188,14 +181,14 @@ TEST_F(StoneSceneTest, RefusalsAreOneLineThatSaysWhatToDo) {
         return text;
     };
     EXPECT_NE(one_line(refusal(stone, {})).find("--material"), std::string::npos);
-    const std::string bare = text_file("bare.toml", "[stone]\nmesh = \"stone.obj\"\n");
+    const std::string bare = write("bare.toml", "[stone]\nmesh = \"stone.obj\"\n");
     EXPECT_NE(one_line(refusal(bare, {})).find("--material"), std::string::npos);
     EXPECT_NE(one_line(refusal(stone, of("diamond", "jeweler"))).find("\"jeweller\""),
               std::string::npos);
     EXPECT_NE(one_line(refusal(stone, of("diamond", "idealscop"))).find("\"idealscope\""),
               std::string::npos);
     EXPECT_NE(one_line(refusal(file("stone.txt"), of("diamond"))).find(".obj"), std::string::npos);
-    const std::string job = text_file("job.toml", "[fit]\nstone = \"stone.toml\"\n[render]\n");
+    const std::string job = write("job.toml", "[fit]\nstone = \"stone.toml\"\n[render]\n");
     EXPECT_NE(one_line(refusal(job, of("diamond"))).find("culet run"), std::string::npos);
     StoneScene choices = of("diamond");
     choices.width_mm = -2;

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -18,19 +17,15 @@
 #include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
+#include "tests/folder_test.h"
 
 namespace {
 
 using namespace culet;
-namespace fs = std::filesystem;
 
-class Views : public ::testing::Test {
+class Views : public test::FolderTest {
 protected:
     void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  ("culet_views_" +
-                   std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::create_directories(folder_);
         // A plate of 1 mm, 40 mm wide.
         std::vector<NamedPlane> planes;
         for (int axis = 0; axis < 3; ++axis) {
@@ -43,8 +38,6 @@ protected:
         }
         write_solid(intersect_half_spaces(planes).solid, folder_ / "plate.obj");
     }
-    void TearDown() override { fs::remove_all(folder_); }
-
     Scene scene(const std::string& text) const {
         std::ofstream(folder_ / "scene.toml") << text;
         return read_scene(folder_ / "scene.toml");
@@ -63,8 +56,6 @@ protected:
     }
     // Radiance is stored as float.
     static constexpr double k_float = 1e-6;
-
-    fs::path folder_;
 };
 
 const char* const k_quartz =

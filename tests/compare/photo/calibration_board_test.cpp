@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "stone/errors.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -43,10 +43,7 @@ cv::Mat page_of(const std::string& svg, double pixels_per_mm, double width_mm, d
     return page;
 }
 
-class Boards : public testing::Test {
-protected:
-    test::ScratchFolder folder_;
-};
+class Boards : public test::FolderTest {};
 
 TEST_F(Boards, TheLensThatTookThemIsFound) {
     const BoardShape shape{7, 5, 20};

@@ -10,7 +10,7 @@
 
 #include "stone/errors.h"
 #include "tests/compare/photo/synthetic_dng.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class RawFiles : public testing::Test {
+class RawFiles : public test::FolderTest {
 protected:
     fs::path file(const std::string& bytes, const std::string& name = "shot.dng") const {
         std::ofstream(folder_ / name, std::ios::binary) << bytes;
@@ -29,7 +29,6 @@ protected:
     }
 
 private:
-    test::ScratchFolder folder_;
 };
 
 // A ramp of greys: equal channels, proportional to the light, 1 where green clips.

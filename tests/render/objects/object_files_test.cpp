@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "render/scene/fingerprint.h"
 #include "render/scene/scene_io.h"
 #include "render/scene/turntable.h"
 #include "stone/errors.h"
-#include "tests/scratch_folder.h"
+#include "tests/folder_test.h"
 
 namespace culet {
 namespace {
@@ -18,11 +17,8 @@ namespace {
 const std::string k_camera_and_light =
     "[camera]\nposition = [0, -9, 5]\nlook_at = [0, 0, 0]\n[light]\nconstant = 1\n";
 
-class ObjectFiles : public testing::Test {
+class ObjectFiles : public test::FolderTest {
 protected:
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-    }
     Scene read(const std::string& text) const {
         write("scene.toml", k_camera_and_light + text);
         return read_scene(folder_ / "scene.toml");
@@ -36,7 +32,6 @@ protected:
         }
         return "";
     }
-    test::ScratchFolder folder_;
 };
 
 TEST_F(ObjectFiles, ShapesAndMaterials) {

@@ -14,14 +14,14 @@
 #include "render/raytable/octahedral_codes.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "tests/folder_test.h"
 #include "tests/render/ray_stones.h"
 #include "tests/render/raytable/table_scenes.h"
-#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
 
-class RayTableFile : public testing::Test {
+class RayTableFile : public test::FolderTest {
 protected:
     std::filesystem::path file() const { return folder_ / "t.rays"; }
 
@@ -43,7 +43,6 @@ protected:
         }
         return "";
     }
-    test::ScratchFolder folder_;
 };
 
 std::string with_checksum(std::string content) {

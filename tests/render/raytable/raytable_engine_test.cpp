@@ -7,15 +7,15 @@
 #include "render/render.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "tests/folder_test.h"
 #include "tests/render/raytable/table_scenes.h"
-#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
 
 using test::brilliant;
 
-class RayTableEngine : public testing::Test {
+class RayTableEngine : public test::FolderTest {
 protected:
     RayTableEngine() : file_(folder_ / "stone.rays") {}
 
@@ -35,7 +35,6 @@ protected:
         return "";
     }
 
-    test::ScratchFolder folder_;
     std::filesystem::path file_;
 };
 

@@ -1,12 +1,15 @@
-#include "tests/app/run_program.h"
+#include "tests/app/program_test.h"
 
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 extern char** environ;
 
@@ -49,6 +52,27 @@ ProgramRun run_culet(const std::vector<std::string>& arguments) {
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
     return run;
+}
+
+std::string ProgramTest::refusal_of(const ProgramRun& run) {
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_TRUE(run.err.starts_with("culet: error: ")) << run.err;
+    return run.err;
+}
+
+std::string ProgramTest::refusal(const std::vector<std::string>& arguments) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    return refusal_of(run_culet(arguments));
+}
+
+void ProgramTest::cut(const std::string& kind, const std::string& name) const {
+    ASSERT_EQ(run_culet({"cut", kind, "-o", file(name), "-q"}).exit_code, 0);
+}
+
+nlohmann::json ProgramTest::json(const std::string& name) const {
+    return nlohmann::json::parse(text(name));
 }
 
 }  // namespace culet::test

@@ -1,0 +1,32 @@
+#pragma once
+// Runs the built program as a user would.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/folder_test.h"
+
+namespace culet::test {
+
+struct ProgramRun {
+    int exit_code = -1;  ///< -1: ended by a signal
+    std::string out, err;
+};
+
+/// `culet` with these arguments, no shell in between.
+ProgramRun run_culet(const std::vector<std::string>& arguments);
+
+/// The fixture of the program's tests.
+class ProgramTest : public FolderTest {
+protected:
+    /// What the program says when it can do nothing: exit code 2, nothing on stdout, one line
+    /// `culet: error: ...`, which is returned.
+    static std::string refusal(const std::vector<std::string>& arguments);
+    static std::string refusal_of(const ProgramRun& run);
+    /// A cut of the catalogue in this file.
+    void cut(const std::string& kind, const std::string& name) const;
+    nlohmann::json json(const std::string& name) const;
+};
+
+}  // namespace culet::test

@@ -1,0 +1,31 @@
+#pragma once
+// The fixture of tests that write files: a scratch folder for each.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/scratch_folder.h"
+
+namespace culet::test {
+
+class FolderTest : public testing::Test {
+protected:
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    /// Returns its path.
+    std::string write(const std::string& name, const std::string& content) const {
+        std::ofstream(folder_ / name, std::ios::binary) << content;
+        return file(name);
+    }
+    /// What a file holds; a name is one of the folder, a whole path any file's.
+    std::string text(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    ScratchFolder folder_;
+};
+
+}  // namespace culet::test
