@@ -1,6 +1,6 @@
 // Meets of a design that miss by a hair, brought together again.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "stone/dense_algebra.h"
 #include "stone/solid.h"
 
 namespace culet {
@@ -146,7 +147,7 @@ private:
             }
         }
         if (facets.size() < 3) return mean;
-        Eigen::MatrixX3d normals(facets.size(), 3);
+        Eigen::MatrixXd normals(facets.size(), 3);
         Eigen::VectorXd misses(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) {
             const Plane& plane = solid_.facets[facets[i]].plane;
@@ -154,14 +155,13 @@ private:
                 plane.normal.z;
             misses[static_cast<Eigen::Index>(i)] = -height_above(plane, mean);
         }
-        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(normals,
-                                                    Eigen::ComputeThinU | Eigen::ComputeThinV);
-        const Eigen::VectorXd along = svd.matrixU().transpose() * misses;
+        const SingularValues parts = singular_values(normals);
+        const Eigen::VectorXd along = parts.u.transpose() * misses;
         Vec3 position = mean;
         for (Eigen::Index k = 0; k < along.size(); ++k) {
-            const double step = along[k] / svd.singularValues()[k];
+            const double step = along[k] / parts.values[k];
             if (!(std::abs(step) <= spread)) continue;
-            position += step * Vec3(svd.matrixV()(0, k), svd.matrixV()(1, k), svd.matrixV()(2, k));
+            position += step * Vec3(parts.v(0, k), parts.v(1, k), parts.v(2, k));
         }
         return position;
     }

@@ -1,11 +1,12 @@
 #include "compare/calibration/error_regression.h"
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -61,14 +62,13 @@ std::optional<ErrorRegression::Fit> ErrorRegression::fit(
     matrix = matrix.array().rowwise() / deviations.array();
     wanted.array() -= mean;
 
-    const Eigen::JacobiSVD<Eigen::MatrixXd> parts(matrix,
-                                                  Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Eigen::VectorXd sizes = parts.singularValues();
-    const Eigen::VectorXd along = parts.matrixU().transpose() * wanted;
+    const SingularValues parts = singular_values(matrix);
+    const Eigen::VectorXd& sizes = parts.values;
+    const Eigen::VectorXd along = parts.u.transpose() * wanted;
     double best = std::numeric_limits<double>::infinity(), penalty = k_most_penalty;
     for (double tried = k_least_penalty; tried <= k_most_penalty; tried *= k_penalty_step) {
         const Eigen::VectorXd kept = shrinkage(sizes, tried);
-        const double off = (wanted - parts.matrixU() * kept.cwiseProduct(along)).squaredNorm();
+        const double off = (wanted - parts.u * kept.cwiseProduct(along)).squaredNorm();
         // One more for the mean.
         const double left = 1 - (kept.sum() + 1) / n;
         if (left > 0 && off / (left * left) < best) {
@@ -82,16 +82,15 @@ std::optional<ErrorRegression::Fit> ErrorRegression::fit(
             .select(kept.array() / sizes.array().max(std::numeric_limits<double>::min()), 0.0)
             .matrix()
             .cwiseProduct(along);
-    const Eigen::VectorXd weights =
-        (parts.matrixV() * turned).cwiseQuotient(deviations.transpose());
+    const Eigen::VectorXd weights = (parts.v * turned).cwiseQuotient(deviations.transpose());
     Fit result;
     result.weights.assign(weights.begin(), weights.end());
     result.constant = mean - means.dot(weights);
     result.left_out.assign(scores_.size(), std::numeric_limits<double>::quiet_NaN());
-    const Eigen::VectorXd answers = parts.matrixU() * kept.cwiseProduct(along);
+    const Eigen::VectorXd answers = parts.u * kept.cwiseProduct(along);
     for (Eigen::Index i = 0; i < rows; ++i) {
         const double leverage =
-            1 / n + (parts.matrixU().row(i).transpose().cwiseAbs2().cwiseProduct(kept)).sum();
+            1 / n + (parts.u.row(i).transpose().cwiseAbs2().cwiseProduct(kept)).sum();
         result.left_out[draws[static_cast<std::size_t>(i)]] =
             (answers[i] - wanted[i]) / std::max(1e-6, 1 - leverage);
     }

@@ -1,12 +1,12 @@
 #include "compare/calibration/joint_scores.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "compare/calibration/level_curve.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -81,7 +81,7 @@ std::optional<JointScores::Answer> JointScores::fitted(const std::vector<double>
                                          known[static_cast<std::size_t>(b)]];
         }
     }
-    const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
+    const Cholesky factor(matrix);
     const double step = (levels_.back() - levels_.front()) / k_steps;
     Answer best{levels_.front(), std::numeric_limits<double>::infinity()};
     Eigen::VectorXd z(count);
@@ -92,7 +92,7 @@ std::optional<JointScores::Answer> JointScores::fitted(const std::vector<double>
             z[a] = (scores[s] - interpolated(levels_, curves_[s], at)) /
                    interpolated(levels_, deviations_[s], at);
         }
-        const double squares = factor.matrixL().solve(z).squaredNorm();
+        const double squares = factor.solve_lower(z).squaredNorm();
         if (squares < best.misfit) best = {at, squares};
     }
     best.misfit /= static_cast<double>(count);

@@ -1,11 +1,10 @@
 #include "compare/calibration/tilt_variance.h"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
+#include "stone/dense_algebra.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -30,8 +29,8 @@ Eigen::MatrixXd whitened(const std::vector<std::vector<double>>& columns,
 // Orthonormal directions that span the columns.
 Eigen::MatrixXd span_of(const Eigen::MatrixXd& columns) {
     if (columns.cols() == 0) return columns;
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> parts(columns);
-    return parts.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), parts.rank());
+    const PivotedQr parts(columns);
+    return parts.first(parts.rank());
 }
 
 }  // namespace
@@ -43,12 +42,12 @@ TiltVariance::TiltVariance(const TiltModel& model) : samples_(model.noise.size()
     Eigen::MatrixXd changes = whitened(model.changes, noise);
     const double before = changes.squaredNorm();
     const Eigen::MatrixXd nuisances = span_of(whitened(model.nuisances, noise));
-    changes -= nuisances * (nuisances.transpose() * changes);
+    changes = without_span(changes, nuisances);
 
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(changes.transpose() * changes);
+    const SymmetricEigen parts = symmetric_eigen(transpose_times(changes, changes));
     // From the largest; rounding of the products is all that is left of what nothing changes.
-    const Eigen::VectorXd squares = parts.eigenvalues().reverse();
-    const Eigen::MatrixXd directions = parts.eigenvectors().rowwise().reverse();
+    const Eigen::VectorXd squares = parts.values.reverse();
+    const Eigen::MatrixXd directions = parts.vectors.rowwise().reverse();
     const double rounding =
         static_cast<double>(samples_) * std::numeric_limits<double>::epsilon() * before;
     Eigen::Index seen = 0;
@@ -61,7 +60,8 @@ TiltVariance::TiltVariance(const TiltModel& model) : samples_(model.noise.size()
     // (y / s) of a difference is the product with changes * direction / s^2.
     const Eigen::VectorXd lengths =
         ((weights / weights.sum()).sqrt() / squares.head(seen).array()).matrix();
-    const Eigen::MatrixXd along = changes * directions.leftCols(seen) * lengths.asDiagonal();
+    const Eigen::MatrixXd along =
+        product(changes, directions.leftCols(seen) * lengths.asDiagonal());
     rows_.resize(static_cast<std::size_t>(seen) * samples_);
     Eigen::Map<Rows>(rows_.data(), seen, noise.size()) =
         (noise.cwiseInverse().asDiagonal() * along).transpose().cast<float>();

@@ -1,6 +1,6 @@
 #include "compare/light_probe/circle_fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compare/photo/pixels.h"
+#include "stone/dense_algebra.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -127,14 +128,13 @@ std::optional<FoundBall> polished(const std::vector<EdgePoint>& points, BallCirc
             normal += w * row * row.transpose();
             gradient += w * r * row;
         }
-        const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-        const Eigen::Vector3d step = -solver.solve(gradient);
+        const Eigen::Vector3d step = -PivotedCholesky(normal).solve_one(gradient);
         if (!step.allFinite()) return std::nullopt;
         circle.x += step[0];
         circle.y += step[1];
         circle.radius += step[2];
         if (!(circle.radius > 1)) return std::nullopt;
-        const Eigen::Matrix3d covariance = normal.inverse() * spread * spread;
+        const Eigen::Matrix3d covariance = inverse3(normal) * spread * spread;
         // Neighbouring rays see the same clutter: one in four counts as a reading of its own.
         found.sigma_px = 2 * std::sqrt(std::max(covariance.diagonal().maxCoeff(), 0.0));
         if (step.norm() < 1e-5) break;

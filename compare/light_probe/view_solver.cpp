@@ -1,6 +1,6 @@
 #include "compare/light_probe/view_solver.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "compare/light_probe/even_directions.h"
 #include "compare/pose/stone_view.h"
+#include "stone/dense_algebra.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -93,7 +94,7 @@ public:
             for (int attempt = 0; attempt < 5 && !better; ++attempt) {
                 Square damped = normal;
                 damped.diagonal() *= 1 + damping;
-                moved = -damped.ldlt().solve(gradient);
+                moved = -PivotedCholesky(damped).solve_one(gradient);
                 if (!moved.allFinite()) break;
                 ViewParameters p = result.at + moved;
                 p[9] = std::clamp(p[9], 1e-6, 0.5);
@@ -207,14 +208,15 @@ private:
         }
         const Square scatter = evidence.scatter * (evidence.patches / freedom);
         // Of independent witnesses both would be one.
-        const Square flat = (evidence.normal + prior_ / share_ + held()).inverse();
+        const Square flat = inverse_of(evidence.normal + prior_ / share_ + held());
         const double repeated =
             std::max(1.0, (flat * scatter).trace() / (flat * evidence.normal).trace());
         result.witnesses = all / repeated;
         const double share = 1 / repeated;
         Square bend = share * evidence.bend + prior_ + held();
-        if (bend.ldlt().vectorD().minCoeff() <= 0) bend = share * evidence.normal + prior_ + held();
-        const Square back = bend.inverse();
+        if (PivotedCholesky(bend).pivots().minCoeff() <= 0)
+            bend = share * evidence.normal + prior_ + held();
+        const Square back = inverse_of(bend);
         const Square covariance = back * (share * share * scatter + prior_) * back;
         result.sigma = std::sqrt(std::max(covariance.topLeftCorner<3, 3>().trace() / 3, 0.0));
     }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -13,6 +13,7 @@
 #include "compare/photo/pixels.h"
 #include "render/colour/colour.h"
 #include "render/colour/colour_difference.h"
+#include "stone/dense_algebra.h"
 #include "stone/errors.h"
 #include "stone/upper_median.h"
 
@@ -157,7 +158,7 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
         }
     }
     result.before = mean_difference(measured);
-    const Eigen::MatrixXd solved = from.colPivHouseholderQr().solve(to);
+    const Eigen::MatrixXd solved = PivotedQr(from).solve(to);
     std::vector<Rgb> corrected;
     for (const Rgb& rgb : measured) {
         Rgb out{};

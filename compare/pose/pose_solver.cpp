@@ -2,7 +2,6 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <numbers>
 
 #include "compare/pose/changed_view.h"
+#include "stone/dense_algebra.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -142,8 +142,7 @@ Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
     // Units differ by many powers of ten: to equal diagonals first.
     const Eigen::VectorXd size = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd equal = size.asDiagonal() * normal * size.asDiagonal();
-    const Eigen::MatrixXd inverse =
-        equal.ldlt().solve(Eigen::MatrixXd::Identity(equal.rows(), equal.cols()));
+    const Eigen::MatrixXd inverse = PivotedCholesky(equal).inverse();
     return size.asDiagonal() * inverse * size.asDiagonal();
 }
 

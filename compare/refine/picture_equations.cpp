@@ -1,13 +1,12 @@
 #include "compare/refine/picture_equations.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "compare/calibration/stone_samples.h"
+#include "stone/dense_algebra.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -79,7 +78,7 @@ Eigen::MatrixXd pair_sums(const Eigen::MatrixXd& columns, const cv::Mat& mask,
         const std::vector<double> values = samples_of(sums, mask);
         near.col(k) = Eigen::Map<const Eigen::VectorXd>(values.data(), columns.rows());
     }
-    const Eigen::MatrixXd sums = columns.transpose() * near;
+    const Eigen::MatrixXd sums = transpose_times(columns, near);
     return (sums + sums.transpose()) / 2;
 }
 
@@ -101,20 +100,20 @@ Eigen::MatrixXd span_of(Eigen::MatrixXd columns) {
         const double length = columns.col(k).norm();
         if (length > 0) columns.col(k) /= length;
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> parts(columns);
-    return parts.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), parts.rank());
+    const PivotedQr parts(columns);
+    return parts.first(parts.rank());
 }
 
 // The rows that tell anything beside what was known before, as rows that are independent of each
 // other: directions that the picture hardly sees would add nothing but their noise.
 void keep_what_tells(const Eigen::VectorXd& spread, MovesTold& told) {
     const Eigen::MatrixXd scaled = told.rows * spread.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(scaled.transpose() * scaled);
+    const SymmetricEigen parts = symmetric_eigen(transpose_times(scaled, scaled));
     const Eigen::Index all = spread.size();
     Eigen::Index first = 0;
-    while (first < all && !(parts.eigenvalues()[first] > k_least_told)) ++first;
-    const Eigen::VectorXd lengths = parts.eigenvalues().tail(all - first).cwiseSqrt();
-    const Eigen::MatrixXd along = parts.eigenvectors().rightCols(all - first).transpose();
+    while (first < all && !(parts.values[first] > k_least_told)) ++first;
+    const Eigen::VectorXd lengths = parts.values.tail(all - first).cwiseSqrt();
+    const Eigen::MatrixXd along = parts.vectors.rightCols(all - first).transpose();
     told.values =
         lengths.cwiseInverse().asDiagonal() * (along * (scaled.transpose() * told.values));
     told.rows = lengths.asDiagonal() * along * spread.cwiseInverse().asDiagonal();
@@ -138,14 +137,14 @@ MovesTold moves_told(const PictureEquations& e) {
     for (int round = 0; round < k_rounds; ++round) {
         const Weighted w = weighted(e, told.weights);
         const Eigen::MatrixXd open = span_of(w.nuisances);
-        const Eigen::MatrixXd changes = w.changes - open * (open.transpose() * w.changes);
+        const Eigen::MatrixXd changes = without_span(w.changes, open);
         const Eigen::VectorXd difference = w.difference - open * (open.transpose() * w.difference);
-        const Eigen::MatrixXd normal = changes.transpose() * changes;
+        const Eigen::MatrixXd normal = transpose_times(changes, changes);
         const Eigen::VectorXd sums = changes.transpose() * difference;
         if (round == 0) {
             const double noise = std::pow(std::max(typical(difference), k_noise_floor), 2) * area;
-            moves =
-                (normal / noise + Eigen::MatrixXd(prior.asDiagonal())).ldlt().solve(sums / noise);
+            moves = PivotedCholesky(normal / noise + Eigen::MatrixXd(prior.asDiagonal()))
+                        .solve_one(sums / noise);
         }
         const Eigen::VectorXd residual = difference - changes * moves;
         const Eigen::MatrixXd covariance =
@@ -158,19 +157,18 @@ MovesTold moves_told(const PictureEquations& e) {
                                      std::max(pair_sums(residual, e.mask, weights)(0, 0), squares)
                                : double(samples) / area;
 
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(covariance);
-        const Eigen::VectorXd floor = Eigen::VectorXd::Constant(
-            covariance.rows(), k_rounding * parts.eigenvalues().maxCoeff());
+        const SymmetricEigen parts = symmetric_eigen(covariance);
+        const Eigen::VectorXd floor =
+            Eigen::VectorXd::Constant(covariance.rows(), k_rounding * parts.values.maxCoeff());
         const Eigen::MatrixXd whiten =
-            parts.eigenvalues().cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal() *
-            parts.eigenvectors().transpose();
-        told.rows = whiten * normal;
+            parts.values.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal() *
+            parts.vectors.transpose();
+        told.rows = product(whiten, normal);
         told.values = whiten * sums;
         const auto solve = [&] {
-            const Eigen::MatrixXd information = told.rows.transpose() * told.rows;
-            const Eigen::LDLT<Eigen::MatrixXd> both(information +
-                                                    Eigen::MatrixXd(prior.asDiagonal()));
-            moves = both.solve(told.rows.transpose() * told.values);
+            const Eigen::MatrixXd information = transpose_times(told.rows, told.rows);
+            const PivotedCholesky both(information + Eigen::MatrixXd(prior.asDiagonal()));
+            moves = both.solve_one(told.rows.transpose() * told.values);
             told.moves_told = both.solve(information).trace();
         };
         solve();
@@ -198,13 +196,12 @@ Eigen::VectorXd nuisances_beside(const PictureEquations& e, const MovesTold& tol
                                  const Eigen::VectorXd& moves, const Eigen::VectorXd& spread) {
     const Weighted w = weighted(e, told.weights);
     const Eigen::MatrixXd nuisances = w.nuisances.leftCols(spread.size());
-    Eigen::MatrixXd normal = nuisances.transpose() * nuisances;
+    Eigen::MatrixXd normal = transpose_times(nuisances, nuisances);
     const double noise = told.noise * told.noise * double(e.difference.size()) / told.independent;
     for (Eigen::Index k = 0; k < spread.size(); ++k) {
         if (spread[k] > 0) normal(k, k) += noise / (spread[k] * spread[k]);
     }
-    return normal.completeOrthogonalDecomposition().solve(nuisances.transpose() *
-                                                          (w.difference - w.changes * moves));
+    return shortest_solution(normal, nuisances.transpose() * (w.difference - w.changes * moves));
 }
 
 }  // namespace culet

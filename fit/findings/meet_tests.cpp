@@ -7,6 +7,7 @@
 
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -36,8 +37,7 @@ void find_ways_apart(const Shape& shape, Meet& meet) {
         const Vec3& n = shape.normals[facets[std::size_t(i)]];
         normals.row(i) << n.x, n.y, n.z;
     }
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(normals);
-    const Eigen::MatrixXd q = qr.householderQ();
+    const Eigen::MatrixXd q = completed_basis(normals);
     meet.together = q.leftCols(3);
     meet.apart = q.rightCols(count - 3);
 }
@@ -125,12 +125,11 @@ void let_go(Multipliers& exact, const Meet& meet) {
     Eigen::MatrixXd& v = exact.covariance;
     const Eigen::Index first = meet.first, count = meet.apart.cols();
     const Eigen::MatrixXd own = v.block(first, first, count, count);
-    const Eigen::MatrixXd inverse = own.completeOrthogonalDecomposition().pseudoInverse();
-    const Eigen::MatrixXd across = v.middleCols(first, count) * inverse;
+    const Eigen::MatrixXd across = product(v.middleCols(first, count), pseudo_inverse(own));
     const Eigen::VectorXd gone = x.segment(first, count);
     const Eigen::MatrixXd rows = v.middleRows(first, count);
     x -= across * gone;
-    v -= across * rows;
+    v -= product(across, rows);
     x.segment(first, count).setZero();
     v.middleRows(first, count).setZero();
     v.middleCols(first, count).setZero();
@@ -144,7 +143,7 @@ void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& alo
     misses.cwiseAbs().maxCoeff(&worst);
     finding.miss = std::abs(misses(worst));
     const Eigen::RowVectorXd row = meet.apart.row(worst);
-    const double variance = (row * covariance * row.transpose())(0);
+    const double variance = row.dot(covariance * row.transpose());
     finding.sigma = variance >= 0.25 ? std::numeric_limits<double>::infinity()
                                      : std::sqrt(std::max(0.0, variance));
 }
@@ -160,9 +159,9 @@ QuadraticTest score_test(const Multipliers& exact, const Meet& meet) {
 void set_score(const Multipliers& exact, const Meet& meet, const QuadraticTest& test,
                MeetFinding& finding) {
     const Eigen::Index k = meet.apart.cols();
-    const Eigen::MatrixXd covariance = (exact.covariance.block(meet.first, meet.first, k, k) +
-                                        1e-12 * Eigen::MatrixXd::Identity(k, k))
-                                           .inverse();
+    const Eigen::MatrixXd covariance =
+        inverse_of(exact.covariance.block(meet.first, meet.first, k, k) +
+                   1e-12 * Eigen::MatrixXd::Identity(k, k));
     set_miss(finding, meet, covariance * exact.values.segment(meet.first, k), covariance);
     finding.chi2 = test.statistic;
     finding.p = test.p;
@@ -236,7 +235,7 @@ void test_misses(const System& system, const Shape& shape, const Covariance& all
     const Eigen::MatrixXd& u = meet.apart;
     const Eigen::VectorXd along = u.transpose() * offsets;
     const Eigen::MatrixXd covariance =
-        u.transpose() * all.joint(all.linear().writer.functions(heights)) * u;
+        seen_through(u, all.joint(all.linear().writer.functions(heights)));
     const QuadraticTest test = quadratic_test(along, covariance, k_free, k_told);
     finding.chi2 = test.statistic;
     finding.tested = test.tested;
@@ -247,7 +246,7 @@ void test_misses(const System& system, const Shape& shape, const Covariance& all
     // residuals against their own covariance, sigma^2 - what the fit knows.
     const Eigen::VectorXd sigma = sigmas_of(system, meet);
     const Eigen::MatrixXd left =
-        u.transpose() * Eigen::MatrixXd(sigma.cwiseAbs2().asDiagonal()) * u - covariance;
+        transpose_times(u, sigma.cwiseAbs2().asDiagonal() * u) - covariance;
     const double size = sigma.squaredNorm() / double(sigma.size());
     const QuadraticTest soft = quadratic_test(along, left, 1e-4 * size, 1e300);
     finding.contradicted = soft.tested > 0 && soft.p < level;

@@ -2,7 +2,7 @@
 // A stone's planes as a symmetric stone has them alike: polar angle, azimuth and distance about an
 // axis of the stone's own. Private to the room.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "fit/findings/tier_letters.h"
 #include "fit/model/facet_functions.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -92,10 +92,10 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
                 const auto rows = facet_functions(shape, facet_of[names[i]], layout, middle);
                 moves.row(Eigen::Index(i)) = rows[which].transpose() * covariance.open();
             }
-            const Eigen::JacobiSVD<Eigen::MatrixXd> svd(moves, Eigen::ComputeThinU);
-            const Eigen::Index count = (svd.singularValues().array() > k_moves).count();
+            const SingularValues parts = singular_values(moves);
+            const Eigen::Index count = (parts.values.array() > k_moves).count();
             if (count == 1) {
-                const Eigen::VectorXd u = svd.matrixU().col(0);
+                const Eigen::VectorXd u = parts.u.col(0);
                 const bool together = (u.array() > 0).all() || (u.array() < 0).all();
                 sentence += together ? " but for their differences: they move together"
                                      : ": they move against each other, in one way";

@@ -13,6 +13,7 @@
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "fit/uncertainty/variance_component.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -45,11 +46,11 @@ int edge_conditions(const System& system, const AxisGroup& group) {
 Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least,
                          Eigen::Index most = std::numeric_limits<int>::max()) {
     if (matrix.size() == 0) return Eigen::MatrixXd(matrix.rows(), 0);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+    const PivotedQr qr(matrix);
     most = std::min({most, matrix.rows(), matrix.cols()});
     Eigen::Index rank = 0;
-    while (rank < most && std::abs(qr.matrixR()(rank, rank)) > least) ++rank;
-    return qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), rank);
+    while (rank < most && qr.pivot(rank) > least) ++rank;
+    return qr.first(rank);
 }
 
 // What the tests of all groups share.
@@ -62,7 +63,7 @@ struct Space {
     Eigen::Index form_freedoms = 0;
 
     Eigen::MatrixXd without_placement(const Eigen::MatrixXd& matrix) const {
-        return matrix - placement * (placement.transpose() * matrix);
+        return without_span(matrix, placement);
     }
 };
 
@@ -74,8 +75,8 @@ Eigen::MatrixXd symmetric_changes(const System& system, const Space& space,
     const Eigen::MatrixXd symmetric = range_of(space.without_placement(columns), 1e-9);
     const Eigen::Index most =
         system.splits() ? symmetric.cols() : space.open.cols() - Eigen::Index(edge_conditions);
-    return symmetric *
-           range_of(symmetric.transpose() * space.open, 1e-6, std::max<Eigen::Index>(0, most));
+    return product(symmetric, range_of(transpose_times(symmetric, space.open), 1e-6,
+                                       std::max<Eigen::Index>(0, most)));
 }
 
 Space space_of(const System& system, const AxisGroup& form, const PolarCoordinates& coordinates,
@@ -94,19 +95,18 @@ Space space_of(const System& system, const AxisGroup& form, const PolarCoordinat
     space.form_freedoms = symmetric.cols();
     // Across all that is symmetric, reachable or not.
     const Eigen::MatrixXd columns = range_of(space.without_placement(model.columns), 1e-9);
-    const Eigen::MatrixXd ways = range_of(space.open - columns * (columns.transpose() * space.open),
-                                          1e-6, space.open.cols() - symmetric.cols());
+    const Eigen::MatrixXd ways =
+        range_of(without_span(space.open, columns), 1e-6, space.open.cols() - symmetric.cols());
     if (ways.cols() == 0) return space;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(ways.transpose() * covariance *
-                                                               ways);
+    const SymmetricEigen eigen = symmetric_eigen(seen_through(ways, covariance));
     std::vector<Eigen::Index> told;
     for (Eigen::Index i = 0; i < ways.cols(); ++i) {
-        const double variance = eigen.eigenvalues()(i);
+        const double variance = eigen.values(i);
         if (variance >= k_exact && variance <= k_told_variance) told.push_back(i);
     }
-    space.told = ways * eigen.eigenvectors()(Eigen::all, told);
+    space.told = product(ways, eigen.vectors(Eigen::all, told));
     space.values = space.told.transpose() * model.deviations;
-    space.variance = eigen.eigenvalues()(told);
+    space.variance = eigen.values(told);
     return space;
 }
 
@@ -125,12 +125,11 @@ GroupTest test_group(const System& system, const AxisGroup& group,
     if (space.told.cols() == 0) return test;
     // Where readings tell nothing of a freedom it is next to nothing here.
     const Eigen::MatrixXd fitted =
-        range_of(space.told.transpose() * changes, 1e-4, changes.cols() - space.form_freedoms);
+        range_of(transpose_times(space.told, changes), 1e-4, changes.cols() - space.form_freedoms);
     const Eigen::VectorXd weights = space.variance.cwiseSqrt().cwiseInverse();
     Eigen::VectorXd left = space.values.cwiseProduct(weights);
     if (fitted.cols() > 0) {
-        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(weights.asDiagonal() * fitted);
-        left.applyOnTheLeft(qr.householderQ().adjoint());
+        left = along_completed_basis(weights.asDiagonal() * fitted, std::move(left));
     }
     const Eigen::Index over = left.size() - fitted.cols();
     test.tested = std::min(static_cast<int>(over), test.conditions);
@@ -183,7 +182,7 @@ TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const Symm
     const Directions directions = directions_of(orbit.facets, model, covariance);
     const auto& [deviations, columns, v] = directions;
     const Eigen::VectorXd off =
-        deviations - columns * columns.completeOrthogonalDecomposition().solve(deviations);
+        deviations - columns * shortest_solution(columns, deviations).col(0);
     double squares = 0;
     for (std::size_t i = 0; i < orbit.facets.size(); ++i) {
         const double angle = std::hypot(off(Eigen::Index(2 * i)), off(Eigen::Index(2 * i + 1)));

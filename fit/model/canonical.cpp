@@ -8,7 +8,7 @@
 
 #include "fit/model/canonical.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -18,6 +18,7 @@
 #include <map>
 #include <numbers>
 
+#include "fit/model/sparse_ldl.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -94,7 +95,7 @@ std::optional<std::vector<double>> log_radii(const Pattern& pattern) {
     };
     Eigen::VectorXd g;
     gradient(u, g);
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+    SparseLdl factors;
     Eigen::SparseMatrix<double> hessian(count, count);
     for (int round = 0; round < 60; ++round) {
         if (g.lpNorm<Eigen::Infinity>() < 1e-11) return u;
@@ -112,9 +113,8 @@ std::optional<std::vector<double>> log_radii(const Pattern& pattern) {
             entries.emplace_back(index[i], index[i], sum);
         }
         hessian.setFromTriplets(entries.begin(), entries.end());
-        if (round == 0) factors.analyzePattern(hessian);
-        factors.factorize(hessian);
-        if (factors.info() != Eigen::Success) return std::nullopt;
+        if (round == 0) factors.analyse(hessian);
+        if (!factors.factor(hessian)) return std::nullopt;
         const Eigen::VectorXd step = factors.solve(-g);
         if (!step.allFinite()) return std::nullopt;
         double factor = std::min(1.0, 3.0 / (1e-300 + step.lpNorm<Eigen::Infinity>()));

@@ -2,7 +2,7 @@
 // Motions of the whole stone that no reading sees, and what else is undetermined. Private to the
 // room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include "fit/model/linear.h"

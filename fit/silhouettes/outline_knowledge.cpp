@@ -1,11 +1,11 @@
 #include "fit/silhouettes/outline_knowledge.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "fit/silhouettes/plane_body.h"
 #include "fit/silhouettes/registration.h"
+#include "stone/dense_algebra.h"
 #include "stone/perpendicular.h"
 
 namespace culet {
@@ -49,8 +49,7 @@ Eigen::MatrixXd unheld_motions(const std::vector<Plane>& planes, double width, c
 
 // Beside what the start says of them.
 std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix, const std::vector<double>& tilts) {
-    const Eigen::MatrixXd covariance =
-        matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+    const Eigen::MatrixXd covariance = Cholesky(matrix).inverse();
     std::vector<int> unseen;
     for (Eigen::Index p = 0; 3 * p < matrix.rows(); ++p) {
         const double variance = covariance(3 * p, 3 * p) + covariance(3 * p + 1, 3 * p + 1);
@@ -74,16 +73,15 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
     told.unseen = unseen_planes(matrix, tilts);
     const Vec3 up = inverse(back).turned(holds.up);
     const Eigen::MatrixXd motions = unheld_motions(planes, width, up, holds);
-    const Eigen::MatrixXd seen = matrix * motions;
-    matrix -= seen * (motions.transpose() * seen).ldlt().solve(seen.transpose());
-    const Eigen::LDLT<Eigen::MatrixXd> factor(matrix);
-    // Not U * P: Eigen 3.4 swaps columns in the order of rows.
-    const Eigen::MatrixXd order =
-        factor.transpositionsP() * Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
-    Eigen::MatrixXd half = Eigen::MatrixXd(factor.matrixU()) * order;
+    const Eigen::MatrixXd seen = product(matrix, motions);
+    const PivotedCholesky of_motions(transpose_times(motions, seen));
+    matrix -= product(seen, of_motions.solve(seen.transpose()));
+    const PivotedCholesky factor(matrix);
+    Eigen::MatrixXd half = factor.root();
     // To the last digit: the fit tells by it that no row sees a motion.
-    half -= half * motions * (motions.transpose() * motions).ldlt().solve(motions.transpose());
-    const Eigen::VectorXd d = factor.vectorD();
+    const PivotedCholesky lengths(transpose_times(motions, motions));
+    half -= product(product(half, motions), lengths.solve(motions.transpose()));
+    const Eigen::VectorXd& d = factor.pivots();
     // One that is known to a radian or a width is not known; and rounding is none.
     const double least = std::max(1.0, 1e-13 * d.maxCoeff());
     for (Eigen::Index k = 0; k < d.size(); ++k) {

@@ -1,10 +1,10 @@
 #include "fit/silhouettes/plane_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "fit/silhouettes/plane_solver.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -38,15 +38,15 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
                 ++result.steps;
                 Eigen::MatrixXd damped = equations.matrix;
                 damped.diagonal() *= 1 + damping;
-                const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(damped);
-                Eigen::VectorXd step = -factor.solve(equations.gradient);
+                const Cholesky factor(damped);
+                Eigen::VectorXd step = -factor.solve_one(equations.gradient);
                 double length = 0;
                 for (int p = 0; p < solver.planes(); ++p) {
                     length = std::max({length, std::abs(step(3 * p)), std::abs(step(3 * p + 1))});
                 }
                 if (length > k_longest) step *= k_longest / length;
                 PlaneState next = solver.moved(state, step);
-                const bool closes = factor.info() == Eigen::Success && solver.look(next);
+                const bool closes = factor.good() && solver.look(next);
                 const double after = closes ? solver.cost(next, weights, scales) : 1e300;
                 better = after < before;
                 if (!better) {
@@ -110,8 +110,8 @@ PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFi
     information.matrix = whole.topLeftCorner(planes, planes);
     if (rest > 0) {
         const Eigen::MatrixXd mixed = whole.bottomLeftCorner(rest, planes);
-        information.matrix -=
-            mixed.transpose() * whole.bottomRightCorner(rest, rest).ldlt().solve(mixed);
+        information.matrix -= transpose_times(
+            mixed, PivotedCholesky(whole.bottomRightCorner(rest, rest)).solve(mixed));
     }
     return information;
 }

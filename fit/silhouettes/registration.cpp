@@ -1,9 +1,11 @@
 #include "fit/silhouettes/registration.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -138,7 +140,7 @@ private:
                 gradient(k) = 0;
             }
         }
-        return -normal.ldlt().solve(gradient);
+        return -PivotedCholesky(normal).solve_one(gradient);
     }
 
     std::span<const Vec3> corners_;

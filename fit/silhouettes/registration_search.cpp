@@ -1,12 +1,13 @@
 // Where a body lies among outlines of which only their directions are known.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "fit/silhouettes/registration.h"
+#include "stone/dense_algebra.h"
 #include "stone/perpendicular.h"
 
 namespace culet {
@@ -73,10 +74,10 @@ Axes axes_of(std::span<const FlatContour> contours) {
         const Eigen::Vector3d v(d.x, d.y, d.z);
         sum += v * v.transpose() / double(contours.size());
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
+    const SymmetricEigen3 eigen = symmetric_eigen3(sum);
     // Directions within a few degrees of one plane.
-    if (eigen.eigenvalues()(0) < 0.01 && eigen.eigenvalues()(1) > 0.01) {
-        Eigen::Vector3d a = eigen.eigenvectors().col(0);
+    if (eigen.values(0) < 0.01 && eigen.values(1) > 0.01) {
+        Eigen::Vector3d a = eigen.vectors.col(0);
         Eigen::Index largest = 0;
         a.cwiseAbs().maxCoeff(&largest);
         if (a(largest) < 0) a = -a;
@@ -125,7 +126,7 @@ public:
             above.add(sign > 0 ? mine.most - its.most : its.least - mine.least);
             below.add(sign > 0 ? mine.least - its.least : its.most - mine.most);
         }
-        const Eigen::Vector3d shift = normal.ldlt().solve(right);
+        const Eigen::Vector3d shift = PivotedCholesky(normal).solve_one(right);
         s.motion.shift = {shift(0), shift(1), shift(2)};
         if (!is_turntable) return {s};
         Similarity at_top = s, at_bottom = s;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fit/model/orbits.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -71,16 +72,16 @@ CaliperMisfit misfit_of(const std::vector<Caliper>& calipers, const Corners& cor
         }
         covariance(i, i) += caliper.sigma * caliper.sigma;
     }
-    const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
+    const PivotedCholesky factor(covariance);
     CaliperMisfit result;
-    if (factor.info() != Eigen::Success || !factor.isPositive()) {
+    if (!factor.is_positive()) {
         result.chi2 = std::numeric_limits<double>::infinity();
         return result;
     }
-    const double downhill = slope.dot(factor.solve(off)), bend = slope.dot(factor.solve(slope));
+    const double downhill = slope.dot(factor.solve_one(off)), bend = factor.square(slope);
     const double move = bend > 0 ? std::clamp(-downhill / bend, -around, around) : 0;
     off += move * slope;
-    const Eigen::VectorXd pull = factor.solve(off);
+    const Eigen::VectorXd pull = factor.solve_one(off);
     result.chi2 = off.dot(pull);
     result.forces = Eigen::VectorXd::Zero(corners.covariance.cols());
     for (Eigen::Index i = 0; i < count; ++i) {

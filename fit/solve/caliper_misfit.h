@@ -2,7 +2,7 @@
 // What calipers say of how the stone stands about up, when the other readings leave its corners
 // where they are but for a covariance. Private to the room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 #include "fit/solve/relaxation.h"

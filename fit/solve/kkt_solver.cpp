@@ -58,23 +58,22 @@ bool KktSolver::factor(const JacobianRows& rows, const Eigen::VectorXd& stiffnes
     const Matrix before = std::move(matrix_);
     assemble(rows, stiffness, curvature, least);
     if (!have_one_pattern(before, matrix_)) {
-        factors_.analyzePattern(matrix_);
+        factors_.analyse(matrix_);
         work_ += k_ordered * double(matrix_.rows());
     }
-    factors_.factorize(matrix_);
     work_ += k_solved * double(matrix_.rows());
-    if (factors_.info() != Eigen::Success) return false;
-    const auto& lower = factors_.matrixL().nestedExpression();
+    if (!factors_.factor(matrix_)) return false;
+    const Matrix& lower = factors_.lower();
     for (Eigen::Index j = 0; j < lower.cols(); ++j) {
         const double entries = double(lower.outerIndexPtr()[j + 1] - lower.outerIndexPtr()[j]);
         work_ += 0.5 * entries * (entries + 1);
     }
     // By Sylvester's law of inertia: one for each equation, and no more.
-    return (factors_.vectorD().array() < 0).count() == equations_ && factors_.vectorD().allFinite();
+    return (factors_.pivots().array() < 0).count() == equations_ && factors_.pivots().allFinite();
 }
 
 double KktSolver::log_determinant() const {
-    return factors_.vectorD().array().abs().log().sum();
+    return factors_.pivots().array().abs().log().sum();
 }
 
 Eigen::VectorXd KktSolver::refined(const Eigen::VectorXd& right, double precision) const {

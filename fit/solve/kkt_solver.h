@@ -11,10 +11,11 @@
 // pivoting in any order of elimination.
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "fit/model/jacobian_rows.h"
+#include "fit/model/sparse_ldl.h"
 
 namespace culet {
 
@@ -61,7 +62,7 @@ private:
     Eigen::Index unknowns_ = 0, equations_ = 0;
     Matrix matrix_;             // its lower half, as it is factored
     Eigen::VectorXd softened_;  // what exact equations are factored with, of each row
-    Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factors_;
+    SparseLdl factors_;
     double work_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #include "fit/solve/sign_ambiguity.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>

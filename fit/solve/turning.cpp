@@ -1,6 +1,6 @@
 #include "fit/solve/turning.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "fit/starts/starts.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,6 +12,8 @@
 #include "fit/model/canonical.h"
 #include "fit/starts/closing_sides.h"
 #include "stone/checks.h"
+#include "stone/dense_algebra.h"
+#include "stone/least_rotation.h"
 
 namespace culet {
 
@@ -35,7 +37,7 @@ Vec3 times(const Eigen::Matrix3d& m, const Vec3& v) {
 
 // x -> m x + shift; planes follow their points.
 Shape mapped(Shape shape, const Eigen::Matrix3d& m, const Vec3& shift) {
-    const Eigen::Matrix3d of_normals = m.inverse().transpose();
+    const Eigen::Matrix3d of_normals = inverse3(m).transpose();
     for (std::size_t f = 0; f < shape.normals.size(); ++f) {
         const Vec3 n = times(of_normals, shape.normals[f]);
         const double length = glm::length(n);
@@ -44,6 +46,19 @@ Shape mapped(Shape shape, const Eigen::Matrix3d& m, const Vec3& shift) {
     }
     for (Vec3& p : shape.points) p = times(m, p) + shift;
     return shape;
+}
+
+// The least rotation that turns a direction up; of one that looks down half a turn about x.
+Eigen::Matrix3d turn_upright(const Vec3& n) {
+    if (n.z < -1 + 1e-12) return Eigen::Vector3d(1, -1, -1).asDiagonal();
+    Eigen::Matrix3d turn;
+    for (int k = 0; k < 3; ++k) {
+        Vec3 axis(0);
+        axis[k] = 1;
+        const Vec3 to = turned_with(n, {0, 0, 1}, axis);
+        turn.col(k) << to.x, to.y, to.z;
+    }
+    return turn;
 }
 
 struct Moments {
@@ -205,18 +220,18 @@ Shape Starts::upright(Shape shape) const {
     if (system_.up_facet() >= 0) {
         const Vec3 n = shape.normals[system_.up_facet()];
         const Vec3 axis = glm::cross(n, Vec3{0, 0, 1});
-        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
-            Eigen::Vector3d(n.x, n.y, n.z), Eigen::Vector3d::UnitZ());
         if (glm::length(axis) > 1e-12 || n.z < 0) {
-            shape = mapped(std::move(shape), turn.toRotationMatrix(), Vec3(0));
+            shape = mapped(std::move(shape), turn_upright(n), Vec3(0));
         }
         shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     }
     const double angle =
         azimuth_turn(system_.readings(), [&](int facet) { return shape.normals[facet]; });
     if (angle != 0) {
-        const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
-        shape = mapped(std::move(shape), turn.toRotationMatrix(), Vec3(0));
+        Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+        turn.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
+            std::cos(angle);
+        shape = mapped(std::move(shape), turn, Vec3(0));
         if (system_.up_facet() >= 0) shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     }
     return shape;
@@ -228,13 +243,13 @@ std::optional<Start> Starts::similar() {
     if (!canonical_) return std::nullopt;
     const Shape& mesh = system_.mesh_shape();
     const Moments m = moments(canonical_->points, mesh.points);
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const SingularValues parts = singular_values(m.cross);
+    const Eigen::Matrix3d u = parts.u, v = parts.v;
     Eigen::Vector3d sign(1, 1, 1);
-    if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
-    const double scale = svd.singularValues().dot(sign) / m.own.trace();
+    if (determinant3(u * v.transpose()) < 0) sign(2) = -1;
+    const double scale = sign.dot(Eigen::Vector3d(parts.values)) / m.own.trace();
     if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
-    const Eigen::Matrix3d map =
-        scale * (svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose());
+    const Eigen::Matrix3d map = scale * (u * sign.asDiagonal() * v.transpose());
     return over_mesh("canonical", mapped(*canonical_, map, m.to - times(map, m.from)));
 }
 
@@ -256,10 +271,10 @@ std::optional<Start> Starts::affine() {
     if (!canonical_) return std::nullopt;
     const Shape& mesh = system_.mesh_shape();
     const Moments m = moments(canonical_->points, mesh.points);
-    const Eigen::Matrix3d map = m.cross * m.own.inverse();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(map);
+    const Eigen::Matrix3d map = m.cross * inverse3(m.own);
+    const Eigen::VectorXd stretches = singular_values(map).values;
     // A mesh turned inside out, or crushed flat, says nothing of proportions.
-    if (!(map.determinant() > 0) || !(svd.singularValues()(2) > 0.15 * svd.singularValues()(0))) {
+    if (!(determinant3(map) > 0) || !(stretches(2) > 0.15 * stretches(0))) {
         return std::nullopt;
     }
     return over_mesh("canonical, as long and wide as the mesh",

@@ -1,9 +1,10 @@
 #include "fit/uncertainty/condition_tests.h"
 
-#include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "fit/model/datum_defect.h"
 #include "fit/uncertainty/statistics.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -22,16 +23,15 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& v) {
         scale(i) = v(i, i) > k_free ? 1 / std::sqrt(v(i, i)) : 0;
     }
     const Eigen::MatrixXd correlation = scale.asDiagonal() * v * scale.asDiagonal();
-    const Eigen::LLT<Eigen::MatrixXd> factor(correlation);
+    const Cholesky factor(correlation);
     Eigen::MatrixXd inverse;
-    if (factor.info() == Eigen::Success &&
-        factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_least_own) {
-        inverse = factor.solve(Eigen::MatrixXd::Identity(count, count));
+    if (factor.good() && factor.least_pivot() > k_least_own) {
+        inverse = factor.inverse();
     } else {
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+        const SymmetricEigen eigen = symmetric_eigen(correlation);
         const Eigen::VectorXd inverses =
-            eigen.eigenvalues().unaryExpr([](double x) { return x > k_least_own ? 1 / x : 0; });
-        inverse = eigen.eigenvectors() * inverses.asDiagonal() * eigen.eigenvectors().transpose();
+            eigen.values.unaryExpr([](double x) { return x > k_least_own ? 1 / x : 0; });
+        inverse = times_transpose(eigen.vectors * inverses.asDiagonal(), eigen.vectors);
     }
     return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
@@ -72,7 +72,7 @@ Eigen::MatrixXd reach_of(const Linearised& linear, const FunctionRows& rows) {
     bare.has_prior = true;
     const Covariance free(std::move(bare));
     if (!free.usable()) return {};
-    return free.joint(rows) - unseen * unseen.transpose();
+    return free.joint(rows) - times_transpose(unseen, unseen);
 }
 
 QuadraticTest quadratic_test(const Eigen::VectorXd& x, const Eigen::MatrixXd& v, double least,
@@ -80,11 +80,11 @@ QuadraticTest quadratic_test(const Eigen::VectorXd& x, const Eigen::MatrixXd& v,
     QuadraticTest test;
     test.conditions = static_cast<int>(x.size());
     if (x.size() == 0) return test;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(v);
+    const SymmetricEigen eigen = symmetric_eigen(v);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-        const double variance = eigen.eigenvalues()(i);
+        const double variance = eigen.values(i);
         if (!(variance >= least) || !(variance <= largest)) continue;
-        const double along = eigen.eigenvectors().col(i).dot(x);
+        const double along = eigen.vectors.col(i).dot(x);
         test.statistic += along * along / variance;
         ++test.tested;
     }

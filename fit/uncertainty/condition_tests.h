@@ -1,7 +1,7 @@
 #pragma once
 // Whether conditions hold, by what readings say of them. Private to the room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "fit/uncertainty/covariance.h"
 

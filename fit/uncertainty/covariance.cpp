@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fit/uncertainty/sparse_covariance.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -66,8 +67,9 @@ Eigen::MatrixXd Covariance::joint(const FunctionRows& functions) const {
         }
     } else {
         const DenseRows halves = functions * held_, open = functions * open_;
-        all.noalias() = halves * halves.transpose();
-        all += k_unheld_variance * open * open.transpose();
+        all = transpose_times(halves.transpose(), halves.transpose());
+        if (open.cols() > 0)
+            all += k_unheld_variance * transpose_times(open.transpose(), open.transpose());
     }
     return 0.5 * (all + all.transpose());
 }

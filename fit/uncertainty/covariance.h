@@ -14,7 +14,7 @@
 // uncertainties that span many powers of ten), and for large stones sparse factors of the normal
 // equations.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
 #include <utility>

@@ -1,12 +1,13 @@
 // The covariance of stones small enough for dense algebra.
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "fit/model/datum_defect.h"
 #include "fit/solve/null_space.h"
 #include "fit/uncertainty/covariance.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -24,10 +25,8 @@ constexpr double k_precision = 1e-6;
 Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& along,
                              double weight) {
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(seen.cols(), seen.cols());
-    if (seen.rows() > 0) normal.selfadjointView<Eigen::Lower>().rankUpdate(seen.transpose());
-    if (along.rows() > 0) {
-        normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(), weight * weight);
-    }
+    add_square(seen, 1, normal);
+    add_square(along, weight * weight, normal);
     return normal;
 }
 
@@ -42,11 +41,12 @@ Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
                      [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
     Eigen::MatrixXd sorted(seen.rows(), seen.cols());
     for (std::size_t i = 0; i < order.size(); ++i) sorted.row(Eigen::Index(i)) = seen.row(order[i]);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(sorted);
-    const Eigen::Index n = seen.cols();
-    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
-    qr.matrixR().topLeftCorner(n, n).triangularView<Eigen::Upper>().solveInPlace(inverse);
-    return qr.colsPermutation() * inverse;
+    return PivotedQr(sorted).inverse_factor();
+}
+
+// The transpose of rows is stored by columns, as products take it.
+DenseRows rows_times(const DenseRows& rows, const MatrixView& columns) {
+    return transpose_times(columns, rows.transpose()).transpose();
 }
 
 }  // namespace
@@ -70,11 +70,12 @@ void Covariance::find_dense() {
 
     // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
     const Eigen::MatrixXd gauge_rows = linear_.metric.asDiagonal() * gauge;
-    const FreePart free{basis, linear_.soft_rows * basis, gauge_rows.transpose() * basis};
+    const FreePart free{basis, linear_.soft_rows * basis,
+                        product(basis.transpose(), gauge_rows).transpose()};
     if (!find_well_held(free)) usable_ = find_loosely_held(free);
     for (DenseRows* columns : {&held_, &open_}) {
-        const Eigen::MatrixXd parts = gauge_rows.transpose() * *columns;
-        columns->noalias() -= gauge * parts;
+        const Eigen::MatrixXd parts = product(columns->transpose(), gauge_rows);
+        *columns -= times_transpose(parts, gauge).transpose();
     }
     leverages_ = seen_.rowwise().squaredNorm();
 }
@@ -94,10 +95,11 @@ bool Covariance::find_well_held(const FreePart& free) {
     if (!(largest < k_most_spread)) return false;
     const double gauge_weight = std::max(k_least_of_gauge, largest);
     const Eigen::Index size = free.basis.cols();
-    const Eigen::LLT<Eigen::MatrixXd> factor(lower_normal(free.seen, free.along, gauge_weight));
-    if (factor.info() != Eigen::Success) return false;
-    const Eigen::MatrixXd upper = factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
-    held_ = free.basis * upper.triangularView<Eigen::Upper>();  // (S^-1) = U^-1 U^-T
+    const Cholesky factor(lower_normal(free.seen, free.along, gauge_weight));
+    if (!factor.good()) return false;
+    const Eigen::MatrixXd upper = factor.solve_upper(Eigen::MatrixXd::Identity(size, size));
+    // (S^-1) = U^-1 U^-T
+    held_ = upper_transpose_times(upper, free.basis.transpose()).transpose();
     seen_ = linear_.soft_rows * held_;
     // An open direction alone would leave some unknown as much.
     const Eigen::VectorXd left = held_.rowwise().squaredNorm().cwiseProduct(linear_.metric);
@@ -105,8 +107,7 @@ bool Covariance::find_well_held(const FreePart& free) {
     // Every direction is seen once: the squares of all that is seen add up to their number, unless
     // they are lost in rounding.
     const double squares =
-        seen_.squaredNorm() +
-        std::pow(gauge_weight, 2) * Eigen::MatrixXd(free.along * upper).squaredNorm();
+        seen_.squaredNorm() + std::pow(gauge_weight, 2) * product(free.along, upper).squaredNorm();
     return std::abs(squares - double(size)) < k_precision;
 }
 
@@ -114,13 +115,12 @@ bool Covariance::find_well_held(const FreePart& free) {
 bool Covariance::find_loosely_held(const FreePart& free) {
     const Eigen::Index size = free.basis.cols();
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
-    metric.selfadjointView<Eigen::Lower>().rankUpdate(
-        Eigen::MatrixXd(free.basis.transpose() * linear_.metric.cwiseSqrt().asDiagonal()));
-    const Eigen::LLT<Eigen::MatrixXd> chol(metric);
-    if (chol.info() != Eigen::Success) return false;
+    add_square(linear_.metric.cwiseSqrt().asDiagonal() * free.basis, 1, metric);
+    const Cholesky chol(metric);
+    if (!chol.good()) return false;
     const auto whitened = [&](const Eigen::MatrixXd& rows) -> Eigen::MatrixXd {
         if (rows.rows() == 0) return Eigen::MatrixXd(0, size);
-        return chol.matrixU().solve<Eigen::OnTheRight>(rows);
+        return chol.divide_by_upper(rows);
     };
     const Eigen::MatrixXd seen = whitened(free.seen);
     const Eigen::MatrixXd along = whitened(free.along);
@@ -134,19 +134,18 @@ bool Covariance::find_loosely_held(const FreePart& free) {
     }
     Eigen::MatrixXd normal = lower_normal(clipped, along, gauge_weight);
     const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> DenseRows {
-        return free.basis * Eigen::MatrixXd(chol.matrixU().solve(columns));
+        return rows_times(free.basis, chol.solve_upper(columns));
     };
     Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
     const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
     open_.resize(held_.rows(), 0);
-    if (!linear_.has_prior && Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
-        normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-        const DenseRows directions = unwhitened(eigen.eigenvectors());
-        const Eigen::Index open = open_among(directions, eigen.eigenvalues(), linear_.metric);
+    if (!linear_.has_prior && !Cholesky(shifted).good()) {
+        const SymmetricEigen eigen = symmetric_eigen(normal);
+        const DenseRows directions = unwhitened(eigen.vectors);
+        const Eigen::Index open = open_among(directions, eigen.values, linear_.metric);
         open_ = directions.leftCols(open);
         rank_defect_ = static_cast<int>(open);
-        held_basis = eigen.eigenvectors().rightCols(size - open);
+        held_basis = eigen.vectors.rightCols(size - open);
     }
     if (held_basis.cols() == 0) {
         held_.resize(held_.rows(), 0);
@@ -154,11 +153,11 @@ bool Covariance::find_loosely_held(const FreePart& free) {
         return true;
     }
     Eigen::MatrixXd stacked(seen.rows() + along.rows(), held_basis.cols());
-    stacked.topRows(seen.rows()) = seen * held_basis;
-    stacked.bottomRows(along.rows()) = gauge_weight * along * held_basis;
+    stacked.topRows(seen.rows()) = product(seen, held_basis);
+    stacked.bottomRows(along.rows()) = gauge_weight * product(along, held_basis);
     const Eigen::MatrixXd factor = inverse_factor(stacked);
-    held_ = unwhitened(held_basis * factor);
-    seen_ = stacked.topRows(seen.rows()) * factor;
+    held_ = unwhitened(product(held_basis, factor));
+    seen_ = product(stacked.topRows(seen.rows()), factor);
     return true;
 }
 

@@ -1,6 +1,5 @@
 #include "fit/uncertainty/inconsistent_subset.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +9,7 @@
 #include "fit/model/linear.h"
 #include "fit/solve/free_meets.h"
 #include "fit/uncertainty/statistics.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -153,9 +153,8 @@ std::vector<int> inconsistent_exact_readings(const System& system, const Shape& 
             miss(Eigen::Index(k)) = linear.hard_residuals(Eigen::Index(used[k]));
         }
         // Misses that some step could mend lie in the range of A; what lies across it cannot be.
-        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.transpose());
-        qr.setThreshold(1e-9);
-        const Eigen::VectorXd across = qr.householderQ().transpose() * miss;
+        const PivotedQr qr(columns.transpose(), 1e-9);
+        const Eigen::VectorXd across = qr.along(miss);
         if (qr.rank() == across.size()) return false;
         return across.tail(across.size() - qr.rank()).cwiseAbs().maxCoeff() >
                0.01 * linear.worst_hard() / std::sqrt(double(used.size()));

@@ -2,7 +2,7 @@
 // An irreducible set of readings that cannot hold together: without any one of them the rest can.
 // Private to the room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 #include "fit/model/system.h"

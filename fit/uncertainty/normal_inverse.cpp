@@ -1,6 +1,10 @@
 #include "fit/uncertainty/normal_inverse.h"
 
+#include <Eigen/SparseCholesky>
 #include <vector>
+
+#include "fit/model/sparse_ldl.h"
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -31,6 +35,11 @@ Eigen::MatrixXd dense(const Rows& rows, const std::vector<Eigen::Index>& which) 
     return result;
 }
 
+Eigen::MatrixXd with_one(Eigen::MatrixXd square) {
+    square.diagonal().array() += 1;
+    return square;
+}
+
 // Without the rows that are kept apart.
 Matrix normal_matrix(const NormalEquations& equations, const std::vector<Eigen::Index>& apart) {
     Eigen::VectorXd counts = Eigen::VectorXd::Ones(equations.rows.rows());
@@ -47,26 +56,32 @@ Matrix normal_matrix(const NormalEquations& equations, const std::vector<Eigen::
 
 }  // namespace
 
+struct NormalInverse::Factors : Eigen::SimplicialLLT<Matrix> {};
+
+NormalInverse::NormalInverse() : factors_(std::make_unique<Factors>()) {}
+
+NormalInverse::~NormalInverse() = default;
+
 bool NormalInverse::compute(const NormalEquations& equations) {
     const std::vector<Eigen::Index> apart = long_rows(equations.rows);
-    factors_.compute(normal_matrix(equations, apart));
-    if (factors_.info() != Eigen::Success) return false;
+    factors_->compute(normal_matrix(equations, apart));
+    if (factors_->info() != Eigen::Success) return false;
     wide_.resize(equations.diagonal.size(), 0);
     if (!apart.empty()) {
         const Eigen::MatrixXd rows = dense(equations.rows, apart);
-        wide_ = factors_.solve(rows.transpose());
-        capacitance_.compute(Eigen::MatrixXd::Identity(rows.rows(), rows.rows()) + rows * wide_);
+        wide_ = factors_->solve(rows.transpose());
+        capacitance_.emplace(with_one(culet::product(rows, wide_)));
     }
     return true;
 }
 
 NormalInverse::Half NormalInverse::half(const Eigen::SparseVector<double>& f) const {
-    Eigen::VectorXd ordered = factors_.permutationP() * Eigen::VectorXd(f);
-    factors_.matrixL().solveInPlace(ordered);
+    Eigen::VectorXd ordered = factors_->permutationP() * Eigen::VectorXd(f);
+    factors_->matrixL().solveInPlace(ordered);
     Half half{ordered.sparseView(), {}};  // not zero but up the elimination tree
     if (wide_.cols() > 0) {
         const Eigen::VectorXd along = wide_.transpose() * f;
-        half.long_rows = capacitance_.matrixL().solve(along);
+        half.long_rows = capacitance_->solve_lower(along);
     }
     return half;
 }
@@ -81,26 +96,27 @@ double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
 }
 
 Eigen::VectorXd NormalInverse::solve(const Eigen::VectorXd& right) const {
-    Eigen::VectorXd solution = factors_.solve(right);
+    Eigen::VectorXd solution = factors_->solve(right);
     if (wide_.cols() > 0) {
-        solution -= wide_ * capacitance_.solve(wide_.transpose() * right);
+        solution -= wide_ * capacitance_->solve_one(wide_.transpose() * right);
     }
     return solution;
 }
 
 int negative_pivots(const NormalEquations& equations) {
     const std::vector<Eigen::Index> apart = long_rows(equations.rows);
-    const Eigen::SimplicialLDLT<Matrix> factors(normal_matrix(equations, apart));
-    if (factors.info() != Eigen::Success) return 0;
-    int negative = static_cast<int>((factors.vectorD().array() < 0).count());
+    const Matrix matrix = normal_matrix(equations, apart);
+    SparseLdl factors;
+    factors.analyse(matrix);
+    if (!factors.factor(matrix)) return 0;
+    int negative = static_cast<int>((factors.pivots().array() < 0).count());
     if (!apart.empty()) {
         // With borders instead of fill, [A0, D'; D, -1] has as many more negative eigenvalues as
         // borders; by A0's Schur complement the others are those of -(1 + D A0^-1 D').
         const Eigen::MatrixXd rows = dense(equations.rows, apart);
-        const Eigen::MatrixXd solved = factors.solve(rows.transpose());
-        const Eigen::LDLT<Eigen::MatrixXd> bordered(
-            Eigen::MatrixXd::Identity(rows.rows(), rows.rows()) + rows * solved);
-        negative -= static_cast<int>((bordered.vectorD().array() < 0).count());
+        const Eigen::MatrixXd solved = factors.solve_all(rows.transpose());
+        const PivotedCholesky bordered(with_one(culet::product(rows, solved)));
+        negative -= static_cast<int>((bordered.pivots().array() < 0).count());
     }
     return negative;
 }

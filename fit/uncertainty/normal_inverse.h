@@ -2,9 +2,12 @@
 // The inverse of large sparse normal equations, as far as it is asked for. Private to the room:
 // shows Eigen.
 
-#include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <memory>
+#include <optional>
+
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
@@ -19,6 +22,8 @@ struct NormalEquations {
 
 class NormalInverse {
 public:
+    NormalInverse();
+    ~NormalInverse();
     /// False when the matrix is not positive definite.
     bool compute(const NormalEquations& equations);
     /// What f' A^-1 g is the product of: half of it for each.
@@ -32,10 +37,11 @@ public:
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
 private:
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
+    struct Factors;
+    std::unique_ptr<Factors> factors_;
     // Long rows D by Woodbury: A^-1 = A0^-1 - W (1 + D W)^-1 W', W = A0^-1 D'.
     Eigen::MatrixXd wide_;  // W
-    Eigen::LLT<Eigen::MatrixXd> capacitance_;
+    std::optional<Cholesky> capacitance_;
 };
 
 /// Of an unpivoted LDL' of the (indefinite) matrix: by Sylvester's law its number of negative

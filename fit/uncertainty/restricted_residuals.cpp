@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "stone/dense_algebra.h"
+
 namespace culet {
 
 namespace {
@@ -87,7 +89,7 @@ void RestrictedResiduals::leave_out(Index i) {
     for (std::size_t k = 0; k < left_out_.size(); ++k) {
         block_.row(Index(k)) = columns_.row(left_out_[k]);
     }
-    left_out_part_ = block_.ldlt().solve(columns_.transpose()).transpose();
+    left_out_part_ = PivotedCholesky(block_).solve(columns_.transpose()).transpose();
     most_.clear();
 }
 
@@ -112,10 +114,8 @@ double RestrictedResiduals::find_most_of(const std::vector<Index>& equations) co
             block(a, b) = entry + (i == j ? k_no_redundancy : 0);
         }
     }
-    const Eigen::LDLT<Eigen::MatrixXd> factors(block);
-    return factors.info() == Eigen::Success && factors.isPositive()
-               ? values.dot(factors.solve(values)) * (1 + 1e-6)
-               : 1e300;
+    const PivotedCholesky factors(block);
+    return factors.is_positive() ? factors.square(values) * (1 + 1e-6) : 1e300;
 }
 
 }  // namespace culet

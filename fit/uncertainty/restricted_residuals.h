@@ -2,7 +2,7 @@
 // What of the residuals is left as explanations are taken out of them, one by one. Private to the
 // room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <map>
 #include <utility>

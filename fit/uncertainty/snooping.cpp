@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "stone/dense_algebra.h"
+
 namespace culet {
 
 namespace {
@@ -47,19 +49,18 @@ public:
         for (Index a = 0; a < count; ++a) {
             for (Index b = 0; b < count; ++b) block(a, b) = columns(set[std::size_t(b)], a);
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(block);
-        if (!(eigen.eigenvalues()(0) > 0.1 * k_tested)) {
+        const SymmetricEigen eigen = symmetric_eigen(block);
+        if (!(eigen.values(0) > 0.1 * k_tested)) {
             state.possible = false;  // together they leave nothing that checks them
             return state;
         }
-        const Eigen::MatrixXd inverse = eigen.eigenvectors() *
-                                        eigen.eigenvalues().cwiseInverse().asDiagonal() *
-                                        eigen.eigenvectors().transpose();
+        const Eigen::MatrixXd inverse = times_transpose(
+            eigen.vectors * eigen.values.cwiseInverse().asDiagonal(), eigen.vectors);
         state.errors = inverse * values;
         state.error_variance = inverse.diagonal();
         state.gain = values.dot(state.errors);
         state.values -= columns * state.errors;
-        state.redundancy -= (columns * inverse).cwiseProduct(columns).rowwise().sum();
+        state.redundancy -= product(columns, inverse).cwiseProduct(columns).rowwise().sum();
         for (const Index i : set) state.values(i) = state.redundancy(i) = 0;
         return state;
     }
@@ -78,7 +79,7 @@ public:
         for (Index a = 0; a < count; ++a) {
             for (Index b = 0; b < count; ++b) block(a, b) = columns(state.set[std::size_t(b)], a);
         }
-        result -= columns * block.ldlt().solve(right);
+        result -= columns * PivotedCholesky(block).solve_one(right);
         return result;
     }
 

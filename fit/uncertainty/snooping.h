@@ -2,7 +2,7 @@
 // Which readings are wrong: data snooping after Baarda (1968), for several errors at once.
 // Private to the room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The covariance of large stones. Private to the room: shows Eigen.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <map>
 #include <utility>
 

@@ -1,25 +1,24 @@
 #include "fit/uncertainty/variance_component.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "stone/dense_algebra.h"
 
 namespace culet {
 
 Contrasts contrasts_of(const Eigen::VectorXd& deviations, const Eigen::MatrixXd& v,
                        const Eigen::MatrixXd& columns) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-    qr.setThreshold(1e-9);
-    const Eigen::MatrixXd q = qr.householderQ();
-    const Eigen::MatrixXd rest = q.rightCols(deviations.size() - qr.rank());
+    const PivotedQr qr(columns, 1e-9);
+    const Eigen::MatrixXd rest = qr.last(deviations.size() - qr.rank());
     Contrasts contrasts;
     if (rest.cols() == 0) return contrasts;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rest.transpose() * v * rest);
-    const Eigen::VectorXd z = eigen.eigenvectors().transpose() * (rest.transpose() * deviations);
+    const SymmetricEigen eigen = symmetric_eigen(seen_through(rest, v));
+    const Eigen::VectorXd z = eigen.vectors.transpose() * (rest.transpose() * deviations);
     for (Eigen::Index i = 0; i < z.size(); ++i) {
         contrasts.values.push_back(z(i));
-        contrasts.variances.push_back(std::max(0.0, eigen.eigenvalues()(i)));
+        contrasts.variances.push_back(std::max(0.0, eigen.values(i)));
     }
     return contrasts;
 }

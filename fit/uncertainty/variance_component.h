@@ -1,7 +1,7 @@
 #pragma once
 // How much values scatter beyond their own known uncertainties. Private to the room.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 namespace culet {

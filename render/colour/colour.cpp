@@ -1,12 +1,13 @@
 #include "render/colour/colour.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <optional>
 
+#include "stone/dense_algebra.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -21,7 +22,7 @@ Eigen::Matrix3d xyz_from_rgb() {
     return m;
 }
 const Eigen::Matrix3d& rgb_from_xyz() {
-    static const Eigen::Matrix3d inverse = xyz_from_rgb().inverse();
+    static const Eigen::Matrix3d inverse = inverse3(xyz_from_rgb());
     return inverse;
 }
 
@@ -85,7 +86,7 @@ public:
         kkt.topLeftCorner(all, all) = normal;
         kkt.topRightCorner(all, rows) = A.transpose();
         kkt.bottomLeftCorner(rows, all) = A;
-        const Eigen::MatrixXd inverse = kkt.completeOrthogonalDecomposition().pseudoInverse();
+        const Eigen::MatrixXd inverse = pseudo_inverse(kkt);
         free_ = inverse.topRightCorner(all, rows) * b;
         give_ = inverse.topLeftCorner(all, all);
     }
@@ -93,8 +94,9 @@ public:
     std::optional<Eigen::VectorXd> with(const Eigen::MatrixXd& H, const Eigen::VectorXd& h) const {
         Eigen::VectorXd x = free_;
         if (H.rows() > 0) {
-            const Eigen::MatrixXd moved = give_ * H.transpose();
-            x += moved * (H * moved).completeOrthogonalDecomposition().solve(h - H * free_);
+            const Eigen::MatrixXd moved = times_transpose(give_, H);
+            const Eigen::VectorXd push = shortest_solution(product(H, moved), h - H * free_);
+            x += moved * push;
         }
         const double off = std::max((A_ * x - b_).cwiseAbs().maxCoeff(),
                                     H.rows() > 0 ? (H * x - h).cwiseAbs().maxCoeff() : 0.0);
@@ -114,7 +116,7 @@ private:
 std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_weight,
                                                     const std::vector<double>& nm) {
     const Eigen::MatrixXd shares = interpolation(nm);
-    const Eigen::MatrixXd weight = rgb_weight * shares;
+    const Eigen::MatrixXd weight = product(rgb_weight, shares);
     const Eigen::Index n = weight.cols();
     // Unknown are red and blue, less the third that each would be of grey light; green is the rest.
     constexpr double k_third = 1.0 / 3;
@@ -178,8 +180,8 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         pull << weight.transpose() * (wanted(0) - wanted(1)),
             weight.transpose() * (wanted(2) - wanted(1));
         const Eigen::MatrixXd normal =
-            k_smoothness * roughness + of_all_three(weight.transpose() * weight);
-        best = primaries_of(normal.completeOrthogonalDecomposition().solve(pull));
+            k_smoothness * roughness + of_all_three(transpose_times(weight, weight));
+        best = primaries_of(shortest_solution(normal, pull));
     }
     std::array<std::vector<double>, 3> primaries;
     for (int p = 0; p < 3; ++p) {

@@ -1,6 +1,6 @@
 #include "render/optics/wave_normals.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "render/optics/complex_vector.h"
+#include "stone/dense_algebra.h"
 #include "stone/perpendicular.h"
 
 namespace culet {
@@ -324,7 +325,7 @@ private:
         Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
         for (int i = 0; i < 4; ++i) companion(0, i) = -c[i + 1] / (c[0] * std::pow(scale, i + 1));
         for (int i = 1; i < 4; ++i) companion(i, i - 1) = 1;
-        const Eigen::Vector4cd starts = scale * companion.eigenvalues();
+        const Eigen::Vector4cd starts = scale * eigenvalues4(companion);
         struct Found {
             CrystalMode mode;
             double forward = 0;  // > 0: carries energy, or decays, towards n

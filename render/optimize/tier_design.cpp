@@ -1,11 +1,12 @@
 #include "render/optimize/tier_design.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "stone/dense_algebra.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -161,9 +162,9 @@ std::optional<TierDesign::Planes> TierDesign::closed(Planes planes) const {
                 normals.row(i) << plane.normal.x, plane.normal.y, plane.normal.z;
                 offsets(i) = plane.offset;
             }
-            const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(normals);
-            const Eigen::Vector3d corner = qr.solve(offsets);
-            const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(k, k);
+            const PivotedQr qr(normals);
+            const Eigen::Vector3d corner = qr.solve_one(offsets);
+            const Eigen::MatrixXd q = qr.first(k);
             for (Eigen::Index m = 3; m < k; ++m, ++row) {
                 misses(row) = q.col(m).dot(offsets) / size_;
                 for (Eigen::Index i = 0; i < k; ++i) {
@@ -183,10 +184,7 @@ std::optional<TierDesign::Planes> TierDesign::closed(Planes planes) const {
             return planes;
         if (!std::isfinite(miss)) return std::nullopt;
         before = miss;
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least;
-        least.setThreshold(k_dependent);
-        least.compute(slopes);
-        const Eigen::VectorXd change = least.solve(-misses);
+        const Eigen::VectorXd change = shortest_solution(slopes, -misses, k_dependent);
         for (Eigen::Index f = 0; f < count; ++f) {
             Plane& plane = planes.of[static_cast<std::size_t>(f)];
             if (angle_is_free_[static_cast<std::size_t>(f)])
@@ -210,7 +208,7 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
             normals.row(Eigen::Index(i)) << plane.normal.x, plane.normal.y, plane.normal.z;
             offsets(Eigen::Index(i)) = plane.offset;
         }
-        const Eigen::Vector3d corner = normals.colPivHouseholderQr().solve(offsets);
+        const Eigen::Vector3d corner = PivotedQr(normals).solve_one(offsets);
         result.vertices[v] = {corner.x(), corner.y(), corner.z()};
     }
     // Convex, with the same neighbours: nothing above a plane, every outline still turns left.

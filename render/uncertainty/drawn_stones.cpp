@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "stone/dense_algebra.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -43,9 +44,8 @@ Eigen::MatrixXd error_spread(const StoneUncertainty& uncertainty) {
             correlation(i, j) = scale > 0 ? covariance(i, j) / scale : (i == j ? 1 : 0);
         }
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
-    spread = solver.eigenvectors() *
-             solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal().toDenseMatrix();
+    const SymmetricEigen parts = symmetric_eigen(correlation);
+    spread = parts.vectors * parts.values.cwiseMax(0).cwiseSqrt().asDiagonal();
     return sigma.asDiagonal() * spread;
 }
 
