@@ -1,17 +1,20 @@
 #include "compare/calibration/calibration_cache.h"
 
 #include <algorithm>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <cmath>
 #include <system_error>
+#include <variant>
 
 #include "compare/scores/score_list.h"
+#include "render/image/codecs/codecs.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
 namespace culet {
 
 namespace {
+
+constexpr const char* k_tilts_extension = ".pfm";
 
 // Does any draw have the score that the kept directions are for?
 bool has_tilts(const Calibration& calibration) {
@@ -26,11 +29,13 @@ std::optional<TiltVariance> tilts_from(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return std::nullopt;
     try {
-        const cv::Mat rows = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
-        if (rows.type() != CV_32FC1 || !cv::checkRange(rows)) return std::nullopt;
-        return TiltVariance({rows.begin<float>(), rows.end<float>()},
-                            static_cast<std::size_t>(rows.cols));
-    } catch (const cv::Exception&) {
+        const DecodedPixels rows = decode_pfm(read_text(file), file);
+        const auto& values = std::get<std::vector<float>>(rows.samples);
+        const bool finite = std::all_of(values.begin(), values.end(),
+                                        [](float value) { return std::isfinite(value); });
+        if (rows.channels != 1 || !finite) return std::nullopt;
+        return TiltVariance(values, static_cast<std::size_t>(rows.width));
+    } catch (const InputError&) {
         return std::nullopt;
     }
 }
@@ -52,7 +57,7 @@ std::optional<KeptCalibration> CalibrationCache::find(const std::string& hash) c
             return std::nullopt;
         }
         calibration->from_cache = true;
-        auto tilts = tilts_from(file_of(hash, ".exr"));
+        auto tilts = tilts_from(file_of(hash, k_tilts_extension));
         if (!tilts && has_tilts(*calibration)) return std::nullopt;
         return KeptCalibration{std::move(*calibration), tilts ? std::move(*tilts) : TiltVariance()};
     } catch (const InputError&) {
@@ -65,16 +70,10 @@ void CalibrationCache::keep(const Calibration& calibration, const TiltVariance& 
     std::error_code ignored;
     std::filesystem::create_directories(folder_, ignored);
     if (tilts.usable()) {
-        const auto samples = static_cast<int>(tilts.samples());
-        const cv::Mat rows(static_cast<int>(tilts.rows().size() / tilts.samples()), samples, CV_32F,
-                           const_cast<float*>(tilts.rows().data()));
-        try {
-            OutputFile file(file_of(calibration.hash, ".exr"));
-            if (!cv::imwrite(file.path().string(), rows)) return;
-            file.commit();
-        } catch (const cv::Exception&) {
-            return;  // this OpenCV writes no EXR: nothing is kept
-        }
+        const std::size_t directions = tilts.rows().size() / tilts.samples();
+        write_text(file_of(calibration.hash, k_tilts_extension),
+                   encode_pfm(static_cast<int>(tilts.samples()), static_cast<int>(directions),
+                              tilts.rows()));
     }
     write_text(file_of(calibration.hash, ".json"), calibration_json(calibration));
 }

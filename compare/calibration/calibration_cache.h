@@ -15,7 +15,7 @@ struct KeptCalibration {
     TiltVariance tilts;  ///< what a photograph is held against for the score of the facets' tilts
 };
 
-/// A table (JSON) and a picture of numbers (EXR, one row a direction) for each hash. Whatever is
+/// A table (JSON) and a picture of numbers (PFM, one row a direction) for each hash. Whatever is
 /// wrong with the folder or a file in it, the calibration is made anew.
 class CalibrationCache {
 public:

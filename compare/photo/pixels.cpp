@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "render/colour/colour.h"
+#include "render/image/codecs/codecs.h"
 #include "stone/errors.h"
 #include "stone/quantile.h"
 
@@ -49,12 +49,9 @@ cv::Mat encoded(const cv::Mat& linear) {
 }
 
 std::string png_bytes(const cv::Mat& pixels) {
-    cv::Mat stored = pixels;
-    if (pixels.channels() == 3) cv::cvtColor(pixels, stored, cv::COLOR_RGB2BGR);
-    std::vector<unsigned char> bytes;
-    check(cv::imencode(".png", stored, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6}),
-          "a picture could not be packed as PNG");
-    return {bytes.begin(), bytes.end()};
+    const cv::Mat rows = pixels.isContinuous() ? pixels : pixels.clone();
+    return encode_png(rows.cols, rows.rows, rows.channels(),
+                      {rows.data, rows.total() * rows.elemSize()});
 }
 
 double between_pixels(const cv::Mat& plane, double x, double y) {

@@ -72,12 +72,13 @@ TEST_F(CalibrationCacheTest, DoesWithoutWhatIsBroken) {
         std::ofstream(folder_ / (std::string("calibration-c0ffee") + extension)) << text;
         EXPECT_FALSE(cache_.find("c0ffee").has_value()) << extension << " '" << text << "'";
     };
-    for (const char* text : {"", "no numbers", "P5 2 2 255\nabcd", "v/1\x01\x02"}) {
-        breaks(".exr", text);
+    for (const char* text :
+         {"", "no numbers", "P5 2 2 255\nabcd", "Pf\n3 2\n-1\nabcd", "v/1\x01\x02"}) {
+        breaks(".pfm", text);
         breaks(".json", text);
     }
     cache_.keep(calibration(), tilts_);
-    fs::remove(folder_ / "calibration-c0ffee.exr");
+    fs::remove(folder_ / "calibration-c0ffee.pfm");
     EXPECT_FALSE(cache_.find("c0ffee").has_value());
 }
 
