@@ -15,6 +15,7 @@
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "viewer/view_item.h"
+#include "viewer/engine_file.h"
 #include "viewer/viewer_page.h"
 
 namespace culet {
@@ -130,9 +131,9 @@ int run_view(const ViewOptions& options) {
                 quiet);
     }
     document.version = CULET_VERSION;
-    if (!has_viewer_engine())
-        say("this culet was built without the viewer's engine: the page shows a picture that does "
-            "not turn (docs/viewer.md)",
+    if (engine_for_pages().empty())
+        say("the page shows a picture that does not turn: culet found no share/culet/engine.wasm; "
+            "build it with `sh viewer/engine.sh`",
             quiet);
     write_text(options.out, viewer_page(document));
     if (options.out == "-") return exit_good;

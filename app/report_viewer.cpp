@@ -6,7 +6,6 @@
 namespace culet {
 
 std::string viewer_for_report(const ViewSource& source, const std::string& title) {
-    if (!has_viewer_engine()) return {};
     ViewDocument document;
     std::vector<std::string> notes;  // said when the scene was drawn
     try {

@@ -37,27 +37,65 @@ if(CULET_FUZZ)
   target_compile_definitions(culet_flags INTERFACE HWY_COMPILE_ONLY_STATIC)
 endif()
 
-# Code that a person waits for no longer than a blink: at -O1 it compiles in two thirds of the time.
+# Most code is compiled at -O1, in half of the time that -O3 takes: a person waits for it no longer than a blink.
+# What computes for longer is named in FAST of its room.
 add_library(culet_seldom_run INTERFACE)
 target_compile_options(culet_seldom_run INTERFACE $<$<CONFIG:Release>:-O1>)
 
-# Reading these takes longer than compiling most files. Each file still includes what it uses: the build with
-# sanitizers has no precompiled headers.
+# Reading these takes longer than compiling most files, so they are compiled once at each level of optimisation, for all
+# rooms. Each file still includes what it uses: the build with sanitizers has no precompiled headers. Of Eigen, Core
+# alone: a decomposition takes seconds in every unit that instantiates it (stone/dense_algebra.h).
 set(CULET_PRECOMPILED
   <algorithm> <array> <chrono> <cmath> <complex> <filesystem> <functional> <limits> <map> <memory> <numbers>
   <numeric> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
-  <fmt/format.h> <glm/geometric.hpp> <glm/matrix.hpp>)
+  <fmt/format.h> <glm/geometric.hpp> <glm/matrix.hpp> <nlohmann/json.hpp> <Eigen/Core>)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/headers.cpp CONTENT "")
+foreach(level seldom_run fast)
+  add_library(culet_headers_${level} OBJECT ${CMAKE_BINARY_DIR}/headers.cpp)
+  set_target_properties(culet_headers_${level} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(culet_headers_${level} PRIVATE culet_flags fmt::fmt glm::glm Eigen3::Eigen
+    nlohmann_json::nlohmann_json)
+  target_precompile_headers(culet_headers_${level} PRIVATE ${CULET_PRECOMPILED})
+endforeach()
+target_link_libraries(culet_headers_seldom_run PRIVATE culet_seldom_run)
 
+# culet_room(stone SOURCES a.cpp ... PUBLIC lower rooms ... PRIVATE heavy libraries ... FAST folders and files ...)
+# One library a room. PUBLIC shows only lower rooms and GLM; everything heavy stays PRIVATE. What FAST names is compiled
+# at -O3, the rest at -O1.
 function(culet_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
-  add_library(culet_${name} STATIC ${ROOM_SOURCES})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE;FAST" ${ARGN})
+  set(fast "")
+  foreach(part ${ROOM_FAST})
+    set(some ${ROOM_SOURCES})
+    list(FILTER some INCLUDE REGEX "^${part}(/|$)")
+    if(NOT some)
+      message(FATAL_ERROR "culet_room(${name}): FAST names ${part}, which is no folder or file of it")
+    endif()
+    list(APPEND fast ${some})
+  endforeach()
+  set(seldom ${ROOM_SOURCES})
+  list(REMOVE_ITEM seldom ${fast} "")
+  add_library(culet_${name} STATIC ${seldom})
   add_library(culet::${name} ALIAS culet_${name})
-  set_target_properties(culet_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(culet_${name} PROPERTIES EXPORT_NAME ${name} CULET_SOURCES "${ROOM_SOURCES}")
   target_compile_features(culet_${name} PUBLIC cxx_std_20)
   target_include_directories(culet_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/culet>)
   target_link_libraries(culet_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE}
-    $<BUILD_INTERFACE:culet_flags>)
-  target_precompile_headers(culet_${name} PRIVATE ${CULET_PRECOMPILED} ${ROOM_PRECOMPILED})
-  culet_unity(culet_${name})
+    $<BUILD_INTERFACE:culet_flags> $<BUILD_INTERFACE:culet_seldom_run>)
+  culet_compiled(culet_${name} seldom_run)
+  if(fast)
+    add_library(culet_${name}_fast OBJECT ${fast})
+    target_include_directories(culet_${name}_fast PRIVATE ${CMAKE_SOURCE_DIR})
+    target_link_libraries(culet_${name}_fast PRIVATE ${ROOM_PUBLIC} ${ROOM_PRIVATE} culet_flags)
+    culet_compiled(culet_${name}_fast fast)
+    target_sources(culet_${name} PRIVATE $<TARGET_OBJECTS:culet_${name}_fast>)
+  endif()
+endfunction()
+
+# culet_compiled(target seldom_run|fast): with the precompiled headers of that level, several files at a time.
+function(culet_compiled target level)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_precompile_headers(${target} REUSE_FROM culet_headers_${level})
+  culet_unity(${target})
 endfunction()

@@ -4,7 +4,7 @@
 # sanitizers, `sh tests/run.sh contract` runs the hard cases with fused multiplications and additions.
 set -eu
 cd "$(dirname "$0")/.."
-sh .ci/install-packages.sh .ci/packages.txt .ci/packages-python.txt .ci/packages-test.txt
+sh .ci/install-packages.sh .ci/packages.txt .ci/packages-engine.txt .ci/packages-python.txt .ci/packages-test.txt
 case ${1:-test} in
     test | asan | contract) ;;
     *) echo "usage: sh tests/run.sh [asan | contract]" >&2; exit 2 ;;

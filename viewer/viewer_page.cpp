@@ -2,6 +2,7 @@
 
 #include "page/html.h"
 #include "stone/errors.h"
+#include "viewer/engine_file.h"
 #include "viewer/templates.h"
 
 namespace culet {
@@ -10,7 +11,6 @@ namespace embedded {
 extern const char* const viewer_css;
 extern const char* const viewer_js;
 extern const char* const worker_js;
-extern const char* const viewer_engine;  // gzip, in base64
 }  // namespace embedded
 
 std::string viewer_page(const ViewDocument& document) {
@@ -22,12 +22,8 @@ std::string viewer_page(const ViewDocument& document) {
                                       {"viewer_css", embedded::viewer_css},
                                       {"viewer_js", embedded::viewer_js},
                                       {"worker_js", embedded::worker_js},
-                                      {"engine", embedded::viewer_engine},
+                                      {"engine", engine_for_pages()},
                                       {"document_json", json_for_script(document_json(document))}});
-}
-
-bool has_viewer_engine() {
-    return *embedded::viewer_engine != '\0';
 }
 
 }  // namespace culet

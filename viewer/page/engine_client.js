@@ -19,7 +19,8 @@ class EngineClient {
     if (typeof WebAssembly !== "object")
       return "This browser has no WebAssembly, so the stone cannot be turned here: the picture is what culet drew.";
     if (!EngineClient.text_of("culet-engine")) {
-      return "This page was made without culet\u2019s engine: the picture is what culet drew.";
+      return "The stone does not turn here, because culet had no engine to put into this page. Run " +
+        "\u201csh viewer/engine.sh\u201d in culet\u2019s source folder, then make the page again.";
     }
     if (typeof DecompressionStream !== "function")
       return "This browser is too old to unpack culet\u2019s engine: the picture is what culet drew.";
