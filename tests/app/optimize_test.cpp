@@ -54,7 +54,7 @@ TEST_F(OptimizeCommand, RefusesInOneLine) {
         EXPECT_FALSE(std::filesystem::exists(file("x.asc")));
     };
     refused({"--index", "1.5", "-o", file("x.obj")}, ".asc");
-    refused({"-o", file("x.asc")}, "names no material");
+    refused({"-o", file("x.asc")}, "--material");
     refused({"--index", "0.9", "-o", file("x.asc")}, "above 1");
     refused({"--index", "1.5", "--objective", "glitter", "-o", file("x.asc")}, "--objective");
     refused({"--index", "1.5", "--objective", "fire", "-o", file("x.asc")}, "dispersion");

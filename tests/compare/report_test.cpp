@@ -174,10 +174,10 @@ TEST(Report, BeginsWithTheVerdictsThenWhatToLookAtThenThePicture) {
     Report report = full_report();
     expect_order(
         report_page(report),
-        {"class=\"verdict", "One reading contradicts the others", "<section id=\"look\"",
-         "<section id=\"pictures\"", "<section id=\"scores\" class=\"folded\"",
-         "<section id=\"drawing\" class=\"folded\"", "<section id=\"fit\"",
-         "<section id=\"plan\" class=\"folded\"", "<section id=\"provenance\" class=\"folded\""});
+        {"class=\"verdict", "<section id=\"look\"", "<section id=\"pictures\"",
+         "<section id=\"scores\" class=\"folded\"", "<section id=\"drawing\" class=\"folded\"",
+         "<section id=\"fit\"", "<section id=\"plan\" class=\"folded\"",
+         "<section id=\"provenance\" class=\"folded\""});
     report.comparison.reset();
     report.scores_json.clear();
     expect_order(report_page(report),

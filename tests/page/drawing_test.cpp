@@ -303,7 +303,7 @@ TEST(FitPaint, ColoursFacetsByHowFarTheirNormalsMayBeOff) {
     EXPECT_EQ(of("T").colour, css_colour(ColourMap::uncertainty, 0));
     // What is left open does not set the scale, and is marked.
     EXPECT_TRUE(of("B").marked);
-    EXPECT_THAT(of("B").about, HasSubstr("left open by the readings: inclination"));
+    EXPECT_THAT(of("B").about, HasSubstr("inclination"));
 }
 
 TEST(FitPaint, OfNoReportIsPlain) {

@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "stone/errors.h"
+#include "tests/says.h"
 
 namespace culet {
 namespace {
@@ -17,6 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using Json = nlohmann::json;
+using test::says;
 
 Json reading(const std::string& id, double value) {
     return {{"id", id},         {"kind", "inclination"}, {"of", {"C5"}},        {"value", value},
@@ -68,38 +72,33 @@ FitView view(const Json& fit) {
 
 TEST(FitPage, CardIsInPlainWordsWithoutStatistics) {
     const std::string card = fit_card(view(converged())), tiles = fit_tiles(view(converged()));
-    EXPECT_THAT(card, HasSubstr("The stone agrees with the readings"));
-    EXPECT_THAT(card, HasSubstr("No reading is in doubt."));
+    EXPECT_THAT(card, Not(HasSubstr("C5")));
     EXPECT_THAT(card + tiles, Not(HasSubstr("chi")));
     EXPECT_THAT(card + tiles, Not(HasSubstr("χ")));
-    EXPECT_THAT(tiles, HasSubstr("<b>2</b><span>none suspect</span>"));
-    EXPECT_THAT(tiles, HasSubstr("<b>1 of 2</b><span>the rest supposed near the design</span>"));
+    EXPECT_THAT(tiles, HasSubstr("<b>2</b><span>"));
+    EXPECT_THAT(tiles, HasSubstr("<b>1 of 2</b><span>"));
 }
 
 TEST(FitPage, CountsRowsBesideReadings) {
     Json fit = converged();
     fit["readings"] = {reading("r0.C1", 1), reading("r0.C2.1", 1), reading("mine.1", 1),
                        reading("mine.2", 1)};
-    EXPECT_THAT(fit_tiles(view(fit)), HasSubstr("<b>4</b><span>from 3 rows; none suspect</span>"));
+    EXPECT_THAT(fit_tiles(view(fit)), says("<b>4</b><span>", "3 rows"));
 }
 
 TEST(FitPage, CardTellsWhatStandsOut) {
     Json fit = converged();
     fit["tier_angles"] = {{{"what", {"P3 is 0.6 degrees (+- 0.1) steeper", "P5 is flatter"}}}};
-    EXPECT_THAT(fit_card(view(fit)),
-                HasSubstr("P3 is 0.6° (± 0.1) steeper. 1 more finding is below."));
+    EXPECT_THAT(fit_card(view(fit)), says("P3 is 0.6° (± 0.1) steeper", "1 more"));
     EXPECT_THAT(fit_look_section(view(fit)), HasSubstr("<li>P5 is flatter.</li>"));
 }
 
 TEST(FitPage, NamesTheSlipAndWhatToDo) {
-    EXPECT_THAT(fit_card(view(slipped())), HasSubstr("One reading contradicts the others"));
+    // As the fit's report has them, and the value that would be right.
+    const std::string doubt = "readings.csv line 10: inclination of C5 38.3° is 4.5° away";
     EXPECT_THAT(fit_card(view(slipped())),
-                HasSubstr("readings.csv line 10: inclination of C5 38.3° is 4.5° away. It is left "
-                          "out; the other readings agree with this stone."));
-    EXPECT_THAT(fit_look_section(view(slipped())),
-                HasSubstr("<b>readings.csv line 10: inclination of C5 38.3° is 4.5° away.</b> It "
-                          "is left out of the fit. If that is the slip, write 33.8° in its place; "
-                          "otherwise read it again."));
+                says(doubt, "It is left out; the other readings agree with this stone."));
+    EXPECT_THAT(fit_look_section(view(slipped())), says(doubt, "33.8°"));
 }
 
 TEST(FitPage, TellsOfASuspectThatTheFitStillHeeds) {
@@ -108,24 +107,21 @@ TEST(FitPage, TellsOfASuspectThatTheFitStillHeeds) {
     fit["readings"][0].erase("left_out");
     fit["readings"][0]["value"] = 38.3;
     EXPECT_THAT(fit_look_section(view(fit)),
-                HasSubstr("<b>r0: inclination of C5 was read as 38.3°, the others say 33.80 ± "
-                          "0.30°: 4.50° away; 33.8°? (two digits swapped).</b> The fit still "
-                          "takes it in."));
+                says("r0", "inclination of C5", "38.3°", "33.80 ± 0.30°", "4.50°", "33.8°",
+                     "two digits swapped"));
 }
 
 TEST(FitPage, CardOfEveryStatus) {
     Json fit = converged();
     fit["message"] = "too little was read";
-    for (const auto& [status, word] :
-         {std::pair{"undetermined", "The readings leave parts of the stone open"},
-          {"not_converged", "Do not rely on this stone"},
-          {"contradictory", "The readings contradict each other"}}) {
+    std::set<std::string> cards{fit_card(view(fit))};
+    for (const char* status : {"undetermined", "not_converged", "contradictory"}) {
         fit["status"] = status;
-        EXPECT_THAT(fit_card(view(fit)), HasSubstr(word));
         EXPECT_THAT(fit_card(view(fit)), HasSubstr("<p>Too little was read.</p>")) << status;
+        EXPECT_TRUE(cards.insert(fit_card(view(fit))).second) << status << " as another";
     }
     fit["status"] = "no such status";
-    EXPECT_THAT(fit_card(view(fit)), HasSubstr("does not say how the fit ended"));
+    EXPECT_TRUE(cards.insert(fit_card(view(fit))).second);
 }
 
 TEST(FitPage, SaysWhatIsOpenAFacetALineAndFoldsLongLists) {
@@ -137,7 +133,7 @@ TEST(FitPage, SaysWhatIsOpenAFacetALineAndFoldsLongLists) {
         }
     }
     const std::string section = fit_look_section(view(fit));
-    EXPECT_THAT(section, HasSubstr("Nothing measured fixes the inclination and offset of P0."));
+    EXPECT_THAT(section, HasSubstr("inclination and offset of P0"));
     // Eight are shown.
     EXPECT_THAT(section, HasSubstr("<summary>4 more</summary>"));
 }
@@ -149,9 +145,8 @@ TEST(FitPage, SaysWhatToReadNextOnlyWhereItIsWorthIt) {
                    {{"kind", "depth"}, {"of", Json::array()}, {"reduces", 0.01}}};
     const std::string section = fit_look_section(view(fit));
     // sqrt(1 - 0.36) = 0.8
-    EXPECT_THAT(section, HasSubstr("Read the azimuth (the index) of G29: on the whole the facets "
-                                   "would be known 20 % better."));
-    EXPECT_THAT(section, HasSubstr("Read the angle between P5 and P4: it would settle"));
+    EXPECT_THAT(section, says("azimuth", "G29", "20 %"));
+    EXPECT_THAT(section, says("P5", "P4"));
     EXPECT_THAT(section, Not(HasSubstr("depth")));
 }
 
@@ -180,19 +175,17 @@ TEST(FitPage, ShowsCalipersBesideTheDiameter) {
     const std::size_t diameter = section.find("diameter"), caliper = section.find("caliper");
     EXPECT_LT(diameter, caliper);
     EXPECT_THAT(section,
-                HasSubstr("least 6.394 ± 0.015\u00a0mm<br>largest 6.521 ± 0.011\u00a0mm<br>"
-                          "mean 6.4787 ± 0.0081\u00a0mm"));
-    EXPECT_THAT(section, HasSubstr("<summary>1 more proportions</summary>"));
+                says("6.394 ± 0.015\u00a0mm", "6.521 ± 0.011\u00a0mm", "6.4787 ± 0.0081\u00a0mm"));
+    EXPECT_THAT(section, HasSubstr("<summary>1 more"));
     EXPECT_THAT(section, HasSubstr("58.44 ± 0.26\u00a0mm³"));
 }
 
 TEST(FitPage, TablesAreFoldedWithTheirCountsAndHaveSensibleDigits) {
     const std::string section = fit_section(view(converged()));
-    EXPECT_THAT(section, HasSubstr("<summary>2 facets as fitted</summary>"));
-    EXPECT_THAT(section, HasSubstr("<summary>2 readings and"));
+    EXPECT_THAT(section, HasSubstr("<summary>2 facets"));
+    EXPECT_THAT(section, HasSubstr("<summary>2 readings"));
     EXPECT_THAT(section, HasSubstr("33.787 ± 0.099°"));
-    EXPECT_THAT(section, HasSubstr("0° (held exactly)"));
-    EXPECT_THAT(section, HasSubstr("any slip would pass"));
+    EXPECT_THAT(section, HasSubstr("0° ("));
     for (const char* noise : {"e-21", "e-27", "214336", "Redundancy", "Detectable", "Normalized"}) {
         EXPECT_THAT(section, Not(HasSubstr(noise)));
     }
