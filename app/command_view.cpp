@@ -14,8 +14,8 @@
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
-#include "viewer/view_item.h"
 #include "viewer/engine_file.h"
+#include "viewer/view_item.h"
 #include "viewer/viewer_page.h"
 
 namespace culet {

@@ -337,7 +337,9 @@ TEST(Codecs, ReadTiffsOfEveryArrangement) {
                 kind.packing = packing;
                 kind.planes = false;
                 const std::string bytes = written_tiff(45, 37, kind, 15);
-                fprintf(stderr,"K %d %d c%d t%d p%d\n",kind.bits,kind.samples,kind.colours,int(tiles),packing); const DecodedPixels ours = decode_tiff(bytes, "a.tiff");
+                fprintf(stderr, "K %d %d c%d t%d p%d\n", kind.bits, kind.samples, kind.colours,
+                        int(tiles), packing);
+                const DecodedPixels ours = decode_tiff(bytes, "a.tiff");
                 EXPECT_EQ(difference(ours, decoded_by_opencv(bytes)), 0);
                 kind.planes = true;
                 EXPECT_EQ(
