@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "stone/errors.h"
+#include "tests/scratch_folder.h"
 
 namespace {
 
@@ -226,7 +227,8 @@ struct TiffKind {
 
 // A file that libtiff writes, of noise.
 std::string written_tiff(int width, int height, const TiffKind& kind, unsigned seed) {
-    const std::string file = testing::TempDir() + "culet_codecs.tiff";
+    const test::ScratchFolder scratch;  // tests run beside each other
+    const std::string file = (scratch.path() / "a.tiff").string();
     TIFF* tiff = TIFFOpen(file.c_str(), "w");
     TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
     TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
@@ -337,11 +339,14 @@ TEST(Codecs, ReadTiffsOfEveryArrangement) {
                 kind.packing = packing;
                 kind.planes = false;
                 const std::string bytes = written_tiff(45, 37, kind, 15);
-                fprintf(stderr, "K %d %d c%d t%d p%d\n", kind.bits, kind.samples, kind.colours,
-                        int(tiles), packing);
                 const DecodedPixels ours = decode_tiff(bytes, "a.tiff");
                 EXPECT_EQ(difference(ours, decoded_by_opencv(bytes)), 0);
                 kind.planes = true;
+                if (tiles && kind.bits == 8 && kind.samples == 4) {
+                    // libtiff 4.5 itself cannot read tiles of separate planes with alpha: refused.
+                    EXPECT_THROW(decode_tiff(written_tiff(45, 37, kind, 15), "a.tiff"), InputError);
+                    continue;
+                }
                 EXPECT_EQ(
                     difference_of(decode_tiff(written_tiff(45, 37, kind, 15), "a.tiff"), ours), 0);
             }

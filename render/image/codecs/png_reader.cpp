@@ -81,10 +81,9 @@ bool read_png_rows(PngInput& input, png_bytepp rows) {
 InputError png_refusal(const PngInput& input, const std::filesystem::path& file) {
     const std::string what = input.complaint.data();
     if (input.cut_off) return {file, "is a PNG that is cut off"};
-    if (what.find("CRC error") != std::string::npos)
-        return {file, "is a PNG with a damaged part (its checksum is wrong)"};
-    return {file, fmt::format("is a broken or unusual PNG ({}): save it again with another program",
-                              what)};
+    return {
+        file,
+        fmt::format("is a damaged or unusual PNG ({}): save it again with another program", what)};
 }
 
 template <class Sample>
