@@ -55,6 +55,17 @@ toff_t tiff_size(thandle_t handle) {
     return static_cast<TiffInput*>(handle)->bytes->size();
 }
 
+// The file as it lies in memory, which the library only reads. Without it libtiff 4.5 refuses
+// uncompressed tiles whose bytes are no multiple of 1024 (it compares them with its buffer's size).
+int map_tiff(thandle_t handle, void** base, toff_t* size) {
+    const auto* input = static_cast<TiffInput*>(handle);
+    *base = const_cast<char*>(input->bytes->data());
+    *size = input->bytes->size();
+    return 1;
+}
+
+void unmap_tiff(thandle_t, void*, toff_t) {}
+
 int keep_tiff_complaint(TIFF*, void* kept, const char*, const char* format, va_list values) {
     auto* input = static_cast<TiffInput*>(kept);
     if (input->complaint[0] == '\0')
@@ -74,9 +85,8 @@ OpenTiff opened_tiff(TiffInput& input) {
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, k_most_tiff_memory);
     TIFFOpenOptionsSetErrorHandlerExtR(options, keep_tiff_complaint, &input);
     TIFFOpenOptionsSetWarningHandlerExtR(options, ignore_tiff_warning, &input);
-    // "m": read by the functions above, not as memory.
-    TIFF* tiff = TIFFClientOpenExt("TIFF", "rm", &input, give_tiff_bytes, take_no_tiff_bytes,
-                                   seek_tiff, close_tiff, tiff_size, nullptr, nullptr, options);
+    TIFF* tiff = TIFFClientOpenExt("TIFF", "r", &input, give_tiff_bytes, take_no_tiff_bytes,
+                                   seek_tiff, close_tiff, tiff_size, map_tiff, unmap_tiff, options);
     TIFFOpenOptionsFree(options);
     return {tiff, TIFFClose};
 }
