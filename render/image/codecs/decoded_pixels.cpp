@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
+#include <utility>
 
 #include "render/image/codecs/codecs.h"
 #include "stone/errors.h"
@@ -23,6 +23,31 @@ std::size_t stored_place(int orientation, std::size_t x, std::size_t y, std::siz
     if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
         row = stored_height - 1 - row;
     return row * stored_width + column;
+}
+
+// In strips of columns, which stay in the processor's cache: rows of the result are columns of the
+// stored picture.
+template <std::size_t k_channels, class Sample>
+std::vector<Sample> turned_samples(const std::vector<Sample>& from, int orientation,
+                                   std::size_t width, std::size_t height) {
+    const bool transposed = orientation >= 5;
+    const std::size_t stored_width = transposed ? height : width,
+                      stored_height = transposed ? width : height;
+    std::vector<Sample> to(from.size());
+    constexpr std::size_t k_strip = 32;
+    for (std::size_t left = 0; left < width; left += k_strip) {
+        const std::size_t right = std::min(left + k_strip, width);
+        for (std::size_t y = 0; y < height; ++y) {
+            Sample* next = to.data() + (y * width + left) * k_channels;
+            for (std::size_t x = left; x < right; ++x, next += k_channels) {
+                const Sample* pixel =
+                    from.data() +
+                    stored_place(orientation, x, y, stored_width, stored_height) * k_channels;
+                for (std::size_t c = 0; c < k_channels; ++c) next[c] = pixel[c];
+            }
+        }
+    }
+    return to;
 }
 
 }  // namespace
@@ -50,22 +75,13 @@ DecodedPixels turned_upright(DecodedPixels stored, int orientation) {
     DecodedPixels result{stored.width, stored.height, stored.channels, {}};
     if (orientation >= 5) std::swap(result.width, result.height);
     const auto width = static_cast<std::size_t>(result.width),
-               height = static_cast<std::size_t>(result.height),
-               channels = static_cast<std::size_t>(result.channels);
+               height = static_cast<std::size_t>(result.height);
     std::visit(
         [&](const auto& from) {
-            std::decay_t<decltype(from)> to(from.size());
-            auto next = to.begin();
-            for (std::size_t y = 0; y < height; ++y) {
-                for (std::size_t x = 0; x < width; ++x) {
-                    const std::size_t place =
-                        stored_place(orientation, x, y, static_cast<std::size_t>(stored.width),
-                                     static_cast<std::size_t>(stored.height));
-                    next = std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(place * channels),
-                                       channels, next);
-                }
-            }
-            result.samples = std::move(to);
+            result.samples =
+                stored.channels == 1   ? turned_samples<1>(from, orientation, width, height)
+                : stored.channels == 3 ? turned_samples<3>(from, orientation, width, height)
+                                       : turned_samples<4>(from, orientation, width, height);
         },
         stored.samples);
     return result;
