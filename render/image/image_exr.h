@@ -1,5 +1,5 @@
 #pragma once
-// OpenEXR files, which OpenCV reads without names of channels.
+// OpenEXR files.
 
 #include <array>
 #include <filesystem>
