@@ -50,14 +50,17 @@ set(CULET_PRECOMPILED
   <numeric> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
   <fmt/format.h> <glm/geometric.hpp> <glm/matrix.hpp> <nlohmann/json.hpp> <Eigen/Core>)
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/headers.cpp CONTENT "")
-foreach(level seldom_run fast)
-  add_library(culet_headers_${level} OBJECT ${CMAKE_BINARY_DIR}/headers.cpp)
-  set_target_properties(culet_headers_${level} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_link_libraries(culet_headers_${level} PRIVATE culet_flags fmt::fmt glm::glm Eigen3::Eigen
+# culet_headers(name LINK further libraries ... FIRST further headers ...)
+function(culet_headers name)
+  cmake_parse_arguments(HEADERS "" "" "LINK;FIRST" ${ARGN})
+  add_library(culet_headers_${name} OBJECT ${CMAKE_BINARY_DIR}/headers.cpp)
+  target_link_libraries(culet_headers_${name} PRIVATE culet_flags ${HEADERS_LINK} fmt::fmt glm::glm Eigen3::Eigen
     nlohmann_json::nlohmann_json)
-  target_precompile_headers(culet_headers_${level} PRIVATE ${CULET_PRECOMPILED})
-endforeach()
-target_link_libraries(culet_headers_seldom_run PRIVATE culet_seldom_run)
+  target_precompile_headers(culet_headers_${name} PRIVATE ${HEADERS_FIRST} ${CULET_PRECOMPILED})
+endfunction()
+culet_headers(fast)
+culet_headers(seldom_run LINK culet_seldom_run)
+set_target_properties(culet_headers_fast culet_headers_seldom_run PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
 # culet_room(stone SOURCES a.cpp ... PUBLIC lower rooms ... PRIVATE heavy libraries ... FAST folders and files ...)
 # One library a room. PUBLIC shows only lower rooms and GLM; everything heavy stays PRIVATE. What FAST names is compiled
