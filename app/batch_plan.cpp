@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
 

@@ -18,6 +18,7 @@
 #include "stone/export/export_frame.h"
 #include "stone/export/gltf_write.h"
 #include "stone/export/step.h"
+#include "stone/file_kind.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"

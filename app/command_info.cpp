@@ -10,6 +10,7 @@
 #include "app/readings_form.h"
 #include "app/terminal.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
 #include "stone/stone_io.h"

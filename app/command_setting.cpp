@@ -12,6 +12,7 @@
 #include "render/scene/stone_scene.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/mesh_io.h"
 #include "stone/name_suggestions.h"
 #include "stone/output_file.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/solid_input.h"
 
 namespace culet {

@@ -11,6 +11,7 @@
 #include "page/material_page.h"
 #include "render/colour/material_colour.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/material.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 
 // Every setting by its engine; the front as a line, the automatic settings as another.
-Chart time_chart(const Json& study) {
+Chart picture_time_chart(const Json& study) {
     Chart chart;
     chart.title = "What accuracy costs in time";
     chart.about =
@@ -72,7 +72,7 @@ Chart time_chart(const Json& study) {
 }  // namespace
 
 std::string scene_study_chart(const std::string& study_json) {
-    return draw_chart_svg(time_chart(parsed_study<Json>(study_json)));
+    return draw_chart_svg(picture_time_chart(parsed_study<Json>(study_json)));
 }
 
 std::string scene_study_table(const std::string& study_json) {

@@ -25,7 +25,7 @@ std::string pixels(const Json& sides) {
                : std::string("–");
 }
 
-std::vector<View> texts_at(const Json& object, const char* key) {
+std::vector<View> shown_texts_at(const Json& object, const char* key) {
     std::vector<View> texts;
     for (const Json& one : array_at(object, key)) {
         if (one.is_string()) texts.push_back(one.get<std::string>());
@@ -120,7 +120,7 @@ View settings_of(const Json& study) {
     for (const Json& row : array_at(study, "settings")) rows.push_back(setting_row(row));
     if (rows.empty()) return false;
     const Json noise = object_at(object_at(study, "reference"), "noise");
-    const std::vector<View> left = texts_at(study, "left_out");
+    const std::vector<View> left = shown_texts_at(study, "left_out");
     return {{"rows", rows},
             {"noise_rmse", significant(number_at(noise, "rmse"), 2)},
             {"noise_psnr", decimals(number_at(noise, "psnr"), 1)},
@@ -129,7 +129,7 @@ View settings_of(const Json& study) {
             {"some_left", !left.empty()},
             {"left_count", std::to_string(array_at(study, "left_out").size())},
             {"left", left},
-            {"notes", texts_at(study, "notes")}};
+            {"notes", shown_texts_at(study, "notes")}};
 }
 
 const char* on_or_off(const Json& effect) {

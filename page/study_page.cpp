@@ -62,7 +62,7 @@ std::vector<std::string> sweeps_of(const Json& study) {
     return sweeps;
 }
 
-Chart time_chart(const Json& study) {
+Chart fit_time_chart(const Json& study) {
     Chart chart;
     chart.title = "What accuracy costs in time";
     chart.about =
@@ -147,7 +147,7 @@ View time_of(const Json& study) {
     for (const Json& left : array_at(study, "left_out")) {
         if (left.is_string()) left_out += (left_out.empty() ? "" : ", ") + left.get<std::string>();
     }
-    return {{"chart_html", chart_figure(draw_chart_svg(time_chart(study)))},
+    return {{"chart_html", chart_figure(draw_chart_svg(fit_time_chart(study)))},
             {"tall", is_tall(rows)},
             {"rows", rows},
             {"left_out", left_out}};
@@ -229,7 +229,7 @@ std::string study_table(const std::string& study_json) {
 }
 
 std::string study_time_chart(const std::string& study_json) {
-    return draw_chart_svg(time_chart(parsed_study<Json>(study_json)));
+    return draw_chart_svg(fit_time_chart(parsed_study<Json>(study_json)));
 }
 
 std::string study_limit_chart(const std::string& study_json) {

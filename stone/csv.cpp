@@ -6,20 +6,16 @@
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/text_scan.h"
 #include "stone/written_number.h"
 
 namespace culet {
 
 namespace {
 
-std::string in_small_letters(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 // The lines before the header: blank, comments, and the `sep=;` that Excel understands.
 bool precedes_the_header(std::string_view line) {
-    const std::string plain = in_small_letters(without_blanks(line));
+    const std::string plain = lower_case(without_blanks(line));
     const std::size_t start = plain.find_first_not_of("\";,\t ");
     return start == std::string::npos || plain[start] == '#' || plain.starts_with("sep=");
 }
@@ -105,7 +101,7 @@ private:
     void end_row() {
         end_field();
         const bool comment = row_.fields[0].starts_with('#');
-        if (!comment && !row_.is_blank() && !in_small_letters(row_.fields[0]).starts_with("sep=")) {
+        if (!comment && !row_.is_blank() && !lower_case(row_.fields[0]).starts_with("sep=")) {
             rows_.push_back(row_);
         }
         row_.fields.clear();

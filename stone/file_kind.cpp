@@ -1,6 +1,7 @@
 #include "stone/file_kind.h"
 
 #include "stone/solid_input.h"
+#include "stone/text_scan.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -22,6 +23,12 @@ FileKind kind_of_toml(const std::filesystem::path& file,
 }
 
 }  // namespace
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    return lower_case(extension);
+}
 
 FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     if (is_solid_file(file)) return FileKind::solid;

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/mesh_formats.h"
 #include "stone/output_file.h"
 
@@ -15,12 +16,6 @@ namespace culet {
 namespace {
 
 constexpr std::string_view k_design = "culet design ";
-
-std::string small_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
 
 MeshFormat format_to_write(const std::filesystem::path& file) {
     const auto format = mesh_format(file);
@@ -33,11 +28,11 @@ MeshFormat format_to_write(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& file) {
-    const std::string extension = small_extension(file);
-    if (extension == ".obj") return MeshFormat::obj;
-    if (extension == ".off") return MeshFormat::off;
-    if (extension == ".ply") return MeshFormat::ply;
-    if (extension == ".stl") return MeshFormat::stl;
+    const std::string extension = extension_of(file);
+    if (extension == "obj") return MeshFormat::obj;
+    if (extension == "off") return MeshFormat::off;
+    if (extension == "ply") return MeshFormat::ply;
+    if (extension == "stl") return MeshFormat::stl;
     return std::nullopt;
 }
 
@@ -98,8 +93,8 @@ void write_design(const Solid& solid, const std::string& design,
 }
 
 std::optional<std::string> design_of(const std::filesystem::path& file) {
-    const std::string extension = small_extension(file);
-    if (extension == ".asc" || extension == ".gem") return "GemCad";
+    const std::string extension = extension_of(file);
+    if (extension == "asc" || extension == "gem") return "GemCad";
     std::ifstream stream(file);
     constexpr int k_first_lines = 5;
     std::string line;

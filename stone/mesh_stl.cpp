@@ -11,6 +11,7 @@
 
 #include "stone/errors.h"
 #include "stone/mesh_formats.h"
+#include "stone/text_scan.h"
 
 namespace culet {
 
@@ -92,12 +93,7 @@ private:
         return true;
     }
 
-    bool is(std::string_view keyword) const {
-        return std::equal(
-            word_.begin(), word_.end(), keyword.begin(), keyword.end(), [](char a, char b) {
-                return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
-            });
-    }
+    bool is(std::string_view keyword) const { return lower_case(std::string(word_)) == keyword; }
 
     [[noreturn]] void fail(std::string_view expected) const {
         throw InputError(file_, lines_.line(),
@@ -167,9 +163,8 @@ private:
 bool looks_like_text(std::string_view bytes) {
     const std::string_view start = trimmed(bytes.substr(0, 1024));
     if (start.size() < 5) return false;
-    std::string word(start.substr(0, 5));
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return word == "solid" && start.find('\0') == std::string_view::npos;
+    return lower_case(std::string(start.substr(0, 5))) == "solid" &&
+           start.find('\0') == std::string_view::npos;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ std::string plain(std::string_view text) {
     return result;
 }
 
-std::vector<std::string> words_of(const std::string& plain_text) {
+std::vector<std::string> plain_words(const std::string& plain_text) {
     std::vector<std::string> words(1);
     for (const char c : plain_text) {
         if (c == ' ') {
@@ -45,7 +45,7 @@ std::vector<std::string> words_of(const std::string& plain_text) {
 
 bool holds_words(std::string_view text, std::string_view words) {
     const std::string held = plain(text);
-    const std::vector<std::string> wanted = words_of(plain(words));
+    const std::vector<std::string> wanted = plain_words(plain(words));
     return std::all_of(wanted.begin(), wanted.end(), [&held](const std::string& word) {
         return held.find(word) != std::string::npos;
     });
@@ -69,7 +69,7 @@ std::vector<std::string> names_like(std::string_view word, const std::vector<std
     for (const std::string& name : known) {
         const std::string whole = plain(name);
         std::size_t distance = edit_distance(wanted, whole);
-        for (const std::string& part : words_of(whole)) {
+        for (const std::string& part : plain_words(whole)) {
             if (part.size() > 3) distance = std::min(distance, edit_distance(wanted, part));
         }
         if (distance > least || (distance == least && found.empty())) continue;

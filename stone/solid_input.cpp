@@ -3,16 +3,10 @@
 #include <cctype>
 
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/mesh_io.h"
 
 namespace culet {
-
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
 
 bool is_solid_file(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);

@@ -26,7 +26,4 @@ bool is_solid_file(const std::filesystem::path& file);
 /// Throws InputError for an extension that it does not know, naming those that it does.
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
 
-/// The extension without its point, in small letters.
-std::string extension_of(const std::filesystem::path& file);
-
 }  // namespace culet

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/gemcad_io.h"
 #include "stone/mesh_io.h"
 
@@ -29,13 +30,6 @@ double azimuth(const Vec3& normal) {
 }
 
 namespace {
-
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 // Areas go with the fourth power before a root is taken, and edges may be 1e-13 of the whole: what
 // is larger or smaller runs out of a double's exponents, and is no unit that a stone is measured
@@ -63,8 +57,8 @@ void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
 SolidFile read_solid(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     SolidFile read;
-    if (extension == ".asc" || extension == ".gem") {
-        ReadCut cut = extension == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
+    if (extension == "asc" || extension == "gem") {
+        ReadCut cut = extension == "asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
         read = {std::move(cut.solid), std::move(cut.notes), std::move(cut.details), true};
     } else if (mesh_format(file)) {
         ReadSolid mesh = read_mesh(file);
@@ -79,7 +73,7 @@ SolidFile read_solid(const std::filesystem::path& file) {
 }
 
 void require_solid_name(const std::filesystem::path& file) {
-    if (extension_of(file) != ".asc" && !mesh_format(file)) {
+    if (extension_of(file) != "asc" && !mesh_format(file)) {
         throw InputError(file,
                          "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
     }

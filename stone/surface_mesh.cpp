@@ -9,6 +9,7 @@
 
 #include "stone/errors.h"
 #include "stone/facet_triangles.h"
+#include "stone/file_kind.h"
 #include "stone/mesh_formats.h"
 #include "stone/output_file.h"
 
@@ -41,9 +42,7 @@ Vec3 area_vector(const TriangleMesh& mesh, const std::array<int, 3>& t) {
 }  // namespace
 
 bool is_gltf(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension == ".gltf" || extension == ".glb";
+    return extension_of(file) == "gltf" || extension_of(file) == "glb";
 }
 
 TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {

@@ -36,6 +36,11 @@ std::string_view trimmed(std::string_view line) {
     return line.substr(start, line.find_last_not_of(blanks) - start + 1);
 }
 
+std::string lower_case(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
 std::string shown(std::string_view word) {
     std::string text(word.substr(0, 40));
     for (char& c : text) {

@@ -31,6 +31,9 @@ std::vector<std::string_view> words_of(std::string_view line);
 /// `line` without blanks at both ends.
 std::string_view trimmed(std::string_view line);
 
+/// ASCII letters as small ones.
+std::string lower_case(std::string text);
+
 /// As it may be shown to people: at most 40 characters, control characters as `?`.
 std::string shown(std::string_view word);
 

@@ -145,8 +145,7 @@ WrittenNumber written_number(std::string_view written, bool comma_separates) {
         number.unit = {Of::teeth, *count, rest};
         return number;
     }
-    std::string word = rest;
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string word = lower_case(rest);
     for (const UnitWord& unit : k_units) {
         if (word != unit.word) continue;
         number.unit = {unit.of, unit.factor, rest};

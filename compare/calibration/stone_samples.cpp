@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_margin = 0.05;  // around the stone, of the diameter
+constexpr double k_sample_margin = 0.05;  // around the stone, of the diameter
 constexpr double k_nuisance_step = k_moved_by_unit / 2;
 
 }  // namespace
@@ -37,7 +37,8 @@ cv::Mat inside_of(const Photo& sketch) {
 
 Scene sampled_scene(const Scene& model) {
     Scene sampled = model;
-    sampled.camera = cropped_to_stone(model.camera, model.stone.solid, k_samples_across, k_margin);
+    sampled.camera =
+        cropped_to_stone(model.camera, model.stone.solid, k_samples_across, k_sample_margin);
     return sampled;
 }
 

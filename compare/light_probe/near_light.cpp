@@ -215,7 +215,7 @@ double share_of_extents(const Window& window, const Vec3& normal, const EdgeSigh
                     std::abs(glm::dot(at, window.v)) / glm::dot(window.v, window.v));
 }
 
-NearLight from_ruler(const std::vector<BallPlace>& places, const Window& window, int number,
+NearLight from_ruler(const std::vector<BallPlace>& places, const Window& window, int window_number,
                      Shown& shown) {
     NearLight light;
     light.window = window;
@@ -255,7 +255,7 @@ NearLight from_ruler(const std::vector<BallPlace>& places, const Window& window,
                 throw InputError(fmt::format(
                     "--near-window: no pixel of the ball shows window {}: check its frame (x to "
                     "azimuth 0, z up, the ball's middle at the origin) and --towards",
-                    number));
+                    window_number));
             }
             for (std::size_t c = 0; c < 3; ++c) light.radiance[c] = sum[c] / count;
             light.over /= count;
@@ -272,12 +272,12 @@ NearLight from_ruler(const std::vector<BallPlace>& places, const Window& window,
     if (outlines.empty()) {
         light.notes.push_back(fmt::format(
             "window {} does not stand out in the ball: its radiance is what the ball shows there",
-            number));
+            window_number));
     } else {
         light.residual = missed_angle(window, outlines);
         light.notes.push_back(fmt::format(
-            "window {}: the ball shows its edges {:.1f} degrees beside the measured ones", number,
-            degrees(light.residual)));
+            "window {}: the ball shows its edges {:.1f} degrees beside the measured ones",
+            window_number, degrees(light.residual)));
     }
     return light;
 }
@@ -288,10 +288,11 @@ FoundNearLights find_near_lights(const std::vector<BallPlace>& places,
                                  const std::vector<NearLightRequest>& requests) {
     FoundNearLights found;
     Shown shown(places.size());
-    int number = 0;
+    int window_number = 0;
     for (const NearLightRequest& request : requests) {
-        NearLight light = request.measured ? from_ruler(places, *request.measured, ++number, shown)
-                                           : from_reflex(places, request, shown);
+        NearLight light = request.measured
+                              ? from_ruler(places, *request.measured, ++window_number, shown)
+                              : from_reflex(places, request, shown);
         if (light.usable()) {
             light.normal = glm::normalize(glm::cross(light.window.u, light.window.v));
             if (glm::dot(light.normal, light.window.middle) > 0) light.normal = -light.normal;

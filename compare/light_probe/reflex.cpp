@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_least_pixels = 9;
 // Of the radius: beyond it, the last 23 degrees before the blind cone are a few pixels.
-constexpr double k_rim = 0.98;
+constexpr double k_inside = 0.98;
 constexpr int k_blur = 10;        // pixels: light farther from its edge is another light
 constexpr double k_faint = 0.02;  // of the step at the edge: what the blur carries farther
 constexpr int k_rounds = 6;
@@ -78,14 +78,14 @@ std::vector<std::uint8_t> flags_of(const cv::Mat& mask) {
 ReflexSearch reflex_at(const Photo& picture, const BallCircle& ball, const PixelPlace& seed) {
     const cv::Point at(static_cast<int>(std::lround(seed.x)),
                        static_cast<int>(std::lround(seed.y)));
-    if (std::hypot(at.x - ball.x, at.y - ball.y) > k_rim * ball.radius || at.x < 0 || at.y < 0 ||
+    if (std::hypot(at.x - ball.x, at.y - ball.y) > k_inside * ball.radius || at.x < 0 || at.y < 0 ||
         at.x >= picture.width || at.y >= picture.height)
         return {std::nullopt, NoReflex::beside_the_ball};
     const cv::Mat light = luminance(colour_of(picture));
     cv::Mat on_ball(light.size(), CV_8U, cv::Scalar(0));
     for (int y = 0; y < light.rows; ++y)
         for (int x = 0; x < light.cols; ++x)
-            if (std::hypot(x - ball.x, y - ball.y) <= k_rim * ball.radius)
+            if (std::hypot(x - ball.x, y - ball.y) <= k_inside * ball.radius)
                 on_ball.at<std::uint8_t>(y, x) = 255;
 
     Reflex reflex;

@@ -77,8 +77,8 @@ bool less_sure(const SurePair& a, const SurePair& b) {
     return sureness(a) < sureness(b);
 }
 
-bool is_in(const std::vector<std::size_t>& list, std::size_t number) {
-    return std::find(list.begin(), list.end(), number) != list.end();
+bool is_in(const std::vector<std::size_t>& list, std::size_t index) {
+    return std::find(list.begin(), list.end(), index) != list.end();
 }
 
 ViewAlignment place(PlacedViews& views, const SurePair& pair) {

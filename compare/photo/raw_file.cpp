@@ -13,6 +13,7 @@
 
 #include "compare/photo/exposure.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/output_file.h"
 
 namespace culet {
@@ -97,13 +98,11 @@ struct FreeImage {
 }  // namespace
 
 bool has_raw_extension(const std::filesystem::path& file) {
-    static constexpr std::array k_known{".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw",
-                                        ".sr2", ".srf", ".raf", ".rw2", ".orf", ".pef", ".srw",
-                                        ".raw", ".rwl", ".3fr", ".fff", ".iiq", ".erf", ".mrw",
-                                        ".x3f", ".gpr", ".kdc", ".dcr", ".mef", ".mos"};
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    static constexpr std::array k_known{"dng", "cr2", "cr3", "crw", "nef", "nrw", "arw",
+                                        "sr2", "srf", "raf", "rw2", "orf", "pef", "srw",
+                                        "raw", "rwl", "3fr", "fff", "iiq", "erf", "mrw",
+                                        "x3f", "gpr", "kdc", "dcr", "mef", "mos"};
+    const std::string extension = extension_of(file);
     return std::find(k_known.begin(), k_known.end(), extension) != k_known.end();
 }
 

@@ -12,11 +12,11 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr auto number = json_number<Json>;
+using OrderedJson = nlohmann::ordered_json;
+constexpr auto number = json_number<OrderedJson>;
 
-Json registration_json(const Registration& r) {
-    Json json;
+OrderedJson registration_json(const Registration& r) {
+    OrderedJson json;
     json["residual_px"] = number(r.residual_px);
     json["worst_px"] = number(r.worst_px);
     json["iou"] = number(r.iou);
@@ -33,21 +33,21 @@ Json registration_json(const Registration& r) {
     return json;
 }
 
-Json null_json(const Comparison& comparison) {
-    Json json;
+OrderedJson null_json(const Comparison& comparison) {
+    OrderedJson json;
     json["kind"] = "turned_render";
     json["draws"] = comparison.null_draws;
     json["seed"] = comparison.seed;
     json["note"] = comparison.null_note;
     for (const Score& score : comparison.scores) {
-        Json& one = json[score.key];
+        OrderedJson& one = json[score.key];
         const bool any = !score.null.empty();
-        one["mean"] = any ? number(score.null_mean) : Json(nullptr);
-        one["sd"] = any ? number(score.null_sd) : Json(nullptr);
+        one["mean"] = any ? number(score.null_mean) : OrderedJson(nullptr);
+        one["sd"] = any ? number(score.null_sd) : OrderedJson(nullptr);
         one["z"] = number(score.z);
         one["p"] = number(score.p);
         one["higher_is_better"] = score.higher_is_better;
-        one["values"] = Json::array();
+        one["values"] = OrderedJson::array();
         for (const double value : score.null) one["values"].push_back(number(value));
     }
     return json;
@@ -57,28 +57,29 @@ Json null_json(const Comparison& comparison) {
 
 std::string scores_json(const Comparison& comparison, const CompareSources& sources,
                         const std::optional<CalibratedVerdict>& calibrated) {
-    Json json;
+    OrderedJson json;
     json["schema"] = 1;
     json["command"] = "compare";
     json["verdict"] = name_of(comparison.verdict);
     json["reason"] = comparison.reason;
     json["equivalent_facet_error_deg"] =
-        calibrated ? number(calibrated->equivalent.deg) : Json(nullptr);
+        calibrated ? number(calibrated->equivalent.deg) : OrderedJson(nullptr);
     json["geometry_only"] = comparison.geometry_only;
     json["simulated"] = comparison.simulated;
     json["photo"] = sources.photo_file;
     json["render"] = sources.render_file;
-    json["mask"] = sources.mask_file.empty() ? Json(nullptr) : Json(sources.mask_file);
+    json["mask"] =
+        sources.mask_file.empty() ? OrderedJson(nullptr) : OrderedJson(sources.mask_file);
     json["seed"] = comparison.seed;
     json["registration"] = registration_json(comparison.registration);
-    if (!sources.pose.empty()) json["pose"] = Json::parse(sources.pose, nullptr, false);
+    if (!sources.pose.empty()) json["pose"] = OrderedJson::parse(sources.pose, nullptr, false);
     json["gain"] = {number(comparison.gain[0]), number(comparison.gain[1]),
                     number(comparison.gain[2])};
     json["saturated"] = number(comparison.saturated);
     json["compared_pixels"] = comparison.compared_pixels;
     json["render_blur_px"] = number(comparison.render_blur_px);
-    json["scores"] = Json::object();
-    json["score_notes"] = Json::object();
+    json["scores"] = OrderedJson::object();
+    json["score_notes"] = OrderedJson::object();
     for (const Score& score : comparison.scores) {
         json["scores"][score.key] = number(score.value);
         if (!score.note.empty()) json["score_notes"][score.key] = score.note;
@@ -97,7 +98,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
                                    {"two_sigma", number(comparison.within->within_two)},
                                    {"pixels", comparison.within->pixels}};
     json["null"] = null_json(comparison);
-    json["sensitivity"] = calibrated ? sensitivity_json(*calibrated) : Json::array();
+    json["sensitivity"] = calibrated ? sensitivity_json(*calibrated) : OrderedJson::array();
     if (calibrated) {
         json["meaning"] = calibrated_verdict_json(*calibrated);
     }
@@ -113,7 +114,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
                   k_match_z, k_match_zncc, k_partial_z);
     json["notes"] = comparison.notes;
     // File names need not be UTF-8; what is not is replaced rather than thrown over.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace culet

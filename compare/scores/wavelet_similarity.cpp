@@ -31,7 +31,7 @@ cv::Mat centred(const cv::Mat& luma, const cv::Mat& mask) {
 constexpr double k_spread = std::numbers::pi / k_directions;  // sigma of the direction
 
 // Frequencies at which a wavelet weighs less than a hundredth are left out.
-const double k_reach = std::sqrt(2 * std::log(100.0));  // sigmas
+const double k_contour = std::sqrt(2 * std::log(100.0));  // sigmas
 
 // The frequencies, in steps of one over the plane's size, between which the wavelet lies.
 cv::Rect band_of(cv::Size size, double wavelength, double angle) {
@@ -39,8 +39,8 @@ cv::Rect band_of(cv::Size size, double wavelength, double angle) {
     constexpr int k_places = 64;
     for (int i = 0; i < k_places; ++i) {
         const double at = 2 * std::numbers::pi * i / k_places;
-        const double frequency = std::pow(k_octave, k_reach * std::cos(at)) / wavelength;
-        const double direction = angle + k_spread * k_reach * std::sin(at);
+        const double frequency = std::pow(k_octave, k_contour * std::cos(at)) / wavelength;
+        const double direction = angle + k_spread * k_contour * std::sin(at);
         const double uv[2] = {frequency * std::cos(direction), frequency * std::sin(direction)};
         for (int k = 0; k < 2; ++k) {
             low[k] = std::min(low[k], uv[k]);

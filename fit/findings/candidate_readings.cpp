@@ -19,7 +19,7 @@ using Kind = ReadingKind;
 // Of a large stone about so many edges and corners are tried: each costs solutions of its own.
 constexpr std::size_t k_most_edges = 600, k_most_corners = 200;
 // Directions of widths, over half a turn.
-constexpr int k_widths = 16;
+constexpr int k_directions = 16;
 // Supposed when no reading like it was made.
 constexpr double k_angle_sigma_deg = 0.1, k_length_sigma = 0.002, k_volume_sigma = 0.002;
 
@@ -152,8 +152,8 @@ void CandidateList::add_widths_and_depth() {
     const std::vector<int> corners(used.begin(), used.end());
     put_length(Kind::depth, {}, "", extent_along(corners, {0, 0, 1}));
     const int up = system_.up_facet();
-    for (int k = 0; k < k_widths; ++k) {
-        const double azimuth_deg = 180.0 / k_widths * k;
+    for (int k = 0; k < k_directions; ++k) {
+        const double azimuth_deg = 180.0 / k_directions * k;
         const Vec3 direction{std::cos(radians(azimuth_deg)), std::sin(radians(azimuth_deg)), 0};
         const std::string of = fmt::format("{:g}", azimuth_deg);
         put_length(Kind::width, {of}, "", extent_along(corners, direction));

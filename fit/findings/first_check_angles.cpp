@@ -19,7 +19,7 @@ namespace {
 // How much facets of one tier, and a tier and its design, honestly differ.
 constexpr double k_sisters_deg = 0.3, k_from_mesh_deg = 1, k_from_drawing_deg = 3;
 constexpr std::size_t k_fewest_azimuths = 4;
-constexpr double k_level_deg = 5;
+constexpr double k_no_azimuth_deg = 5;
 
 std::string count_words(std::size_t n) {
     static constexpr std::array<const char*, 13> words{"no",   "one",    "two",   "three", "four",
@@ -141,7 +141,7 @@ void check_azimuths(const Stone& stone, const std::vector<Reading>& readings, co
         if (!is_of_one_facet(readings[i], ReadingKind::azimuth)) continue;
         // A level facet has none.
         const Vec3& n = stone.solid.facets[std::size_t(readings[i].facets[0])].plane.normal;
-        if (inclination(n, up) > radians(k_level_deg)) asked.push_back(i);
+        if (inclination(n, up) > radians(k_no_azimuth_deg)) asked.push_back(i);
     }
     if (asked.size() < k_fewest_azimuths) return;
     // Counted as drawn, or the other way round (a mesh drawn as its mirror image).

@@ -7,6 +7,7 @@
 
 #include "fit/readings/binder.h"
 #include "stone/errors.h"
+#include "stone/text_scan.h"
 #include "stone/tiers.h"
 
 namespace culet {
@@ -15,11 +16,6 @@ namespace {
 
 // Facets of one tier stand alike; of a hand-made mesh within some degrees.
 constexpr double k_other_tier_deg = 1;
-
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 std::string place_of(const WrittenReading& written) {
     return fmt::format("line {} of {}", written.line, written.file.filename().string());
@@ -53,7 +49,7 @@ void Binder::note(const std::string& what) const {
 int Binder::facet_in_other_case(const std::string& name) const {
     int found = -1;
     for (const auto& [known, f] : facet_of_name_) {
-        if (lower(known) != lower(name)) continue;
+        if (lower_case(known) != lower_case(name)) continue;
         if (found >= 0) return -1;
         found = f;
     }
@@ -64,7 +60,7 @@ int Binder::facet_in_other_case(const std::string& name) const {
 std::vector<int> Binder::facets_in_other_case(const std::string& pattern) const {
     std::vector<int> found;
     for (std::size_t i = 0; i < stone_.solid.facets.size(); ++i) {
-        if (name_matches(lower(pattern), lower(stone_.solid.facets[i].name))) {
+        if (name_matches(lower_case(pattern), lower_case(stone_.solid.facets[i].name))) {
             found.push_back(static_cast<int>(i));
         }
     }

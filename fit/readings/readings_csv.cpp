@@ -12,19 +12,15 @@
 #include "fit/readings/reading_words.h"
 #include "stone/csv.h"
 #include "stone/errors.h"
+#include "stone/text_scan.h"
 
 namespace culet {
 
 namespace {
 
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 bool truth(const std::filesystem::path& file, long line, const std::string& column,
            const std::string& written) {
-    const std::string text = lower(written);
+    const std::string text = lower_case(written);
     if (text.empty() || text == "false" || text == "0" || text == "no") return false;
     if (text == "true" || text == "1" || text == "yes") return true;
     throw InputError(file, line, column + " is '" + written + "'; expected true or false");
@@ -39,7 +35,7 @@ std::array<int, Column::count> columns_of(const CsvRow& header, const std::files
     std::array<int, Column::count> at{};
     at.fill(-1);
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
-        const std::string name = lower(header.fields[i]);
+        const std::string name = lower_case(header.fields[i]);
         // Spreadsheets put empty columns after the last.
         if (name.empty()) continue;
         const auto known = std::find(k_columns.begin(), k_columns.end(), name);

@@ -18,7 +18,7 @@ constexpr double k_least_damping = 1e-6;
 // Corrections of longer steps end here.
 constexpr double k_far_from_met = 1e-13;
 // Corrections of steps so short may be the last ones.
-constexpr double k_near = 1e-3;
+constexpr double k_near_met = 1e-3;
 constexpr double k_nearly_met = 1e-10;
 constexpr int k_most_choices = 12;
 // A shape that leans another way is better within so many steps, or far off: twice chi-square and
@@ -242,7 +242,7 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
         onto_hard_equations(relaxation_, solver_, here_, penalty_,
                             relaxation_.parameters().retracted_with_turn(shape_, steps(step)),
                             {.most = k_most_corrections,
-                             .met = made.length < k_near ? k_met : k_far_from_met,
+                             .met = made.length < k_near_met ? k_met : k_far_from_met,
                              .precision = k_correction_precision});
     if (corrected.stalls && may_be_close_) least_ = k_least_close;
     StepLinearisation there = linearised(corrected.shape);

@@ -17,7 +17,7 @@ using Entries = std::vector<std::pair<int, double>>;
 constexpr double k_repeats = 1e-10;
 // And relative to what its rounding errors are in proportion to: fifty times the unit of rounding,
 // as many terms as are added up.
-constexpr double k_rounding = 1e-14;
+constexpr double k_rounding_of_rows = 1e-14;
 // A preferred column is taken when its entry is at least this part of the largest.
 constexpr double k_preferred = 0.1;
 // Entries this much smaller than the largest of their sum are what cancellation leaves.
@@ -39,7 +39,7 @@ public:
         substitute(equation);
         double largest = 0;
         for (const auto& [column, value] : row_) largest = std::max(largest, std::abs(value));
-        if (!(largest > k_repeats * most_ && largest > k_rounding * doubt_)) return false;
+        if (!(largest > k_repeats * most_ && largest > k_rounding_of_rows * doubt_)) return false;
         int pivot = -1;
         double best = 0, at_pivot = 0;
         for (const auto& [column, value] : row_) {

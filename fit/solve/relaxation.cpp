@@ -14,7 +14,7 @@ namespace culet {
 namespace {
 
 // Level at the end of an earlier fit, in half diameters: as exactly as a turn can be found.
-constexpr double k_level = 1e-7;
+constexpr double k_was_level = 1e-7;
 // Of the force of a reading that is off by its sigma: with less a shared contact holds nothing, be
 // it level by symmetry or on a level facet.
 constexpr double k_no_force = 1e-3;
@@ -117,7 +117,7 @@ void Relaxation::share_level_corners(const Shape& shape) {
             for (const int c : corners_between_jaws(e)) {
                 const double below =
                     glm::dot(e.caliper, shape.points[std::size_t(touched)] - shape.points[c]);
-                if (c == touched || !(std::abs(below) < k_level)) continue;
+                if (c == touched || !(std::abs(below) < k_was_level)) continue;
                 shared_contacts_.push_back({touched, c, e.caliper, static_cast<int>(i), jaw});
             }
         }

@@ -18,7 +18,7 @@ constexpr double k_precision = 1e-4;
 // Of chi-square; less is not worth another round.
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the parameters is no longer linear.
-constexpr double k_longest = 0.5;
+constexpr double k_farthest = 0.5;
 constexpr Correction k_back{.most = 6, .met = 1e-10, .precision = k_precision};
 // Chains begin at each facet; of more than so many at those whose first turn costs least.
 constexpr std::size_t k_most_begins = 128;
@@ -192,7 +192,7 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
     std::vector<Shape> others;
     for (const Eigen::VectorXd& right : better_sign_choices(folded, solver, pulls, most)) {
         const auto s = solver.solve(none, right, k_precision);
-        if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) continue;
+        if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_farthest) continue;
         Shape other = relaxation.parameters().retracted_with_turn(
             shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
         // What nothing holds moves far, and off what must hold exactly.

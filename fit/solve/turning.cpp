@@ -19,7 +19,7 @@ namespace culet {
 namespace {
 
 // Jaws change corners every few degrees. After half a turn a caliper reads the same.
-constexpr double k_pace_deg = 0.1, k_range_deg = 90;
+constexpr double k_pace_deg = 0.1, k_any_turn_deg = 90;
 // A stone is laid between the jaws by eye.
 constexpr double k_laid_sigma_deg = 2;
 // What it costs in chi-square to take the mesh for turned altogether: five sigmas.
@@ -63,7 +63,7 @@ Standing standing_of_mesh(const std::vector<Vec3>& points, const std::vector<Vec
         radii += a.x * a.x + a.y * a.y;
         mesh_radii += b.x * b.x + b.y * b.y;
     }
-    if (!(radii > 0)) return {0, radians(k_range_deg)};
+    if (!(radii > 0)) return {0, radians(k_any_turn_deg)};
     const double off = std::max(0.0, radii + mesh_radii - 2 * std::hypot(east, north));
     const double by_corners = std::sqrt(off / (2 * double(points.size())) / radii);
     return {std::atan2(north, east), std::hypot(by_corners, radians(k_laid_sigma_deg))};
@@ -249,8 +249,8 @@ std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, co
     // At all turns that the mesh does not forbid.
     const double gain = now - least;
     const double range = gain > k_mesh_is_wrong
-                             ? radians(k_range_deg)
-                             : std::min(mesh.sigma * std::sqrt(gain), radians(k_range_deg));
+                             ? radians(k_any_turn_deg)
+                             : std::min(mesh.sigma * std::sqrt(gain), radians(k_any_turn_deg));
     const double pace = radians(k_pace_deg);
     const int from = static_cast<int>(std::floor((mesh.angle - range) / pace)),
               to = static_cast<int>(std::ceil((mesh.angle + range) / pace));

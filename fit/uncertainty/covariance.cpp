@@ -16,7 +16,7 @@ namespace {
 constexpr Eigen::Index k_most_dense = 1300;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
-Eigen::RowVectorXd product(const FunctionRow& function, const DenseRows& columns) {
+Eigen::RowVectorXd times_columns(const FunctionRow& function, const DenseRows& columns) {
     Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(columns.cols());
     for (FunctionRow::InnerIterator it(function); it; ++it) {
         result += it.value() * columns.row(it.index());
@@ -41,7 +41,7 @@ Covariance::~Covariance() = default;
 
 double Covariance::variance(const FunctionRow& function) const {
     if (!usable_) return k_unknown;
-    if (!sparse_) return product(function, held_).squaredNorm();
+    if (!sparse_) return times_columns(function, held_).squaredNorm();
     return sparse_->has_open
                ? std::max(0.0, total_variance(function) - sparse_->open_variance(function))
                : total_variance(function);
@@ -49,7 +49,8 @@ double Covariance::variance(const FunctionRow& function) const {
 
 double Covariance::open_variance(const FunctionRow& function) const {
     if (!usable_) return k_unknown;
-    return sparse_ ? sparse_->open_variance(function) : product(function, open_).squaredNorm();
+    return sparse_ ? sparse_->open_variance(function)
+                   : times_columns(function, open_).squaredNorm();
 }
 
 double Covariance::total_variance(const FunctionRow& function) const {
@@ -79,8 +80,8 @@ Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) con
         return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,
                                  Eigen::VectorXd(function));
     }
-    Eigen::VectorXd all = held_ * product(function, held_).transpose();
-    if (open) all += open_ * product(function, open_).transpose();
+    Eigen::VectorXd all = held_ * times_columns(function, held_).transpose();
+    if (open) all += open_ * times_columns(function, open_).transpose();
     return all;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // Less redundancy than this checks nothing.
 constexpr double k_checked = 1e-4;
-constexpr double k_no_redundancy = 1e-10;
+constexpr double k_ridge = 1e-10;
 // Of so many equations the hat matrix has room: 8 MB.
 constexpr Eigen::Index k_most_kept = 1000;
 
@@ -111,7 +111,7 @@ double RestrictedResiduals::find_most_of(const std::vector<Index>& equations) co
             const Index j = equations[std::size_t(b)];
             double entry = (i == j ? 1 : 0) - leverage(i, j);
             if (columns_.cols() > 0) entry -= left_out_part_.row(i).dot(columns_.row(j));
-            block(a, b) = entry + (i == j ? k_no_redundancy : 0);
+            block(a, b) = entry + (i == j ? k_ridge : 0);
         }
     }
     const PivotedCholesky factors(block);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/beams/beam_forms.h"
 #include "render/optics/band.h"
 #include "render/setup/built_effects.h"
 
@@ -19,39 +20,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
-
-template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
-void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
-                int facet_count, const Fragments& fragments) {
-    Follower<kPolarised, kSoft, kMany, kGeneral> follower(job, eye, facets, facet_count, fragments);
-    const int lanes = static_cast<int>(hn::Lanes(k_floats));
-    for (int i = 0; i < fragments.count; i += lanes) follower.follow(i);
-}
-
-void ShadeBeam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
-               int facet_count, const Fragments& fragments) {
-    using Follow =
-        void (*)(const ShadingJob&, const ShadedEye&, const std::uint16_t*, int, const Fragments&);
-    const bool soft = fragments.soft && job.lights->any_edge;
-    if constexpr (k_has_effects) {
-        static constexpr Follow k_follow[8] = {
-            follow_all<false, false, false, false>, follow_all<false, false, true, false>,
-            follow_all<false, true, false, false>,  follow_all<false, true, true, false>,
-            follow_all<true, false, false, false>,  follow_all<true, false, true, false>,
-            follow_all<true, true, false, false>,   follow_all<true, true, true, false>};
-        const bool many = job.lights->nodes > 1 || !job.optics->absorption.empty();
-        const bool general = job.optics->crystal || job.optics->response;
-        const Follow follow =
-            general
-                ? (soft ? follow_all<true, true, true, true> : follow_all<true, false, true, true>)
-                : k_follow[(job.optics->polarised ? 4 : 0) + (soft ? 2 : 0) + (many ? 1 : 0)];
-        follow(job, eye, facets, facet_count, fragments);
-    } else {
-        const Follow follow =
-            soft ? follow_all<false, true, false, false> : follow_all<false, false, false, false>;
-        follow(job, eye, facets, facet_count, fragments);
-    }
-}
 
 // What rounding leaves of a whole pixel.
 constexpr float k_filled = 1 - 1e-5f;
@@ -204,13 +172,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace culet {
 
-HWY_EXPORT(ShadeBeam);
 HWY_EXPORT(ShadeBackground);
 HWY_EXPORT(ShadeLeaving);
 
 void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                 int facet_count, const Fragments& fragments) {
-    HWY_DYNAMIC_DISPATCH(ShadeBeam)(job, eye, facets, facet_count, fragments);
+    auto* shade = shade_sharp_beam;
+    if (fragments.soft && job.lights->any_edge) {
+        shade = k_has_effects && polarised(job) ? shade_soft_polarised_beam : shade_soft_beam;
+    }
+    shade(job, eye, facets, facet_count, fragments);
 }
 
 void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,

@@ -424,6 +424,30 @@ private:
         before_[kMany ? k_band_nodes : 1];
 };
 
+template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
+void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                int facet_count, const Fragments& fragments) {
+    Follower<kPolarised, kSoft, kMany, kGeneral> follower(job, eye, facets, facet_count, fragments);
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    for (int i = 0; i < fragments.count; i += lanes) follower.follow(i);
+}
+
+// By the shortest form that holds all that the scene's optics do.
+template <bool kPolarised, bool kSoft>
+void follow_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                 int facet_count, const Fragments& fragments) {
+    auto* follow = follow_all<kPolarised, kSoft, false, false>;
+    if constexpr (k_has_effects) {
+        const bool general = job.optics->crystal || job.optics->response;
+        if (job.lights->nodes > 1 || !job.optics->absorption.empty() || general)
+            follow = follow_all<kPolarised, kSoft, true, false>;
+        if constexpr (kPolarised) {
+            if (general) follow = follow_all<true, kSoft, true, true>;
+        }
+    }
+    follow(job, eye, facets, facet_count, fragments);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace culet
 HWY_AFTER_NAMESPACE();

@@ -15,6 +15,7 @@
 #include "render/image/picture_header.h"
 #include "render/image/shown_bytes.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/output_file.h"
 
 namespace culet {
@@ -139,16 +140,14 @@ void write_picture(const Picture& picture, const std::filesystem::path& file, co
               (picture.coverage.empty() || picture.coverage.size() == pixels) &&
               picture.spectral.size() == picture.wavelengths_nm.size(),
           "a picture to be written has all its pixels");
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".exr") {
+    const std::string extension = extension_of(file);
+    if (extension == "exr") {
         OutputFile output(file);
         write_exr(picture, output.path(), text);
         output.commit();
-    } else if (extension == ".png") {
+    } else if (extension == "png") {
         write_text(file, png_of(picture, look, text));
-    } else if (extension == ".hdr") {
+    } else if (extension == "hdr") {
         write_text(file, hdr_of(picture));
     } else {
         throw InputError(file, "pictures are written as .exr, .png or .hdr");

@@ -18,10 +18,10 @@ namespace {
 
 // By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
 constexpr int k_cell = 3;
-constexpr double k_tolerance = 0.1;
+constexpr double k_scan_tolerance = 0.1;
 // Pixels across the stone that do: in larger pictures what is seen is larger, too.
 constexpr double k_across = 200;
-constexpr int k_pixels = 1000;
+constexpr int k_scanned_pixels = 1000;
 // Those that may be off by most are looked at at more wavelengths, with rims that fill the steps
 // between them.
 struct Closer {
@@ -133,7 +133,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     settings.coherence = false;
     // A preview's regions lie beside those that show a sun.
     settings.engine = bright.sun() ? k_beam_engine : k_preview_engine;
-    settings.tolerance = k_tolerance;
+    settings.tolerance = k_scan_tolerance;
     settings.cut_weight =
         bright.sun() ? std::max(bright.least / bright.most, k_least_cut_weight) : k_cut_weight;
     scene.camera.aperture_radius = 0;
@@ -167,7 +167,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
         times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
         // Beams that fill little of a pixel are not split: of smaller pictures, as little of the
         // stone.
-        settings.tolerance = k_tolerance * std::pow(std::min(1.0, across / k_across), 2);
+        settings.tolerance = k_scan_tolerance * std::pow(std::min(1.0, across / k_across), 2);
         if (times > 1) {
             scene.camera = coarser(scene.camera, times);
             light(apart + pixel());
@@ -201,7 +201,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
             seen.push_back(static_cast<double>(most[cell]));
         }
     } else {
-        at = stone_pixels(scene, k_pixels);
+        at = stone_pixels(scene, k_scanned_pixels);
         if (at.at.empty()) return;
         step = std::max(1.0, std::sqrt(at.in_picture / static_cast<double>(at.at.size())));
         columns_ = static_cast<int>(scene.camera.width / step) + 1;

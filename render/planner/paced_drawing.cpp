@@ -15,7 +15,7 @@ constexpr double k_coarsest = 0.2;
 // At the next tolerance a picture is another one: two waves instead of one, lights looked for.
 // What that takes cannot be told from far away, so that steps are small, and what they waste is
 // less than the last one takes.
-constexpr double k_step = 2;
+constexpr double k_finer = 2;
 // Work rises about as so a power of one over the tolerance.
 constexpr double k_power = 1.5;
 // Of what is left, what the next picture may take by that. It may come to so many times what it was
@@ -40,7 +40,7 @@ public:
     /// False: no finer one is likely to fit into what is left.
     bool goes_on(double left) {
         if (reached_ == 0) return false;  // not even the coarsest
-        double least = std::max(reached_ / k_step, finest_);
+        double least = std::max(reached_ / k_finer, finest_);
         if (least <= too_fine_) least = std::sqrt(reached_ * too_fine_);
         const double affordable =
             reached_ * std::pow(std::max(took_, 1.0) / (k_share_of_rest * left), 1 / k_power);

@@ -9,6 +9,7 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/view_presets.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
 #include "stone/gemcad_io.h"
 #include "stone/material.h"
 #include "stone/material_io.h"
@@ -23,30 +24,24 @@ namespace {
 constexpr double k_widest_of_no_size = 2 + 1e-6;
 constexpr std::size_t k_suggestions = 3;
 
-enum class Kind { scene, stone, mesh, cut };
+enum class InputKind { scene, stone, mesh, cut };
 
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
-
-Kind kind_of(const std::filesystem::path& file) {
+InputKind input_kind_of(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
-    if (extension == ".asc" || extension == ".gem") return Kind::cut;
-    if (mesh_format(file)) return Kind::mesh;
-    if (extension != ".toml") {
+    if (extension == "asc" || extension == "gem") return InputKind::cut;
+    if (mesh_format(file)) return InputKind::mesh;
+    if (extension != "toml") {
         throw InputError(file,
                          "is no scene, stone (.toml), mesh (.obj .off .ply .stl) or cut design "
                          "(.asc .gem)");
     }
     const TomlTable root = read_toml(file);
-    if (root.kind("stone") == TomlTable::Kind::table) return Kind::stone;
+    if (root.kind("stone") == TomlTable::Kind::table) return InputKind::stone;
     if (root.has("fit") && !root.has("stone") && !root.has("mesh")) {
         throw InputError(file, fmt::format("is a job: culet run {} -o DIR draws its picture",
                                            file.filename().string()));
     }
-    return Kind::scene;
+    return InputKind::scene;
 }
 
 // Of the catalogue, those whose index is that of the design.
@@ -62,11 +57,11 @@ std::string materials_of_index(double index) {
     return names;
 }
 
-[[noreturn]] void ask_for_material(const std::filesystem::path& file, Kind kind) {
+[[noreturn]] void ask_for_material(const std::filesystem::path& file, InputKind kind) {
     std::string hint = "e.g. --material diamond";
-    if (kind == Kind::cut) {
+    if (kind == InputKind::cut) {
         const CutSheet sheet =
-            (extension_of(file) == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file)).sheet;
+            (extension_of(file) == "asc" ? read_gemcad_asc(file) : read_gemcad_gem(file)).sheet;
         if (sheet.refractive_index && *sheet.refractive_index > 1) {
             hint = fmt::format("its index {:.4g} is that of {}", *sheet.refractive_index,
                                materials_of_index(*sheet.refractive_index));
@@ -86,19 +81,20 @@ void scale(Solid& solid, double factor) {
     for (Facet& facet : solid.facets) facet.plane.offset *= factor;
 }
 
-void set_size(const std::filesystem::path& file, Kind kind, const std::optional<double>& wanted,
-              Stone& stone, std::vector<std::string>& notes) {
+void set_size(const std::filesystem::path& file, InputKind kind,
+              const std::optional<double>& wanted, Stone& stone, std::vector<std::string>& notes) {
     const double width = width_mm(stone);
     if (!(width > 0) || !std::isfinite(width)) return;
     const std::string name = file.filename().string();
-    const bool is_sized = kind == Kind::stone || (kind == Kind::mesh && has_size(stone.solid));
+    const bool is_sized =
+        kind == InputKind::stone || (kind == InputKind::mesh && has_size(stone.solid));
     if (wanted) {
         scale(stone.solid, *wanted / width);
     } else if (!is_sized) {
         scale(stone.solid, k_usual_width_mm / width);
         notes.push_back(fmt::format("{} has no size: drawn {:g} mm wide (--width MM for another)",
                                     name, k_usual_width_mm));
-    } else if (kind == Kind::mesh) {
+    } else if (kind == InputKind::mesh) {
         notes.push_back(fmt::format("{} is taken in {}: {:.4g} mm wide (--width MM for another)",
                                     name, name_of(stone.unit), width));
     }
@@ -138,13 +134,13 @@ bool has_size(const Solid& solid) {
 
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices) {
-    const Kind kind = kind_of(file);
+    const InputKind kind = input_kind_of(file);
     const std::vector<std::string> keys = keys_of(overrides, choices);
     // From where the command is given, as other files on the command line.
     std::string material = choices.material;
     if (std::filesystem::path(material).extension() == ".toml")
         material = std::filesystem::absolute(material).string();
-    if (kind == Kind::scene) {
+    if (kind == InputKind::scene) {
         if (choices.width_mm)
             throw InputError(file,
                              "is a scene, whose stone has its size: --width is for stones "
@@ -154,11 +150,11 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
         return scene_of(root, nullptr, light_of(choices));
     }
     std::vector<std::pair<std::string, std::string>> texts{
-        {kind == Kind::stone ? "stone" : "mesh", file.filename().string()}};
+        {kind == InputKind::stone ? "stone" : "mesh", file.filename().string()}};
     if (!material.empty()) texts.emplace_back("material", material);
     const TomlTable root = toml_beside(file, texts, keys);
-    if (kind != Kind::stone && !root.has("material")) ask_for_material(file, kind);
-    if (kind == Kind::stone && !root.has("material")) {
+    if (kind != InputKind::stone && !root.has("material")) ask_for_material(file, kind);
+    if (kind == InputKind::stone && !root.has("material")) {
         const TomlTable own = read_toml(file);
         if (!own.has("material") && !own.table("stone")->has("material"))
             ask_for_material(file, kind);
@@ -176,8 +172,8 @@ Scene scene_around(const Stone& stone, const std::vector<std::string>& overrides
     Stone shown = stone;
     if (!choices.material.empty()) shown.material = material_called(choices.material);
     std::vector<std::string> notes;
-    set_size(name, has_size(stone.solid) ? Kind::stone : Kind::mesh, choices.width_mm, shown,
-             notes);
+    set_size(name, has_size(stone.solid) ? InputKind::stone : InputKind::mesh, choices.width_mm,
+             shown, notes);
     return alone(root, shown, choices, notes);
 }
 
