@@ -1,6 +1,5 @@
 # culet_unity(target files): one translation unit for so many files of a folder: what they include is read and compiled
-# once. A file that Highway
-# compiles for every instruction set stays alone, and whatever has SKIP_UNITY_BUILD_INCLUSION.
+# once. A file that Highway compiles for every instruction set stays alone, and whatever has SKIP_UNITY_BUILD_INCLUSION.
 function(culet_unity target files)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_BINARY_DIR}")
