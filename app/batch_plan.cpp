@@ -11,7 +11,6 @@
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/output_file.h"
-#include "stone/solid_input.h"
 
 namespace culet {
 

@@ -7,7 +7,6 @@
 #include "render/image/image_io.h"
 #include "render/scene/scene_io.h"
 #include "stone/file_kind.h"
-#include "stone/solid_input.h"
 #include "stone/units.h"
 
 namespace culet {

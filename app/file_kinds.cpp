@@ -7,7 +7,6 @@
 
 #include "stone/errors.h"
 #include "stone/file_kind.h"
-#include "stone/solid_input.h"
 
 namespace culet {
 

@@ -14,7 +14,6 @@
 #include "stone/file_kind.h"
 #include "stone/material.h"
 #include "stone/output_file.h"
-#include "stone/solid_input.h"
 
 namespace culet {
 

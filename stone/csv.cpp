@@ -1,7 +1,6 @@
 #include "stone/csv.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "stone/errors.h"

@@ -1,7 +1,6 @@
 #include "stone/surface_mesh.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -42,7 +41,8 @@ Vec3 area_vector(const TriangleMesh& mesh, const std::array<int, 3>& t) {
 }  // namespace
 
 bool is_gltf(const std::filesystem::path& file) {
-    return extension_of(file) == "gltf" || extension_of(file) == "glb";
+    const std::string extension = extension_of(file);
+    return extension == "gltf" || extension == "glb";
 }
 
 TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "fit/readings/measurement.h"
 #include "fit/readings/reading_words.h"

@@ -3,12 +3,13 @@
 // over a pixel: files of their own, because each is half a minute's work for the compiler.
 
 #include "render/beams/beam_shading.h"
+#include "render/setup/built_effects.h"
 
 namespace culet {
 
 /// Whether more than the intensity has to be carried along; never where polarisation is not built.
 inline bool polarised(const ShadingJob& job) {
-    return job.optics->polarised || job.optics->crystal || job.optics->response;
+    return k_has_effects && (job.optics->polarised || job.optics->crystal || job.optics->response);
 }
 
 void shade_sharp_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,

@@ -179,7 +179,7 @@ void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
                 int facet_count, const Fragments& fragments) {
     auto* shade = shade_sharp_beam;
     if (fragments.soft && job.lights->any_edge) {
-        shade = k_has_effects && polarised(job) ? shade_soft_polarised_beam : shade_soft_beam;
+        shade = polarised(job) ? shade_soft_polarised_beam : shade_soft_beam;
     }
     shade(job, eye, facets, facet_count, fragments);
 }

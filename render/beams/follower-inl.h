@@ -438,11 +438,11 @@ void follow_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_
                  int facet_count, const Fragments& fragments) {
     auto* follow = follow_all<kPolarised, kSoft, false, false>;
     if constexpr (k_has_effects) {
-        const bool general = job.optics->crystal || job.optics->response;
-        if (job.lights->nodes > 1 || !job.optics->absorption.empty() || general)
+        if (job.lights->nodes > 1 || !job.optics->absorption.empty())
             follow = follow_all<kPolarised, kSoft, true, false>;
         if constexpr (kPolarised) {
-            if (general) follow = follow_all<true, kSoft, true, true>;
+            if (job.optics->crystal || job.optics->response)
+                follow = follow_all<true, kSoft, true, true>;
         }
     }
     follow(job, eye, facets, facet_count, fragments);
