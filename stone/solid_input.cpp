@@ -1,6 +1,5 @@
 #include "stone/solid_input.h"
 
-
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/mesh_io.h"

@@ -1,6 +1,7 @@
 #include "stone/text_scan.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cfloat>
 #include <charconv>
 #include <cmath>
