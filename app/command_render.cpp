@@ -75,8 +75,6 @@ Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
     scene.settings.seed = options.common.seed;
     scene.settings.spectral = options.spectral;
     scene.settings.ray_table = options.table;
-    scene.settings.ray_views = options.views;
-    scene.settings.view_step = options.view_step;
     for (const std::string& note : scene.notes) say(note, options.common.quiet);
     return scene;
 }
@@ -262,9 +260,8 @@ int run_render(const RenderOptions& options) {
     std::optional<SavedPlan> saved;
     if (!options.plan.empty()) saved = read_saved_plan(options.plan);
     Scene scene = scene_of(options, saved ? &*saved : nullptr);
-    if (!(options.table.empty() && options.views.empty()) &&
-        scene.settings.engine != k_raytable_engine)
-        throw InputError("--table and --views are for ray tables: add --engine raytable");
+    if (!options.table.empty() && scene.settings.engine != k_raytable_engine)
+        throw InputError("--table is for ray tables: add --engine raytable");
     std::optional<StoneUncertainty> uncertainty;
     if (!options.uncertainty.empty())
         uncertainty = uncertainty_in(options.uncertainty, scene.stone);

@@ -58,24 +58,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--engine", options.engine, fmt::format("{}", fmt::join(engine_names(), ", ")))
         ->excludes(plan);
-    CLI::Option* const table =
-        command
-            .add_option("--table", options.table,
-                        "ray table of the engine raytable: written where there is none, else "
-                        "read, for other lights and body colours without tracing")
-            ->type_name("FILE.rays")
-            ->excludes(plan);
-    CLI::Option* const views =
-        command
-            .add_option("--views", options.views,
-                        "folder of ray tables of views around the stone: those about this view "
-                        "are read or made, and it is interpolated between them")
-            ->type_name("DIR")
-            ->excludes(table)
-            ->excludes(plan);
-    command.add_option("--view-step", options.view_step, "of those views, radians (0.1)")
-        ->needs(views)
-        ->check(CLI::Range(0.001, 1.0));
+    command
+        .add_option("--table", options.table,
+                    "ray table of the engine raytable: written where there is none, else "
+                    "read, for other lights and body colours without tracing")
+        ->type_name("FILE.rays")
+        ->excludes(plan);
     command
         .add_option("--effects", options.effects,
                     "auto, all, none, or a list: dispersion,absorption,...")

@@ -12,8 +12,7 @@ namespace culet {
 struct RenderOptions {
     CommonOptions common;
     std::string scene, out, stats, plan, engine, effects, check, exposure, size, tonemap, table,
-        views, uncertainty;
-    double view_step = 0.1;
+        uncertainty;
     StoneScene stone;
     std::optional<int> depth, frames;
     double turn_deg = 360;

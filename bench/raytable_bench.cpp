@@ -19,7 +19,7 @@
 #include "render/engine/engine.h"
 #include "render/raytable/relighting.h"
 #include "render/raytable/table_maker.h"
-#include "render/raytable/view_interpolation.h"
+#include "bench/view_interpolation.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
 #include "stone/material_io.h"

@@ -166,10 +166,6 @@ struct RenderSettings {
     std::optional<double> reflection_factor, transmission_factor;
     /// Where the ray table is kept: read where there is one, else written. Empty: nowhere.
     std::string ray_table;
-    /// A folder of ray tables of views around the stone, in steps of `view_step` radians, between
-    /// which this view is interpolated; those that are missing are made. Empty: none.
-    std::string ray_views;
-    double view_step = 0.1;
     PixelFilter filter = PixelFilter::box;
     double filter_radius = 0.5;  ///< pixels; the gaussian's is two standard deviations
     std::uint64_t seed = 1;

@@ -74,25 +74,6 @@ TEST_F(RayTables, ArePutIntoAFileAndLitAnew) {
         EXPECT_NEAR(lit.rgb[i], by_reference.rgb[i], 1e-6);
 }
 
-TEST_F(RayTables, OfViewsAroundStandInAFolder) {
-    const std::vector<std::string> views{"--engine", "raytable", "--views", file("views")};
-    const auto between = [&](std::vector<std::string> more) {
-        more.insert(more.end(), views.begin(), views.end());
-        return render(std::move(more));
-    };
-    const ProgramRun first = between({"-o", file("a.png")});
-    EXPECT_EQ(first.exit_code, 0) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("0.1 radians"));
-    // The sample looks down from 5 degrees: between the pole and two of the first ring.
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "views"), {}), 3);
-    const ProgramRun again = between({"-o", file("b.png")});
-    EXPECT_EQ(again.exit_code, 0) << again.err;
-    EXPECT_EQ(text("a.png"), text("b.png"));
-    expect_refusal(between({"-o", file("c.png"), "--table", file("stone.rays")}), "excludes");
-    expect_refusal(render({"-o", file("c.png"), "--view-step", "0.2"}), "requires");
-    EXPECT_FALSE(fs::exists(folder_ / "c.png"));
-}
-
 TEST_F(RayTables, AreRefusedInALineAndLeaveNoPicture) {
     EXPECT_EQ(by_table({"-o", file("a.png")}).exit_code, 0);
     const std::string table = text("stone.rays");

@@ -1,4 +1,4 @@
-#include "render/raytable/view_interpolation.h"
+#include "bench/view_interpolation.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "render/raytable/stored_views.h"
+#include "bench/stored_views.h"
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ struct Place {
 
 std::vector<StoredView> stored_views(const Camera& camera, double step) {
     if (camera.cone || camera.aperture_radius > 0)
-        throw InputError("views are interpolated for cameras without a lens: leave out --views");
+        throw InputError("views are interpolated for cameras without a lens");
     const Vec3 offset = camera.position - camera.look_at;
     const double distance = glm::length(offset);
     const Steps polar_steps(k_pi, step), azimuth_steps(2 * k_pi, step);

@@ -9,7 +9,7 @@
 // was measured.
 
 #include "render/raytable/ray_table.h"
-#include "render/raytable/stored_views.h"
+#include "bench/stored_views.h"
 #include "render/raytable/table_key.h"
 #include "stone/progress.h"
 
