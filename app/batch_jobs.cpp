@@ -10,10 +10,11 @@
 
 #include "app/batch_plan.h"
 #include "stone/csv.h"
-#include "stone/cut_planes.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/solid_input.h"
+#include "stone/text_decoding.h"
+#include "stone/text_scan.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -29,19 +30,28 @@ std::string plain_name(const std::string& written) {
     constexpr std::string_view k_harmless = "._-+=,@";
     const std::string text = utf8_from_windows1252(written);
     std::string name;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        // Control characters of Unicode's C1: two bytes.
-        const bool control =
-            byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
-        const bool kept = byte >= 0x80 ? !control
-                                       : std::isalnum(byte) != 0 ||
-                                             k_harmless.find(text[i]) != std::string_view::npos;
-        if (control) ++i;
-        name += kept ? text[i] : '_';
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t start = at;
+        const std::int32_t code = next_code_point(text, at);
+        const bool kept = code >= 0x80 ? is_printable(code)
+                                       : std::isalnum(code) != 0 ||
+                                             k_harmless.find(text[start]) != std::string_view::npos;
+        name += kept ? text.substr(start, at - start) : "_";
     }
     if (name.starts_with('.') || name.starts_with('-')) name[0] = '_';
     return name;
+}
+
+// `name` where it is short enough for a folder, else its beginning and a hash of all of it.
+std::string fitting(const std::string& name, BatchList& list) {
+    if (name.size() <= k_longest_name) return name;
+    const std::string hash = "_" + hash_of(name).substr(0, 8);
+    std::size_t end = 0;
+    for (std::size_t at = 0; at + hash.size() <= k_longest_name; next_code_point(name, at))
+        end = at;
+    list.notes.push_back(fmt::format("the name \"{}\" is longer than {} bytes: its folder is {}{}",
+                                     name, k_longest_name, name.substr(0, end), hash));
+    return name.substr(0, end) + hash;
 }
 
 // Why the file is no job; empty: it is one. What cannot be read is one, and will fail as one.
@@ -102,10 +112,7 @@ BatchList read_folder(const fs::path& folder) {
         job.name = plain_name(file.stem().string());
         // ring.toml and ring.asc stay apart.
         if (stems[job.name] > 1) job.name = plain_name(job.stone);
-        if (job.name.size() > k_longest_name)
-            throw InputError(file, fmt::format("its name is longer than the {} bytes that a job's "
-                                               "name may have: rename it",
-                                               k_longest_name));
+        job.name = fitting(job.name, list);
         if (!names.insert(job.name).second)
             throw InputError(file, fmt::format("another file of the folder is the job \"{}\" too: "
                                                "rename one of them",
@@ -129,8 +136,9 @@ JobColumns columns_of_jobs(const CsvRow& header, const fs::path& file) {
     JobColumns columns;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
-        const std::string& name = header.fields[i];
+        std::string name = header.fields[i];
         if (name.empty()) continue;
+        if (name.find('.') == std::string::npos) name = lower_case(name);
         if (!seen.insert(name).second)
             throw InputError(file, header.line, fmt::format("column \"{}\" stands twice", name));
         const int at = static_cast<int>(i);
@@ -158,7 +166,8 @@ JobColumns columns_of_jobs(const CsvRow& header, const fs::path& file) {
     return columns;
 }
 
-BatchJob job_of_row(const CsvRow& row, const JobColumns& columns, const fs::path& file) {
+BatchJob job_of_row(const CsvRow& row, const JobColumns& columns, const fs::path& file,
+                    BatchList& list) {
     const auto field = [&](int at) {
         return at >= 0 && static_cast<std::size_t>(at) < row.fields.size()
                    ? row.fields[static_cast<std::size_t>(at)]
@@ -175,11 +184,12 @@ BatchJob job_of_row(const CsvRow& row, const JobColumns& columns, const fs::path
     }
     const std::string name = field(columns.name);
     job.name = name.empty() ? plain_name(fs::path(job.stone).stem().string()) : name;
-    if (job.name.empty() || job.name != plain_name(job.name) || job.name.size() > k_longest_name)
+    if (job.name.empty() || job.name != plain_name(job.name))
         throw InputError(file, row.line,
                          fmt::format("\"{}\" cannot be the name of a folder: letters, digits and "
-                                     "._-+=,@, at most {} bytes, no point or hyphen first",
-                                     job.name, k_longest_name));
+                                     "._-+=,@, no point or hyphen first",
+                                     job.name));
+    job.name = fitting(job.name, list);
     return job;
 }
 
@@ -194,7 +204,7 @@ BatchList read_job_table(const fs::path& file) {
     list.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     std::map<std::string, long> lines;
     for (std::size_t r = 1; r < table.rows.size(); ++r) {
-        BatchJob job = job_of_row(table.rows[r], columns, file);
+        BatchJob job = job_of_row(table.rows[r], columns, file, list);
         const auto [first, is_new] = lines.emplace(job.name, table.rows[r].line);
         if (!is_new)
             throw InputError(file, table.rows[r].line,

@@ -34,6 +34,7 @@ struct BatchList {
     std::filesystem::path folder;      ///< stones are seen from here
     std::vector<BatchJob> jobs;        ///< in the order of their file names or of the table's rows
     std::vector<std::string> skipped;  ///< files of the folder that are no jobs, and why
+    std::vector<std::string> notes;    ///< names that were shortened
 };
 
 /// A folder: a job for each stone file, cut design and mesh in it, but not for meshes that its

@@ -11,6 +11,7 @@
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -91,7 +92,7 @@ void gather_texts(const toml::node& node, const fs::path& folder, std::set<fs::p
 void gather(const fs::path& file, std::set<fs::path>& files) {
     if (!files.insert(file).second || extension_of(file) != "toml") return;
     try {
-        gather_texts(toml::parse(read_text(file)), file.parent_path(), files);
+        gather_texts(toml::parse(decoded_text(read_text(file), file)), file.parent_path(), files);
     } catch (const toml::parse_error&) {
         // Its own bytes are all that count.
     } catch (const InputError&) {
@@ -135,6 +136,12 @@ std::vector<fs::path> files_of_stone(const fs::path& file, const std::vector<std
         gather_named(value, file.parent_path(), files);
     }
     return {files.begin(), files.end()};
+}
+
+std::string hash_of(std::string_view text) {
+    Fingerprint print;
+    print.add(text);
+    return print.text();
 }
 
 std::string fingerprint_of(const BatchList& list, const BatchJob& job,

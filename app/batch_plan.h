@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/batch_jobs.h"
@@ -18,6 +19,9 @@ std::vector<BatchJob> jobs_of_plan(const std::string& json, const std::filesyste
 /// file as seen from there. Sorted; `set` as for --set. What cannot be read is left out.
 std::vector<std::filesystem::path> files_of_stone(const std::filesystem::path& file,
                                                   const std::vector<std::string>& set);
+
+/// Of a text: 16 hexadecimal digits (FNV-1a, 64 bits).
+std::string hash_of(std::string_view text);
 
 /// Changes with every byte that the job's results depend on: the version, the settings, the stone's
 /// file and the files that it names. 16 hexadecimal digits (FNV-1a, 64 bits).

@@ -100,6 +100,7 @@ int run_batch(BatchCommand& command) {
     options.verbose = command.common.verbose;
     const BatchList list = read_batch(command.jobs);
     refuse_jobs_inside(command.jobs, command.out);
+    for (const std::string& note : list.notes) say("note: " + note, command.common.quiet);
     for (const std::string& skipped : list.skipped)
         say("left out: " + skipped, !command.common.verbose);
     const ShareResult result = work_on_share(list, settings, command.out, options);

@@ -14,6 +14,7 @@
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
 #include "stone/stone_io.h"
+#include "stone/text_decoding.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -95,10 +96,11 @@ int info(InfoOptions options) {
     for (const std::string& line : form) say(line, options.common.quiet);
     if (!options.sheet.out.empty()) write_cutting_sheet(options.sheet, options.describe);
     if (options.json != "-" && options.form.readings != "-" && options.sheet.out != "-") {
-        for (const std::string& line : about.lines) fmt::print("{}\n", for_terminal(line));
-        for (const std::string& note : about.notes) fmt::print("note: {}\n", for_terminal(note));
+        for (const std::string& line : about.lines) fmt::print("{}\n", safe_for(stdout, line));
+        for (const std::string& note : about.notes)
+            fmt::print("note: {}\n", safe_for(stdout, note));
         for (const Fault& fault : about.faults) {
-            fmt::print("fault: {}: {}\n", name_of(fault.kind), for_terminal(fault.what));
+            fmt::print("fault: {}: {}\n", name_of(fault.kind), safe_for(stdout, fault.what));
         }
         std::fflush(stdout);
     }
@@ -144,6 +146,8 @@ Description describe_file(const DescribeOptions& options) {
         default:
             break;
     }
+    if (const std::string other = foreign_kind_of(options.file); !other.empty())
+        throw InputError(options.file, other);
     throw InputError(options.file,
                      "is of an unknown kind: info reads meshes and cuts (.obj .off .ply .stl .asc "
                      ".gem), stones, scenes and materials (.toml), pictures (.exr .hdr .png "

@@ -71,7 +71,7 @@ int run_probe(const ProbeArguments& options) {
         for (std::size_t i = 0; i < path.facets.size(); ++i) {
             if (i > 0)
                 facets += path.modes[i - 1] == 'i' ? " " : fmt::format(" -{}- ", path.modes[i - 1]);
-            facets += for_terminal(path.facets[i]);
+            facets += safe_for(stdout, path.facets[i]);
         }
         const PolarisationEllipse ellipse = ellipse_of(path.stokes);
         fmt::print("{:>9.6f}  {:<22} {:>8.1f}% {:>7.1f} {:>7.1f}  {}\n", weight, path.light,

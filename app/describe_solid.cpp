@@ -101,6 +101,7 @@ void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& ab
 void describe_sheet(const CutSheet& sheet, Description& about) {
     Json& object = about.object;
     object["gear"] = sheet.gear;
+    object["gear_supposed"] = sheet.gear_supposed;
     object["gear_offset"] = sheet.gear_offset;
     object["symmetry"] = sheet.symmetry;
     object["mirror"] = sheet.mirror;
@@ -111,8 +112,9 @@ void describe_sheet(const CutSheet& sheet, Description& about) {
         if (!line.empty()) about.lines.push_back(line);
     }
     about.lines.push_back(fmt::format(
-        "gear {:g}, index {:g} at azimuth zero, {}-fold{}{}", sheet.gear, sheet.gear_offset,
-        sheet.symmetry, sheet.mirror ? ", mirrored" : "",
+        "gear {:g}{}, index {:g} at azimuth zero, {}-fold{}{}", sheet.gear,
+        sheet.gear_supposed ? " (supposed)" : "", sheet.gear_offset, sheet.symmetry,
+        sheet.mirror ? ", mirrored" : "",
         sheet.refractive_index ? fmt::format(", refractive index {:g}", *sheet.refractive_index)
                                : ""));
 }

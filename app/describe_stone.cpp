@@ -74,8 +74,7 @@ Description describe_stone_file(const DescribeOptions& options) {
                                       stone.name, file.mesh_file.string(), name_of(stone.unit)));
     if (file.has_material) {
         describe_material(stone.material, about);
-        if (std::string missing = missing_colour(stone.material); !missing.empty())
-            about.notes.push_back(std::move(missing));
+        for (std::string& note : notes_on(stone.material)) about.notes.push_back(std::move(note));
     } else {
         object["material"] = Json();
         about.lines.push_back("no material is named: a fit does without, a picture does not");
@@ -101,7 +100,9 @@ Description describe_material_file(const DescribeOptions& options) {
     Description about;
     about.object["format"] = "material";
     about.lines.push_back(fmt::format("{}: material", options.file.string()));
-    describe_material(read_material(options.file, options.overrides), about);
+    const Material material = read_material(options.file, options.overrides);
+    describe_material(material, about);
+    about.notes.insert(about.notes.end(), material.notes.begin(), material.notes.end());
     return about;
 }
 

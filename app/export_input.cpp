@@ -82,6 +82,8 @@ ExportInput read_for_export(const std::filesystem::path& file, const ExportChoic
         input.stone.material = material_called(choices.material);
         input.has_material = true;
     }
+    const std::vector<std::string>& said = input.stone.material.notes;
+    if (kind != FileKind::scene) input.notes.insert(input.notes.end(), said.begin(), said.end());
     if (input.stone.name.empty()) input.stone.name = file.stem().string();
     input.stone = in_export_frame(input.stone);
     return input;

@@ -15,6 +15,10 @@ namespace culet {
 void require_kind(const std::filesystem::path& file, const std::vector<FileKind>& taken,
                   const std::string& command, const std::vector<std::string>& overrides = {});
 
+/// Pictures whose order matters, as a shell lists them (turn-1, turn-10, turn-2), are put in the
+/// order of their numbers; pictures in another order stay. What was done, for people; else empty.
+std::string put_in_order_of_numbers(std::vector<std::string>& pictures);
+
 /// Throws InputError unless `pictures` are photographs and, last, a render or a scene: a scene
 /// stands before the last, or the first was rendered by culet and the last was not (and is not
 /// said to be a simulated photograph).

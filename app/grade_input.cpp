@@ -27,6 +27,8 @@ void take_material(const GradeChoices& choices, GradeInput& input) {
         input.stone.material = material_called(choices.material);
         input.has_material = true;
     }
+    const std::vector<std::string>& said = input.stone.material.notes;
+    input.notes.insert(input.notes.end(), said.begin(), said.end());
     if (choices.index) input.index = choices.index;
     if (!input.has_material && !input.index) {
         throw InputError(input.file,

@@ -21,7 +21,7 @@ namespace {
 int complain(int code, const std::string& message) {
     const bool colour = isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
     fmt::print(stderr, "{}culet: error:{} {}\n", colour ? "\033[1;31m" : "",
-               colour ? "\033[0m" : "", culet::for_terminal(message));
+               colour ? "\033[0m" : "", culet::safe_for(stderr, message));
     return code;
 }
 

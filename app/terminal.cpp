@@ -1,6 +1,8 @@
 #include "app/terminal.h"
 
 #include <fmt/format.h>
+#include <langinfo.h>
+#include <locale.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -80,16 +82,27 @@ Progress progress_line(std::string what, bool quiet) {
     };
 }
 
+std::string safe_for(std::FILE* stream, std::string_view text) {
+    static const bool utf8 = [] {
+        const locale_t locale = newlocale(LC_CTYPE_MASK, "", locale_t{});
+        if (locale == locale_t{}) return false;
+        const std::string set = nl_langinfo_l(CODESET, locale);
+        freelocale(locale);
+        return set == "UTF-8";
+    }();
+    return for_terminal(text, !utf8 && isatty(fileno(stream)) != 0);
+}
+
 void print_lines(std::string_view text) {
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
-        fmt::print("{}\n", for_terminal(text.substr(0, end)));
+        fmt::print("{}\n", safe_for(stdout, text.substr(0, end)));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
 }
 
 void say(const std::string& line, bool quiet) {
-    if (!quiet) fmt::print(stderr, "{}\n", for_terminal(line));
+    if (!quiet) fmt::print(stderr, "{}\n", safe_for(stderr, line));
 }
 
 }  // namespace culet

@@ -1,6 +1,7 @@
 #pragma once
 // What a person at a terminal sees while culet works. All of it goes to stderr.
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -20,10 +21,14 @@ Progress progress_line(std::string what, bool quiet);
 /// pace; for the time being, how long it has taken.
 std::string progress_text(double fraction, double seconds);
 
-/// Lines for people on stdout; foreign text in them is made safe (for_terminal).
+/// Foreign text as one line for `stream` (for_terminal): in ASCII on a terminal whose character
+/// set, by the locale (LC_ALL, LC_CTYPE, LANG), is not UTF-8. Files and pipes get UTF-8.
+std::string safe_for(std::FILE* stream, std::string_view text);
+
+/// Lines for people on stdout; foreign text in them is made safe (safe_for).
 void print_lines(std::string_view text);
 
-/// One line for people, unless `quiet`; foreign text in it is made safe (for_terminal).
+/// One line for people, unless `quiet`; foreign text in it is made safe (safe_for).
 void say(const std::string& line, bool quiet);
 
 }  // namespace culet

@@ -5,8 +5,8 @@
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 #include "stone/text_scan.h"
-#include "stone/written_number.h"
 
 namespace culet {
 
@@ -14,7 +14,7 @@ namespace {
 
 // The lines before the header: blank, comments, and the `sep=;` that Excel understands.
 bool precedes_the_header(std::string_view line) {
-    const std::string plain = lower_case(without_blanks(line));
+    const std::string plain = lower_case(std::string(trimmed(line)));
     const std::size_t start = plain.find_first_not_of("\";,\t ");
     return start == std::string::npos || plain[start] == '#' || plain.starts_with("sep=");
 }
@@ -46,7 +46,6 @@ public:
         row_.line = 1;
         for (std::size_t i = 0; i < text_.size(); ++i) {
             const char c = text_[i];
-            if (c == '\0') throw InputError(file_, line_, "a zero byte: this is not a text file");
             if (at_start() && c == '#') {
                 i = std::min(text_.find('\n', i), text_.size());
                 new_line();
@@ -71,7 +70,7 @@ public:
 
 private:
     bool at_start() const {
-        return !quoted_ && !was_quoted_ && row_.fields.empty() && without_blanks(field_).empty();
+        return !quoted_ && !was_quoted_ && row_.fields.empty() && trimmed(field_).empty();
     }
     void new_line() {
         ++line_;
@@ -79,7 +78,7 @@ private:
         field_.clear();
     }
     void plain(char c) {
-        if (c == '"' && without_blanks(field_).empty() && !was_quoted_) {
+        if (c == '"' && trimmed(field_).empty() && !was_quoted_) {
             field_.clear();
             quoted_ = was_quoted_ = true;
         } else if (c == separator_) {
@@ -88,12 +87,12 @@ private:
             end_row();
         } else if (!was_quoted_) {
             field_ += c;
-        } else if (c != ' ' && c != '\t' && c != '\r') {
+        } else if (c != ' ' && c != '\t') {
             throw InputError(file_, line_, "text after a closing quote; put the quote at its end");
         }
     }
     void end_field() {
-        row_.fields.push_back(without_blanks(field_));
+        row_.fields.emplace_back(trimmed(field_));
         field_.clear();
         was_quoted_ = false;
     }
@@ -125,9 +124,7 @@ bool CsvRow::is_blank() const {
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {
-    std::string text = read_text(file, 64u << 20);
-    // Spreadsheets put a byte order mark first.
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    const std::string text = decoded_text(read_text(file, 64u << 20), file);
     const char separator = separator_of(text);
     return {CsvReader(file, text, separator).rows(), separator};
 }

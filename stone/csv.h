@@ -20,8 +20,8 @@ struct CsvTable {
 };
 
 /// RFC 4180 for any of the separators: fields may be quoted, a quote inside is doubled, a quoted
-/// field may run over lines. A byte order mark and Excel's `sep=;` are passed over. Throws
-/// InputError: not readable, over 64 MB, no text, a quoted field that does not end well.
+/// field may run over lines. Excel's `sep=;` is passed over. Throws InputError: not
+/// readable, over 64 MB, no text (text_decoding.h), a quoted field that does not end well.
 CsvTable read_csv(const std::filesystem::path& file);
 
 }  // namespace culet

@@ -40,9 +40,4 @@ std::vector<std::string> tier_names(const std::vector<CutPlane>& planes);
 void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutReading& how,
                  const std::filesystem::path& file);
 
-/// Text of GemCad files is Windows-1252; ours is UTF-8. Text that is UTF-8 already stays.
-std::string utf8_from_windows1252(std::string_view text);
-/// Characters that Windows-1252 lacks become `_`.
-std::string windows1252_from_utf8(std::string_view text);
-
 }  // namespace culet

@@ -1,5 +1,9 @@
 #include "stone/errors.h"
 
+#include <fmt/format.h>
+
+#include "stone/text_decoding.h"
+
 namespace culet {
 
 InputError::InputError(const std::filesystem::path& file, const std::string& message)
@@ -12,28 +16,25 @@ namespace {
 
 constexpr std::size_t k_longest_quote = 120, k_longest_line = 2000;
 
-// The first or last `size` bytes at most, to a whole character of UTF-8.
-std::string_view head(std::string_view text, std::size_t size) {
-    if (text.size() <= size) return text;
-    while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) --size;
-    return text.substr(0, size);
-}
-std::string_view tail(std::string_view text, std::size_t size) {
-    if (text.size() <= size) return text;
-    std::size_t from = text.size() - size;
-    while (from < text.size() && (static_cast<unsigned char>(text[from]) & 0xc0) == 0x80) ++from;
-    return text.substr(from);
+// Where the first `count` characters of UTF-8 end.
+std::size_t end_of(std::string_view text, std::size_t count) {
+    std::size_t at = 0;
+    for (; count > 0 && at < text.size(); --count) next_code_point(text, at);
+    return at;
 }
 
 std::string shortened(std::string_view text, std::size_t longest) {
-    if (text.size() <= longest) return std::string(text);
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < text.size(); ++count) next_code_point(text, at);
+    if (count <= longest) return std::string(text);
     const std::size_t end = longest / 4;
-    return std::string(head(text, longest - end - 3)) + "..." + std::string(tail(text, end));
+    return std::string(text.substr(0, end_of(text, longest - end - 3))) + "..." +
+           std::string(text.substr(end_of(text, count - end)));
 }
 
 }  // namespace
 
-std::string for_terminal(std::string_view text) {
+std::string for_terminal(std::string_view text, bool ascii) {
     std::string line;
     while (!text.empty()) {
         const std::size_t open = text.find('"');
@@ -47,14 +48,21 @@ std::string for_terminal(std::string_view text) {
         text.remove_prefix(close + 1);
     }
     line = shortened(line, k_longest_line);
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const auto c = static_cast<unsigned char>(line[i]);
-        if (c < 0x20 || c == 0x7f) line[i] = ' ';
-        // U+0080 to U+009F, which some terminals obey like ESC.
-        if (c == 0xc2 && i + 1 < line.size() && static_cast<unsigned char>(line[i + 1]) < 0xa0)
-            line[i] = line[i + 1] = ' ';
+    std::string safe;
+    for (std::size_t at = 0; at < line.size();) {
+        const std::size_t start = at;
+        const std::int32_t code = next_code_point(line, at);
+        if (code < 0) {
+            safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(line[start]));
+        } else if (code < 0x20 || (code >= 0x7f && code < 0xa0)) {
+            safe.append(at - start, ' ');  // C1 too: some terminals obey it like ESC
+        } else if (!is_printable(code) || (ascii && code >= 0x80)) {
+            safe += fmt::format("\\u{:04x}", code);
+        } else {
+            safe += std::string_view(line).substr(start, at - start);
+        }
     }
-    return line;
+    return safe;
 }
 
 }  // namespace culet

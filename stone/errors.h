@@ -33,9 +33,11 @@ public:
 };
 
 /// Foreign text as one line that a terminal may be given: control characters (of ASCII and of
-/// Unicode's C1) are blanks, what stands in double quotes is shortened beyond 120 bytes and the
-/// whole beyond 2000; no character of UTF-8 is cut in two.
-std::string for_terminal(std::string_view text);
+/// Unicode's C1) are blanks; characters that reorder or hide text, and bytes that are no UTF-8, are
+/// written as `\u202e` and `\xff`, as is all beyond ASCII where `ascii` says that the terminal
+/// shows no more. What stands in double quotes is shortened beyond 120 characters and the whole
+/// beyond 2000.
+std::string for_terminal(std::string_view text, bool ascii = false);
 
 /// Throws InternalError with `what` unless `condition` holds. Stays on in release builds.
 inline void check(bool condition, const char* what) {

@@ -10,6 +10,7 @@
 #include "stone/cut_planes.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 

@@ -13,7 +13,8 @@ namespace culet {
 
 /// What a cut file says beside its facets.
 struct CutSheet {
-    double gear = 96;  ///< index teeth; negative counts the other way round
+    double gear = 96;            ///< index teeth; negative counts the other way round
+    bool gear_supposed = false;  ///< the file does not state it
     double gear_offset = 0;
     int symmetry = 1;
     bool mirror = false;
@@ -44,12 +45,14 @@ struct CutReading {
 /// each is that facet's alone. A repeated name gets .1, .2 (so a tier A is A, A.1, A.2, ...; a
 /// facet that the file names comes before those that have their name from the tier); facets without
 /// a name are f0, f1, ... in file order.
-/// Throws InputError when the planes leave the stone open or nothing inside.
+/// A facet of angle 0 needs no index. Without a `g` line the gear is supposed, and a note says so.
+/// Throws InputError with the line of a record that is not understood, and when the planes leave
+/// the stone open or nothing inside.
 ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how = {});
 ReadCut read_gemcad_gem(const std::filesystem::path& file, const CutReading& how = {});
 
 /// The same from memory; `file` is for messages.
-ReadCut parse_gemcad_asc(std::string_view text, const CutReading& how = {},
+ReadCut parse_gemcad_asc(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.asc");
 ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.gem");

@@ -11,6 +11,7 @@
 #include "stone/errors.h"
 #include "stone/face_soup.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 

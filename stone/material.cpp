@@ -203,12 +203,14 @@ bool Material::has_absorption() const {
     return false;
 }
 
-std::string missing_colour(const Material& material) {
-    if (material.usual_colour.empty() || material.has_absorption()) return {};
-    return fmt::format(
+std::vector<std::string> notes_on(const Material& material) {
+    std::vector<std::string> notes = material.notes;
+    if (material.usual_colour.empty() || material.has_absorption()) return notes;
+    notes.push_back(fmt::format(
         "{} is drawn without colour: stones of that name are {}, but the catalogue has no "
         "absorption spectrum of them (give one with absorption in a [material] table)",
-        material.id, material.usual_colour);
+        material.id, material.usual_colour));
+    return notes;
 }
 
 }  // namespace culet

@@ -49,6 +49,7 @@ struct Material {
     std::string absorption_depth;       ///< why the catalogue's spectrum is not that of its source
     /// Colour of most stones of that name, where no spectrum of them is at hand; else empty.
     std::string usual_colour;
+    std::vector<std::string> notes;  ///< what was taken for granted on reading its tables
 
     /// False: it is drawn without colour, for want of a spectrum or because it has none.
     bool has_absorption() const;
@@ -66,8 +67,8 @@ Material catalogue_material(const std::string& name);
 /// sapphire`, `tsavorite`), those named so first; else those nearest by spelling; perhaps none.
 std::vector<std::string> catalogue_names_like(const std::string& words);
 
-/// A sentence on the colour that is missing when stones of that name are coloured and the catalogue
-/// has no spectrum of them; empty when nothing is missing.
-std::string missing_colour(const Material& material);
+/// The material's notes, and a sentence on the colour that is missing when stones of that name are
+/// coloured and the catalogue has no spectrum of them.
+std::vector<std::string> notes_on(const Material& material);
 
 }  // namespace culet

@@ -2,66 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/wavelength_table.h"
 
 namespace culet {
 
 namespace {
 
-// Two columns, `nm,value`; `#` comments, and a header line when the first cell is no number.
-Spectrum read_two_columns(const std::filesystem::path& file) {
-    std::istringstream lines(read_text(file, 16u << 20));
-    std::vector<double> nm, values;
-    long number = 0;
-    bool header_allowed = true;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        const std::size_t first = line.find_first_not_of(" \t");
-        if (first == std::string::npos || line[first] == '#') continue;
-        for (char& c : line) {
-            if (c == ',' || c == ';' || c == '\t') c = ' ';
-        }
-        std::istringstream cells(line);
-        std::string a, b, rest;
-        cells >> a >> b;
-        double wavelength = 0, value = 0;
-        const auto is_number = [](const std::string& cell, double& out) {
-            const auto [end, problem] =
-                std::from_chars(cell.data(), cell.data() + cell.size(), out);
-            return problem == std::errc() && end == cell.data() + cell.size() && std::isfinite(out);
-        };
-        if (!is_number(a, wavelength)) {
-            if (header_allowed) {
-                header_allowed = false;
-                continue;
-            }
-            throw InputError(file, number,
-                             fmt::format("expected a wavelength in nm, found \"{}\"", a));
-        }
-        header_allowed = false;
-        if (!is_number(b, value) || (cells >> rest)) {
-            throw InputError(file, number, "expected two numbers: wavelength in nm, value");
-        }
-        if (!nm.empty() && wavelength <= nm.back()) {
-            throw InputError(file, number, "wavelengths must increase from line to line");
-        }
-        nm.push_back(wavelength);
-        values.push_back(value);
-    }
-    if (nm.empty())
-        throw InputError(file, "holds no numbers: expected lines of wavelength in nm, value");
-    return Spectrum(nm, values);
-}
-
 constexpr double k_least_index = 1.0, k_largest_index = 10.0;
 
-RefractiveIndex index_of(const TomlTable& table, const std::string& key) {
+RefractiveIndex index_of(const TomlTable& table, const std::string& key,
+                         std::vector<std::string>& notes) {
     RefractiveIndex index;
     switch (table.kind(key)) {
         case TomlTable::Kind::number:
@@ -89,7 +43,7 @@ RefractiveIndex index_of(const TomlTable& table, const std::string& key) {
                 }
             } else if (const auto file = form.path("table")) {
                 index.form = RefractiveIndex::Form::table;
-                index.table = read_two_columns(*file);
+                index.table = read_wavelength_table(*file, "refractive index", notes);
             } else {
                 table.fail(key, fmt::format("index {} needs cauchy, sellmeier or table", key));
             }
@@ -129,7 +83,7 @@ Spectrum absorption_of(const TomlTable& table, const std::string& key, OpticChar
                 absorption = Spectrum({465, 545, 610}, {(*rgb)[2], (*rgb)[1], (*rgb)[0]});
                 material.absorption_from_rgb = true;
             } else if (const auto file = form.path("table")) {
-                absorption = read_two_columns(*file);
+                absorption = read_wavelength_table(*file, "absorption", material.notes);
             } else if (const auto name = form.text("catalogue")) {
                 const Material other = catalogue_material(*name);
                 if (other.optic != optic) {
@@ -181,14 +135,15 @@ Material material_of(const TomlTable& table) {
         rays == 1 && index_kind == TomlTable::Kind::table && !table.table("index")->has("n");
     if (index_kind == TomlTable::Kind::number || one_value) {
         // `index = 1.54` or `index = { cauchy = [...] }`: one index for every ray.
-        for (int ray = 0; ray < rays; ++ray) material.index[ray] = index_of(table, "index");
+        for (int ray = 0; ray < rays; ++ray)
+            material.index[ray] = index_of(table, "index", material.notes);
     } else {
         const TomlTable index = *table.table("index");
         if (rays == 1) index.refuse_unknown({"n"});
         if (rays == 2) index.refuse_unknown({"o", "e"});
         if (rays == 3) index.refuse_unknown({"alpha", "beta", "gamma"});
         for (int ray = 0; ray < rays; ++ray) {
-            material.index[ray] = index_of(index, ray_name(material.optic, ray));
+            material.index[ray] = index_of(index, ray_name(material.optic, ray), material.notes);
         }
     }
     const auto absorption_kind = table.kind("absorption");
@@ -212,6 +167,10 @@ Material material_of(const TomlTable& table) {
                 absorption_of(table, "absorption", material.optic, ray, material);
         }
     }
+    // A table that serves several rays says its part once.
+    std::vector<std::string>& notes = material.notes;
+    std::sort(notes.begin(), notes.end());
+    notes.erase(std::unique(notes.begin(), notes.end()), notes.end());
     return material;
 }
 

@@ -10,8 +10,8 @@
 
 namespace culet {
 
-FaceSoup parse_obj(std::string_view text, const std::filesystem::path& file);
-FaceSoup parse_off(std::string_view text, const std::filesystem::path& file);
+FaceSoup parse_obj(std::string_view bytes, const std::filesystem::path& file);
+FaceSoup parse_off(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
 /// That of the format.

@@ -7,6 +7,7 @@
 
 #include "stone/errors.h"
 #include "stone/mesh_formats.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -18,7 +19,7 @@ public:
         : lines_(text), file_(file) {}
 
     FaceSoup parse() {
-        while (const auto line = whole_line()) read(*line);
+        while (const auto line = statement()) read(*line);
         for (std::size_t f = 0; f < soup_.faces.size(); ++f) {
             for (const int corner : soup_.faces[f].corners) {
                 if (corner < static_cast<int>(soup_.vertices.size())) continue;
@@ -36,31 +37,47 @@ public:
     }
 
 private:
-    /// A line with those that it is continued on by a backslash.
-    std::optional<std::string_view> whole_line() {
+    /// The statement of the next line without its comment, with the lines that it is continued on
+    /// by a backslash. Text that ends in one (mtllib C:\gems\) and comments go no further.
+    std::optional<std::string_view> statement() {
         auto line = lines_.next();
         first_line_ = lines_.line();
-        if (!line || !line->ends_with('\\')) return line;
+        if (!line) return line;
+        std::string_view content = without_comment(*line);
+        if (!content.ends_with('\\') || holds_text(content)) return content;
         joined_.clear();
-        while (line && line->ends_with('\\')) {
-            joined_.append(line->substr(0, line->size() - 1)).push_back(' ');
+        while (line && content.ends_with('\\')) {
+            joined_.append(content.substr(0, content.size() - 1)).push_back(' ');
             line = lines_.next();
+            if (line) content = without_comment(*line);
         }
-        if (line) joined_.append(*line);
+        if (line) joined_.append(content);
         return joined_;
     }
 
-    void read(std::string_view line) {
+    std::string_view without_comment(std::string_view line) {
         line = trimmed(line);
         if (line.starts_with('#')) {
             read_comment(soup_, line.substr(1));
-            return;
+            return {};
         }
         for (std::size_t i = 1; i < line.size(); ++i) {
-            if (line[i] == '#' && (line[i - 1] == ' ' || line[i - 1] == '\t')) {
-                line = trimmed(line.substr(0, i));
-            }
+            if (line[i] == '#' && (line[i - 1] == ' ' || line[i - 1] == '\t'))
+                return trimmed(line.substr(0, i));
         }
+        return line;
+    }
+
+    static bool holds_text(std::string_view line) {
+        const std::string_view keyword = line.substr(0, line.find_first_of(" \t"));
+        for (const char* const of_text : {"g", "o", "mtllib", "usemtl", "maplib", "usemap",
+                                          "shadow_obj", "trace_obj", "call"}) {
+            if (keyword == of_text) return true;
+        }
+        return false;
+    }
+
+    void read(std::string_view line) {
         // Keywords of one letter only; `g` may stand alone.
         if (line.empty()) return;
         if (line.size() == 1 ? line != "g" : line[1] != ' ' && line[1] != '\t') return;
@@ -74,17 +91,16 @@ private:
     }
 
     void read_vertex(const std::vector<std::string_view>& words) {
-        if (words.size() < 4) {
+        if (words.size() < 4 && (words.size() < 2 || number_in(words[1]))) {
             throw InputError(file_, first_line_, "a vertex needs three coordinates after v");
         }
         Vec3 vertex;
         for (int axis = 0; axis < 3; ++axis) {
             const auto number = number_in(words[axis + 1]);
             if (!number) {
-                throw InputError(file_, first_line_,
-                                 fmt::format("'{}' is not a finite number: a vertex needs three "
-                                             "coordinates after v",
-                                             shown(words[axis + 1])));
+                throw InputError(
+                    file_, first_line_,
+                    not_a_number(words[axis + 1]) + "; a vertex has three coordinates after v");
             }
             vertex[axis] = *number;
             soup_.precision.add(words[axis + 1], *number);
@@ -136,7 +152,8 @@ private:
 
 }  // namespace
 
-FaceSoup parse_obj(std::string_view text, const std::filesystem::path& file) {
+FaceSoup parse_obj(std::string_view bytes, const std::filesystem::path& file) {
+    const std::string text = decoded_text(bytes, file);
     return ObjParser(text, file).parse();
 }
 

@@ -1,10 +1,12 @@
 // Object File Format (Geomview): a header line, the counts, a vertex a line, a face a line. Of the
-// variants the prefixes ST, C and N are known; what they add follows the coordinates.
+// variants the prefixes ST, C and N are known, in any order; what they add follows the coordinates.
+// The keyword may be missing (Geomview's manual, "OFF": optional).
 
 #include <fmt/format.h>
 
 #include "stone/errors.h"
 #include "stone/mesh_formats.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -17,23 +19,7 @@ public:
 
     FaceSoup parse() {
         std::vector<std::string_view> words = next_words("the word OFF");
-        std::string_view keyword = words[0];
-        for (const std::string_view prefix : {"ST", "C", "N"}) {
-            if (keyword.starts_with(prefix)) keyword.remove_prefix(prefix.size());
-        }
-        if (keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF") {
-            throw InputError(file_, lines_.line(),
-                             "is OFF in more than three dimensions; only three are read");
-        }
-        if (keyword != "OFF") {
-            throw InputError(
-                file_, lines_.line(),
-                fmt::format("an OFF file begins with OFF, found '{}'", shown(words[0])));
-        }
-        words.erase(words.begin());
-        if (!words.empty() && words[0] == "BINARY") {
-            throw InputError(file_, lines_.line(), "is binary OFF; only the text form is read");
-        }
+        read_keyword(words);
         // The counts may stand on the line of the keyword.
         if (words.empty()) words = next_words("the counts of vertices and faces");
         const auto vertices = words.size() < 2 ? std::nullopt : integer_in(words[0]);
@@ -64,6 +50,34 @@ public:
     }
 
 private:
+    /// Takes the keyword off `words`. It may be missing: then they are the counts.
+    void read_keyword(std::vector<std::string_view>& words) {
+        if (words.size() >= 2 && words.size() <= 3 && integer_in(words[0]) && integer_in(words[1]))
+            return;
+        std::string_view keyword = words[0];
+        for (bool more = true; more;) {
+            more = false;
+            for (const std::string_view prefix : {"ST", "C", "N"}) {
+                if (!keyword.starts_with(prefix)) continue;
+                keyword.remove_prefix(prefix.size());
+                more = true;
+            }
+        }
+        if (keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF") {
+            throw InputError(file_, lines_.line(),
+                             "is OFF in more than three dimensions; only three are read");
+        }
+        if (keyword != "OFF" && keyword != "off") {
+            throw InputError(
+                file_, lines_.line(),
+                fmt::format("an OFF file begins with OFF, found '{}'", shown(words[0])));
+        }
+        words.erase(words.begin());
+        if (!words.empty() && words[0] == "BINARY") {
+            throw InputError(file_, lines_.line(), "is binary OFF; only the text form is read");
+        }
+    }
+
     /// The words of the next line that is neither blank nor a comment.
     std::vector<std::string_view> next_words(const std::string& expected) {
         while (const auto line = lines_.next()) {
@@ -81,16 +95,23 @@ private:
 
     void read_vertex(std::int64_t i, std::int64_t count) {
         const auto words = next_words(fmt::format("vertex {} of {}", i, count));
+        // Coordinates, a normal, a colour and a place in a texture.
+        constexpr std::size_t k_most_words = 3 + 3 + 4 + 2;
+        if (words.size() > k_most_words) {
+            throw InputError(file_, lines_.line(),
+                             fmt::format("{} numbers stand on the line of vertex {} of {}: write "
+                                         "each vertex, and each face, on a line of its own",
+                                         words.size(), i, count));
+        }
         Vec3 vertex{0, 0, 0};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto number = axis < words.size() ? number_in(words[axis]) : std::nullopt;
             if (!number) {
                 throw InputError(
                     file_, lines_.line(),
-                    fmt::format("expected three finite coordinates of vertex {} of "
-                                "{}, found '{}'",
-                                i, count,
-                                axis < words.size() ? shown(words[axis]) : "the end of the line"));
+                    fmt::format("vertex {} of {} needs three coordinates: {}", i, count,
+                                axis < words.size() ? not_a_number(words[axis])
+                                                    : "found the end of the line"));
             }
             vertex[static_cast<int>(axis)] = *number;
             soup_.precision.add(words[axis], *number);
@@ -131,7 +152,8 @@ private:
 
 }  // namespace
 
-FaceSoup parse_off(std::string_view text, const std::filesystem::path& file) {
+FaceSoup parse_off(std::string_view bytes, const std::filesystem::path& file) {
+    const std::string text = decoded_text(bytes, file);
     return OffParser(text, file).parse();
 }
 

@@ -11,6 +11,7 @@
 
 #include "stone/errors.h"
 #include "stone/mesh_formats.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -69,6 +70,8 @@ public:
     FaceSoup parse() {
         read_header();
         position_ = std::min(lines_.position(), bytes_.size());
+        // Where lines end in CR alone, a LF behind the last is the first byte of the data.
+        if (ends_in_cr_ && bytes_[position_ - 1] == '\n') --position_;
         bool has_vertices = false, has_faces = false;
         for (const Element& element : elements_) {
             check_room(element);
@@ -77,6 +80,12 @@ public:
             has_vertices |= element.name == "vertex";
             has_faces |= element.name == "face";
             read_element(element);
+        }
+        for (const Element& element : elements_) {
+            if (element.name != "tristrips" || element.count == 0) continue;
+            throw InputError(file_,
+                             "has triangle strips (element tristrips), which are not read: export "
+                             "it with faces");
         }
         if (!has_vertices || !has_faces || soup_.vertices.empty() || soup_.faces.empty()) {
             throw InputError(file_, "holds no mesh: it needs elements vertex and face");
@@ -100,6 +109,8 @@ private:
     void read_header() {
         const auto magic = lines_.next();
         if (!magic || trimmed(*magic) != "ply") fail("a PLY file begins with the line ply");
+        ends_in_cr_ = bytes_.substr(magic->size()).starts_with('\r') &&
+                      !bytes_.substr(magic->size()).starts_with("\r\n");
         bool has_format = false;
         while (const auto line = lines_.next()) {
             const std::vector<std::string_view> words = words_of(*line);
@@ -173,8 +184,9 @@ private:
         }
     }
 
-    double next_scalar(Scalar type) {
-        if (form_ == Form::text) return next_word();
+    /// Text that is no number matters only where a number is `wanted`.
+    double next_scalar(Scalar type, bool wanted = true) {
+        if (form_ == Form::text) return next_word(wanted);
         const std::size_t size = size_of(type);
         if (bytes_.size() - position_ < size) {
             throw InputError(file_, fmt::format("ends in the middle of element {}: is it cut "
@@ -216,7 +228,7 @@ private:
         return value;
     }
 
-    double next_word() {
+    double next_word(bool wanted) {
         constexpr std::string_view blanks = " \t\r\n\v\f";
         const std::size_t start = bytes_.find_first_not_of(blanks, position_);
         if (start == std::string_view::npos) {
@@ -228,13 +240,12 @@ private:
         word_ = bytes_.substr(start, end - start);
         position_ = end;
         const auto number = number_in(word_);
-        if (!number) {
+        if (!number && wanted) {
             const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + start, '\n');
-            throw InputError(
-                file_, line,
-                fmt::format("'{}' in element {} is not a finite number", shown(word_), current_));
+            throw InputError(file_, line,
+                             fmt::format("{}, in element {}", not_a_number(word_), current_));
         }
-        return *number;
+        return number.value_or(0);
     }
 
     std::int64_t next_count(Scalar type) {
@@ -278,12 +289,13 @@ private:
                 if (property.count_type) {
                     const std::int64_t count = next_count(*property.count_type);
                     for (std::int64_t k = 0; k < count; ++k) {
-                        const double value = next_scalar(property.type);
+                        const double value = next_scalar(property.type, p == corners);
                         if (p == corners && is_face) face.corners.push_back(corner_at(value));
                     }
                     continue;
                 }
-                const double value = next_scalar(property.type);
+                const bool wanted = std::find(axis_of, axis_of + 3, p) != axis_of + 3;
+                const double value = next_scalar(property.type, wanted);
                 for (int axis = 0; is_vertex && axis < 3; ++axis) {
                     if (axis_of[axis] == p) vertex[axis] = coordinate(value, property.type);
                 }
@@ -319,6 +331,7 @@ private:
     const std::filesystem::path& file_;
     Form form_ = Form::text;
     std::vector<Element> elements_;
+    bool ends_in_cr_ = false;  // the lines of the header
     std::size_t position_ = 0;
     std::string_view word_;  // the last one read from text
     std::string current_;    // where we are, for messages
@@ -328,6 +341,10 @@ private:
 }  // namespace
 
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file) {
+    if (bytes.starts_with(k_utf8_mark)) bytes.remove_prefix(k_utf8_mark.size());
+    std::string text;
+    if (bytes.substr(0, bytes.find("end_header")).find("binary_") == std::string_view::npos)
+        bytes = text = decoded_text(bytes, file);
     return PlyParser(bytes, file).parse();
 }
 

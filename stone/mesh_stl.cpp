@@ -10,6 +10,7 @@
 
 #include "stone/errors.h"
 #include "stone/mesh_formats.h"
+#include "stone/text_decoding.h"
 #include "stone/text_scan.h"
 
 namespace culet {
@@ -62,10 +63,11 @@ FaceSoup parse_binary(std::string_view bytes, std::size_t count,
 class AsciiStlParser {
 public:
     AsciiStlParser(std::string_view text, const std::filesystem::path& file)
-        : text_(text), lines_(text), file_(file) {}
+        : lines_(text), file_(file) {}
 
-    // Words without regard to lines or to small and capital letters, as writers differ in both. A
-    // solid's name is the rest of its line and is passed over.
+    // Words without regard to lines or to small and capital letters, as writers differ in both, and
+    // in `endloop` and `end loop`. A solid's name is the rest of its line and is passed over, as
+    // are lines that begin with `;` or `#`.
     FaceSoup parse() {
         while (next_word()) {
             if (is("solid") || is("endsolid")) {
@@ -86,9 +88,14 @@ private:
             const auto line = lines_.next();
             if (!line) return false;
             words_ = words_of(*line);
+            if (!words_.empty() && (words_[0][0] == ';' || words_[0][0] == '#')) words_.clear();
             at_ = 0;
         }
         word_ = words_[at_++];
+        if (is("end") && at_ < words_.size()) {
+            end_of_ = "end" + std::string(words_[at_++]);
+            word_ = end_of_;
+        }
         return true;
     }
 
@@ -114,7 +121,9 @@ private:
                              fmt::format("the file ends within {}: is it cut short?", of));
         }
         const auto value = number_in(word_);
-        if (!value) fail(fmt::format("a finite number of {}", of));
+        if (!value)
+            throw InputError(file_, lines_.line(),
+                             fmt::format("{}; expected a number of {}", not_a_number(word_), of));
         return *value;
     }
 
@@ -149,34 +158,47 @@ private:
         soup_.faces.push_back(std::move(face));
     }
 
-    std::string_view text_;
     LineReader lines_;
     const std::filesystem::path& file_;
     std::vector<std::string_view> words_;
     std::size_t at_ = 0;
     std::string_view word_;
+    std::string end_of_;  // `endloop` of `end loop`
     FaceSoup soup_;
 };
 
-/// By content, for many a binary file begins with the word `solid` too.
+/// By content, for many a binary file begins with the word `solid` too, and many a text file with
+/// something else.
 bool looks_like_text(std::string_view bytes) {
-    const std::string_view start = trimmed(bytes.substr(0, 1024));
-    if (start.size() < 5) return false;
-    return lower_case(std::string(start.substr(0, 5))) == "solid" &&
-           start.find('\0') == std::string_view::npos;
+    if (is_utf16(bytes)) return true;
+    const std::string start = lower_case(std::string(trimmed(bytes.substr(0, 1024))));
+    return start.find('\0') == std::string::npos &&
+           (start.starts_with("solid") || start.find("facet") != std::string::npos);
+}
+
+bool is_binary(std::string_view bytes) {
+    return bytes.size() >= k_binary_header &&
+           bytes.size() ==
+               k_binary_header + std::size_t{little_endian_word(bytes, 80)} * k_binary_triangle;
 }
 
 }  // namespace
 
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
+    // Some program has put the mark of UTF-8 before the header.
+    if (bytes.starts_with(k_utf8_mark) && is_binary(bytes.substr(k_utf8_mark.size())))
+        bytes.remove_prefix(k_utf8_mark.size());
     const std::size_t count =
         bytes.size() >= k_binary_header ? little_endian_word(bytes, 80) : std::size_t{0};
     const std::size_t size = k_binary_header + count * k_binary_triangle;
     FaceSoup soup;
-    if (bytes.size() >= k_binary_header && bytes.size() == size) {
+    if (is_binary(bytes)) {
         soup = parse_binary(bytes, count, file);
     } else if (looks_like_text(bytes)) {
-        soup = AsciiStlParser(bytes, file).parse();
+        const std::string text = decoded_text(bytes, file);
+        soup = AsciiStlParser(text, file).parse();
+    } else if (const std::string other = foreign_kind(bytes); !other.empty()) {
+        throw InputError(file, other);
     } else if (bytes.size() < k_binary_header) {
         throw InputError(file,
                          "is no STL: neither text that begins with 'solid' nor long enough "

@@ -3,6 +3,7 @@
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/mesh_io.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -26,6 +27,8 @@ SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) 
         return input;
     }
     if (!is_solid_file(file)) {
+        if (const std::string other = foreign_kind_of(file); !other.empty())
+            throw InputError(file, other);
         throw InputError(file,
                          "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, "
                          ".stl, .asc or .gem");

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "stone/text_decoding.h"
+
 namespace culet {
 
 std::optional<std::string_view> LineReader::next() {
@@ -19,22 +21,57 @@ std::optional<std::string_view> LineReader::next() {
     return text_.substr(start, end - start);
 }
 
+namespace {
+
+// Beyond ASCII: U+00A0, U+2007, U+2009, U+202F, U+3000 and U+FEFF, in UTF-8.
+constexpr std::string_view k_wide_blanks[] = {"\u00a0", "\u2007", "\u2009",
+                                              "\u202f", "\u3000", "\ufeff"};
+
+// Bytes of the blank that `text` begins with; 0: none.
+std::size_t blank_before(std::string_view text) {
+    const char c = text.front();
+    if (c == ' ' || (c >= '\t' && c <= '\r')) return 1;
+    if (static_cast<unsigned char>(c) < 0x80) return 0;
+    for (const std::string_view blank : k_wide_blanks) {
+        if (text.starts_with(blank)) return blank.size();
+    }
+    return 0;
+}
+
+std::size_t blank_behind(std::string_view text) {
+    const char c = text.back();
+    if (static_cast<unsigned char>(c) < 0x80) return blank_before(text.substr(text.size() - 1));
+    for (const std::string_view blank : k_wide_blanks) {
+        if (text.ends_with(blank)) return blank.size();
+    }
+    return 0;
+}
+
+}  // namespace
+
 std::vector<std::string_view> words_of(std::string_view line) {
-    constexpr std::string_view blanks = " \t\v\f\r\n";
     std::vector<std::string_view> words;
-    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
-        const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = line.find_first_not_of(blanks, end);
+    for (std::size_t at = 0, start = 0; at <= line.size();) {
+        const std::size_t blank = at < line.size() ? blank_before(line.substr(at)) : 1;
+        if (blank > 0 && at > start) words.push_back(line.substr(start, at - start));
+        at += std::max<std::size_t>(blank, 1);
+        if (blank > 0) start = at;
     }
     return words;
 }
 
 std::string_view trimmed(std::string_view line) {
-    constexpr std::string_view blanks = " \t\v\f\r\n";
-    const std::size_t start = line.find_first_not_of(blanks);
-    if (start == std::string_view::npos) return {};
-    return line.substr(start, line.find_last_not_of(blanks) - start + 1);
+    while (!line.empty()) {
+        const std::size_t blank = blank_before(line);
+        if (blank == 0) break;
+        line.remove_prefix(blank);
+    }
+    while (!line.empty()) {
+        const std::size_t blank = blank_behind(line);
+        if (blank == 0) break;
+        line.remove_suffix(blank);
+    }
+    return line;
 }
 
 std::string lower_case(std::string text) {
@@ -42,16 +79,75 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-std::string shown(std::string_view word) {
-    std::string text(word.substr(0, 40));
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f) c = '?';
+bool precedes_by_number(std::string_view a, std::string_view b) {
+    const auto digits_of = [](std::string_view text) {
+        return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
+    };
+    const auto without_zeros = [](std::string_view digits) {
+        return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+    };
+    const std::string_view whole_a = a, whole_b = b;
+    while (!a.empty() && !b.empty()) {
+        const std::string_view digits_a = digits_of(a), digits_b = digits_of(b);
+        if (digits_a.empty() || digits_b.empty()) {
+            if (a.front() != b.front()) return a < b;
+            a.remove_prefix(1);
+            b.remove_prefix(1);
+            continue;
+        }
+        const std::string_view number_a = without_zeros(digits_a);
+        const std::string_view number_b = without_zeros(digits_b);
+        if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
+        if (number_a != number_b) return number_a < number_b;
+        a.remove_prefix(digits_a.size());
+        b.remove_prefix(digits_b.size());
     }
-    if (word.size() > 40) text += "...";
+    return a.empty() && b.empty() ? whole_a < whole_b : a.empty();
+}
+
+std::string shown(std::string_view word) {
+    constexpr int k_longest = 40;
+    std::string text;
+    int count = 0;
+    for (std::size_t at = 0; at < word.size(); ++count) {
+        if (count == k_longest) return text + "...";
+        const std::size_t start = at;
+        const std::int32_t code = next_code_point(word, at);
+        if (code >= 0 && is_printable(code)) {
+            text += word.substr(start, at - start);
+        } else {
+            text += '?';
+        }
+    }
     return text;
 }
 
+std::string with_plain_minus(std::string_view word) {
+    // Minus, hyphens, dashes; small, full-width and superscript ones are not what people type.
+    for (const std::string_view minus :
+         {"\u2212", "\u2010", "\u2011", "\u2012", "\u2013", "\u2014"}) {
+        if (word.starts_with(minus)) return "-" + std::string(word.substr(minus.size()));
+    }
+    return std::string(word);
+}
+
+std::string not_a_number(std::string_view word) {
+    std::string text = "'" + shown(word) + "' is not a finite number";
+    const std::size_t comma = word.find(',');
+    if (comma == std::string_view::npos) return text;
+    const bool one = word.find(',', comma + 1) == std::string_view::npos;
+    std::string pointed(word);
+    pointed[comma] = '.';
+    if (one && comma + 1 < word.size() && number_in(pointed))
+        return text + ": it has a decimal comma; write a point (" + pointed + ")";
+    return text + ": part numbers with blanks, not with commas";
+}
+
 std::optional<double> number_in(std::string_view word) {
+    if (!word.empty() && static_cast<unsigned char>(word.front()) >= 0x80) {
+        const std::string plain = with_plain_minus(trimmed(word));
+        return plain == word ? std::nullopt : number_in(plain);
+    }
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);

@@ -25,21 +25,33 @@ private:
     long line_ = 0;
 };
 
-/// The blank-separated words of a line.
+/// The blank-separated words of a line. Blanks are those of ASCII and, in UTF-8, the no-break, thin
+/// and wide ones (U+00A0, U+2007, U+2009, U+202F, U+3000) and a byte order mark.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// `line` without blanks at both ends.
+/// `line` without blanks at both ends, as above.
 std::string_view trimmed(std::string_view line);
 
 /// ASCII letters as small ones.
 std::string lower_case(std::string text);
 
-/// As it may be shown to people: at most 40 characters, control characters as `?`.
+/// True where `a` comes before `b` when runs of digits are compared as numbers: turn-2, turn-10.
+bool precedes_by_number(std::string_view a, std::string_view b);
+
+/// As it may be shown to people: at most 40 characters of UTF-8; control characters, those that
+/// reorder text, and bytes that are no UTF-8 as `?`.
 std::string shown(std::string_view word);
 
-/// A finite decimal number that fills the word (`1`, `-2.5e-3`, `+4.`); nothing for any other word,
-/// for NaN and infinity, and beyond the range of doubles. The locale plays no part.
+/// The minus that typesetting and spreadsheets put before a number (U+2212, an en dash, ...) as
+/// `-`.
+std::string with_plain_minus(std::string_view word);
+
+/// A finite decimal number that fills the word (`1`, `-2.5e-3`, `+4.`), whose minus may be a
+/// typesetter's; nothing for any other word, for NaN and infinity, and beyond the range of doubles.
+/// The locale plays no part.
 std::optional<double> number_in(std::string_view word);
+/// `'2,5' is not a finite number`, and what to do where commas are the cause.
+std::string not_a_number(std::string_view word);
 std::optional<std::int64_t> integer_in(std::string_view word);
 
 /// How precisely a file states its coordinates, found from the digits that it spends on them.

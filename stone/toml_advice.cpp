@@ -8,17 +8,11 @@
 #include <cmath>
 #include <optional>
 
+#include "stone/text_scan.h"
+
 namespace culet {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
-        text.remove_prefix(1);
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
-        text.remove_suffix(1);
-    return text;
-}
 
 bool is_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -61,14 +55,11 @@ bool is_word_of_toml(std::string_view value) {
     return value == "true" || value == "false" || value == "inf" || value == "nan";
 }
 
-// Long lines are not given back whole.
-std::string shown(std::string_view text) {
-    return text.size() <= 60 ? std::string(text) : std::string(text.substr(0, 57)) + "...";
-}
-
 }  // namespace
 
 std::string number_advice(std::string_view text) {
+    if (const std::string plain = with_plain_minus(text); plain != text && leading_number(plain))
+        return fmt::format("write {} with a plain hyphen", shown(plain));
     const auto number = leading_number(text);
     if (!number || number->rest.empty()) return {};
     const std::string_view rest = number->rest;

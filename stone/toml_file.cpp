@@ -10,6 +10,7 @@
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 #include "stone/toml_advice.h"
 #include "stone/toml_keys.h"
 
@@ -186,7 +187,7 @@ toml::table parsed_text(std::string_view text, const std::filesystem::path& file
 }
 
 toml::table parsed(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    return parsed_text(read_text(file, k_limit_bytes), file, overrides);
+    return parsed_text(decoded_text(read_text(file, k_limit_bytes), file), file, overrides);
 }
 
 void erase_keys(toml::table& root, const std::vector<std::string>& keys) {

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "stone/cut_planes.h"
 #include "stone/text_scan.h"
 
 namespace culet {
@@ -40,9 +39,6 @@ constexpr std::array<UnitWord, 37> k_units{{
     {"percent", Of::percent, 1},
 }};
 
-// The sign that a typesetter puts for a minus.
-constexpr std::string_view k_long_minus = "\u2212";
-
 // The number that `text` begins with, taken off it.
 std::optional<double> leading_number(std::string& text) {
     const char* begin = text.data();
@@ -50,7 +46,7 @@ std::optional<double> leading_number(std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
     if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-    text = without_blanks(std::string_view(end, std::size_t(text.data() + text.size() - end)));
+    text = trimmed(std::string_view(end, std::size_t(text.data() + text.size() - end)));
     return value;
 }
 
@@ -87,7 +83,7 @@ std::optional<double> minutes_and_seconds(std::string rest) {
         bool marked = false;
         for (const char* sign : signs) {
             if (marked || !rest.starts_with(sign)) continue;
-            rest = without_blanks(std::string_view(rest).substr(std::string_view(sign).size()));
+            rest = trimmed(std::string_view(rest).substr(std::string_view(sign).size()));
             marked = true;
         }
         if (!marked) return std::nullopt;
@@ -98,36 +94,16 @@ std::optional<double> minutes_and_seconds(std::string rest) {
 
 }  // namespace
 
-std::string without_blanks(std::string_view text) {
-    static constexpr std::array<std::string_view, 6> blanks{" ",  "\t",     "\r",
-                                                            "\n", "\u00a0", "\u202f"};
-    for (bool again = true; again;) {
-        again = false;
-        for (const std::string_view blank : blanks) {
-            if (text.starts_with(blank)) {
-                text.remove_prefix(blank.size());
-                again = true;
-            }
-            if (text.ends_with(blank)) {
-                text.remove_suffix(blank.size());
-                again = true;
-            }
-        }
-    }
-    return std::string(text);
-}
-
 WrittenNumber written_number(std::string_view written, bool comma_separates) {
     WrittenNumber number;
-    // A spreadsheet's sign for degrees may come in Windows' own code.
-    const std::string text = without_blanks(utf8_from_windows1252(written));
+    const std::string text(trimmed(written));
     const auto fail = [&](const std::string& expected) {
         number.problem = fmt::format("is '{}'; expected {}", shown(text), expected);
         return number;
     };
     std::string rest = text;
-    if (rest.starts_with("\u00b1")) rest = without_blanks(rest.substr(2));
-    if (rest.starts_with(k_long_minus)) rest.replace(0, k_long_minus.size(), "-");
+    if (rest.starts_with("\u00b1")) rest = trimmed(rest.substr(2));
+    rest = with_plain_minus(rest);
     const auto pointed = with_decimal_point(rest, comma_separates);
     if (!pointed) return fail("one decimal mark and no others, such as 34.5");
     rest = *pointed;
@@ -137,7 +113,7 @@ WrittenNumber written_number(std::string_view written, bool comma_separates) {
     if (rest.empty()) return number;
     for (const std::string_view of : {"/", "of "}) {
         if (!rest.starts_with(of)) continue;
-        std::string teeth = without_blanks(std::string_view(rest).substr(of.size()));
+        std::string teeth(trimmed(std::string_view(rest).substr(of.size())));
         const auto count = leading_number(teeth);
         if (!count || !teeth.empty() || std::abs(*count) < 1) {
             return fail("a tooth of an index wheel such as 12 of 96");
@@ -145,6 +121,8 @@ WrittenNumber written_number(std::string_view written, bool comma_separates) {
         number.unit = {Of::teeth, *count, rest};
         return number;
     }
+    if (rest.starts_with("\u00b1") || rest.starts_with("+-") || rest.starts_with("+/-"))
+        return fail("the value alone: its uncertainty stands in the column sigma");
     const std::string word = lower_case(rest);
     for (const UnitWord& unit : k_units) {
         if (word != unit.word) continue;
@@ -153,7 +131,8 @@ WrittenNumber written_number(std::string_view written, bool comma_separates) {
     }
     for (const std::string_view degree : {"\u00b0", "\u00ba"}) {
         if (!rest.starts_with(degree)) continue;
-        const auto part = minutes_and_seconds(without_blanks(rest.substr(degree.size())));
+        const auto part =
+            minutes_and_seconds(std::string(trimmed(std::string_view(rest).substr(degree.size()))));
         if (!part || number.value != std::floor(number.value)) break;
         number.value += std::signbit(number.value) ? -*part : *part;
         number.unit = {Of::angle, 1, rest};

@@ -24,7 +24,4 @@ struct WrittenNumber {
 /// `comma_separates`: the file's fields are parted by commas, so that 1,234 may be a thousand.
 WrittenNumber written_number(std::string_view text, bool comma_separates);
 
-/// Without blanks at both ends, hard ones (U+00A0, U+202F) too.
-std::string without_blanks(std::string_view text);
-
 }  // namespace culet

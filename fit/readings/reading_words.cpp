@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "stone/text_scan.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -41,7 +42,7 @@ constexpr std::array<Synonym, 18> k_synonyms{{
 
 std::string plain_word(std::string_view written) {
     std::string word;
-    for (const char c : without_blanks(written)) {
+    for (const char c : trimmed(written)) {
         word += c == ' ' || c == '-'
                     ? '_'
                     : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -59,13 +60,13 @@ std::vector<std::string> split_names(std::string_view text) {
         if (c == '(') ++depth;
         if (c == ')') --depth;
         if (c == '/' && depth <= 0) {
-            names.push_back(without_blanks(name));
+            names.emplace_back(trimmed(name));
             name.clear();
         } else {
             name += c;
         }
     }
-    names.push_back(without_blanks(name));
+    names.emplace_back(trimmed(name));
     if (names.size() == 1 && names[0].empty()) names.clear();
     return names;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "fit/readings/measurement.h"
 #include "fit/readings/reading_words.h"
@@ -38,6 +39,16 @@ std::array<int, Column::count> columns_of(const CsvRow& header, const std::files
         // Spreadsheets put empty columns after the last.
         if (name.empty()) continue;
         const auto known = std::find(k_columns.begin(), k_columns.end(), name);
+        for (const char* const column : k_columns) {
+            const std::string_view more = std::string_view(name).substr(
+                name.starts_with(column) ? std::string_view(column).size() : name.size());
+            if (more.empty() || std::isalpha(static_cast<unsigned char>(more.front())) != 0)
+                continue;
+            throw InputError(file, header.line,
+                             fmt::format("column '{}': write {} alone; a unit stands beside each "
+                                         "number (34.5 deg), or is the stone file's",
+                                         header.fields[i], column));
+        }
         if (known == k_columns.end()) {
             throw InputError(file, header.line,
                              "unknown column '" + header.fields[i] +
@@ -86,6 +97,8 @@ public:
         reading.file = file_;
         reading.line = row.line;
         reading.kind = field(Column::kind);
+        if (reading.kind.empty())
+            throw InputError(file_, row.line, "kind is missing: write it in every row");
         reading.of = split_names(field(Column::of));
         const auto number = [&](Column column, WrittenUnit& unit) -> std::optional<double> {
             if (field(column).empty()) return std::nullopt;

@@ -10,6 +10,7 @@
 #include "fit/silhouettes/silhouette.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 #include "stone/text_scan.h"
 
 namespace culet {
@@ -177,7 +178,7 @@ Contour contour_of_polygon(const Vec3& direction, const std::vector<Vec3>& corne
 
 std::vector<Contour> read_contours(const std::filesystem::path& file, LengthUnit stone_unit,
                                    double sigma) {
-    const Json json = Json::parse(read_text(file), nullptr, false);
+    const Json json = Json::parse(decoded_text(read_text(file), file), nullptr, false);
     if (json.is_discarded()) throw InputError(file, "is not JSON");
     if (!json.is_object() || !json.contains("contours") || !json["contours"].is_array()) {
         throw InputError(file,
@@ -210,7 +211,7 @@ std::vector<Contour> read_contours(const std::filesystem::path& file, LengthUnit
 
 ShadowContours read_shadow_contours(const std::filesystem::path& file, LengthUnit stone_unit,
                                     double sigma) {
-    const std::string text = read_text(file);
+    const std::string text = decoded_text(read_text(file), file);
     const double to_stone = 1 / mm_per(stone_unit);
     Words words(text, file);
     ShadowContours read;

@@ -16,6 +16,7 @@
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -105,6 +106,8 @@ ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::pa
         return result;
     }
     if (header.format.empty()) {
+        if (const std::string other = foreign_kind(bytes); !other.empty())
+            throw InputError(file, other);
         throw InputError(
             file,
             "is no picture that can be read here: EXR, HDR, PFM, PNG, JPEG and TIFF are (raw "

@@ -168,11 +168,9 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
     Scene scene;
     read_stones(root, stone_instead, scene);
     scene.objects = objects_of(root, scene.stone.unit);
-    if (std::string missing = missing_colour(scene.stone.material); !missing.empty())
-        scene.notes.push_back(std::move(missing));
+    for (std::string& note : notes_on(scene.stone.material)) scene.notes.push_back(std::move(note));
     for (const Stone& stone : scene.more_stones) {
-        if (std::string missing = missing_colour(stone.material); !missing.empty())
-            scene.notes.push_back(std::move(missing));
+        for (std::string& note : notes_on(stone.material)) scene.notes.push_back(std::move(note));
     }
     if (const auto scale = root.number("absorption_scale")) {
         if (!(*scale >= 0 && *scale <= 1000)) {
