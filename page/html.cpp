@@ -6,33 +6,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "stone/text_decoding.h"
+
 namespace culet {
 
 namespace {
 
 constexpr const char* k_base64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-// Length of the valid UTF-8 sequence at the start (Unicode 15, table 3-7), or 0.
-std::size_t sequence_length(std::string_view text) {
-    const auto at = [&](std::size_t i) {
-        return i < text.size() ? static_cast<std::uint8_t>(text[i]) : std::uint8_t{0};
-    };
-    const auto follows = [&](std::size_t i, int low = 0x80, int high = 0xbf) {
-        return at(i) >= low && at(i) <= high;
-    };
-    const int first = at(0);
-    if (first < 0x80) return 1;
-    if (first >= 0xc2 && first <= 0xdf) return follows(1) ? 2 : 0;
-    if (first >= 0xe0 && first <= 0xef) {
-        const int low = first == 0xe0 ? 0xa0 : 0x80, high = first == 0xed ? 0x9f : 0xbf;
-        return follows(1, low, high) && follows(2) ? 3 : 0;
-    }
-    if (first >= 0xf0 && first <= 0xf4) {
-        const int low = first == 0xf0 ? 0x90 : 0x80, high = first == 0xf4 ? 0x8f : 0xbf;
-        return follows(1, low, high) && follows(2) && follows(3) ? 4 : 0;
-    }
-    return 0;
-}
 
 const char* const k_minus = "\xe2\x88\x92";
 const char* const k_dash = "\xe2\x80\x93";
@@ -53,11 +33,11 @@ std::string with_true_minus(std::string number) {
 
 std::string escaped(std::string_view text) {
     std::string result;
-    while (!text.empty()) {
-        const std::size_t length = sequence_length(text);
-        const std::string_view one = text.substr(0, std::max<std::size_t>(length, 1));
-        const char c = one.front();
-        if (length == 0) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t start = at;
+        const bool valid = next_code_point(text, at) >= 0;
+        const char c = text[start];
+        if (!valid) {
             result += "\xef\xbf\xbd";
         } else if (c == '&') {
             result += "&amp;";
@@ -72,9 +52,8 @@ std::string escaped(std::string_view text) {
         } else if ((static_cast<std::uint8_t>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) {
             result += "\xef\xbf\xbd";
         } else {
-            result += one;
+            result += text.substr(start, at - start);
         }
-        text.remove_prefix(one.size());
     }
     return result;
 }

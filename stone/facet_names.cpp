@@ -86,6 +86,16 @@ std::uint64_t corner_hash(const std::vector<Vec3>& vertices,
 
 void read_comment(FaceSoup& soup, std::string_view comment) {
     const std::vector<std::string_view> words = words_of(comment);
+    // As 3ds Max and Rhinoceros write it: `File units = meters`.
+    const std::string lower = lower_case(std::string(comment));
+    if (words.size() <= 6 && lower.find("unit") != std::string::npos &&
+        (lower.find("met") != std::string::npos || lower.find("inch") != std::string::npos) &&
+        lower.find("millimet") == std::string::npos) {
+        soup.notes.push_back(
+            fmt::format("a comment says '{}': name that unit in the stone file "
+                        "(unit = \"m\", \"cm\", \"in\"); without it mm are supposed",
+                        shown(trimmed(comment))));
+    }
     if (words.size() < 3 || words[0] != "culet") return;
     if (words[1] == "corners" && words[2].size() == 16) {
         std::uint64_t hash = 0;

@@ -53,6 +53,19 @@ void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
 
 }  // namespace
 
+std::string doubtful_size(const Solid& solid) {
+    // The least stones that are cut are half a millimetre wide, the largest below 0.2 m.
+    constexpr double k_least_mm = 0.3, k_largest_mm = 200, k_mm_per_m = 1000;
+    const double across = diameter(solid);
+    if (!(across > 0) || (across >= k_least_mm && across <= k_largest_mm)) return {};
+    const bool metres = across < k_largest_mm / k_mm_per_m && k_mm_per_m * across >= k_least_mm;
+    return fmt::format(
+        "is {:.4g} across: no stone is so {} in mm; {}name the unit of the mesh in the "
+        "stone file (unit = \"m\", \"cm\", \"in\")",
+        across, across < k_least_mm ? "small" : "large",
+        metres ? fmt::format("if it is in metres, {:.4g} mm across, ", k_mm_per_m * across) : "");
+}
+
 SolidFile read_solid(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     SolidFile read;

@@ -54,6 +54,9 @@ struct SolidFile {
 };
 SolidFile read_solid(const std::filesystem::path& file);
 
+/// What is odd about a mesh of this size if it is in mm, and what to do; empty: nothing.
+std::string doubtful_size(const Solid& solid);
+
 /// Throws InputError when write_solid has no format for the name's ending: asked for before the
 /// work whose result is to be written.
 void require_solid_name(const std::filesystem::path& file);

@@ -141,6 +141,8 @@ StoneFile stone_of(const TomlTable& root) {
     SolidFile file = read_solid(result.mesh_file);
     stone.solid = std::move(file.solid);
     result.notes = std::move(file.notes);
+    if (std::string odd = doubtful_size(stone.solid); !odd.empty() && !table->has("unit"))
+        result.notes.push_back("the mesh " + odd);
     stone.facets_are_whole = file.facets_are_whole;
     result.details = std::move(file.details);
 

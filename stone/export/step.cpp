@@ -15,6 +15,7 @@
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/facet_triangles.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -34,27 +35,15 @@ std::string real(double value) {
     return exponent == std::string::npos ? digits : digits + "E" + text.substr(exponent + 1);
 }
 
-// One character of UTF-8 and how many bytes it has; a byte that begins none stands for itself.
-std::pair<char32_t, std::size_t> character_at(std::string_view text, std::size_t at) {
-    const auto lead = static_cast<unsigned char>(text[at]);
-    const std::size_t length = lead < 0xc2 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    if (length == 1 || lead > 0xf4 || at + length > text.size()) return {lead, 1};
-    char32_t code = lead & (0xffu >> (length + 1));
-    for (std::size_t k = 1; k < length; ++k) {
-        const auto next = static_cast<unsigned char>(text[at + k]);
-        if ((next & 0xc0u) != 0x80u) return {lead, 1};
-        code = code << 6 | (next & 0x3fu);
-    }
-    return {code, length};
-}
-
 // A string of part 21: quotes and backslashes are doubled, what is beyond ASCII is \X4\, control
 // characters are gone.
 std::string step_string(std::string_view text) {
     std::string result = "'";
     for (std::size_t i = 0; i < text.size();) {
-        const auto [code, length] = character_at(text, i);
-        i += length;
+        const std::size_t start = i;
+        std::int32_t code = next_code_point(text, i);
+        // A byte that begins no character stands for itself.
+        if (code < 0) code = static_cast<unsigned char>(text[start]);
         if (code == '\'' || code == '\\') {
             result.append(2, static_cast<char>(code));
         } else if (code >= 0x20 && code < 0x7f) {
