@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -87,10 +89,13 @@ std::uint64_t corner_hash(const std::vector<Vec3>& vertices,
 void read_comment(FaceSoup& soup, std::string_view comment) {
     const std::vector<std::string_view> words = words_of(comment);
     // As 3ds Max and Rhinoceros write it: `File units = meters`.
-    const std::string lower = lower_case(std::string(comment));
-    if (words.size() <= 6 && lower.find("unit") != std::string::npos &&
-        (lower.find("met") != std::string::npos || lower.find("inch") != std::string::npos) &&
-        lower.find("millimet") == std::string::npos) {
+    constexpr std::string_view k_units[] = {"m",    "meters",      "metres", "meter",
+                                            "cm",   "centimeters", "in",     "inches",
+                                            "inch", "centimetres"};
+    if (words.size() > 1 && words.size() <= 6 &&
+        lower_case(std::string(comment)).find("unit") != std::string::npos &&
+        std::find(std::begin(k_units), std::end(k_units), lower_case(std::string(words.back()))) !=
+            std::end(k_units)) {
         soup.notes.push_back(
             fmt::format("a comment says '{}': name that unit in the stone file "
                         "(unit = \"m\", \"cm\", \"in\"); without it mm are supposed",
