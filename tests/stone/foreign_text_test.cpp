@@ -51,7 +51,7 @@ std::vector<std::pair<const char*, std::string>> kept_otherwise(const std::strin
             {"Ctrl-Z in a block of zeros", text + "\x1a" + std::string(100, '\0')}};
 }
 
-std::string error_of(const std::function<void()>& work) {
+std::string refusal_of(const std::function<void()>& work) {
     try {
         work();
     } catch (const InputError& error) {
@@ -100,9 +100,10 @@ TEST(ForeignText, OtherFilesAreNamedWithARemedy) {
         {std::string("\xff\xfe\0\0a\0\0\0", 8), "UTF-32", "UTF-8"},
     };
     for (const auto& one : cases) {
-        EXPECT_THAT(error_of([&] { decoded_text(one.bytes, "file"); }), says(one.what, one.remedy));
+        EXPECT_THAT(refusal_of([&] { decoded_text(one.bytes, "file"); }),
+                    says(one.what, one.remedy));
     }
-    EXPECT_THAT(error_of([] { decoded_text(std::string("a\nb\nc\0d\n", 8), "file"); }),
+    EXPECT_THAT(refusal_of([] { decoded_text(std::string("a\nb\nc\0d\n", 8), "file"); }),
                 HasSubstr("file:3: "));
 }
 
@@ -118,21 +119,21 @@ const std::string k_ply =
     k_corners + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 const std::string k_asc = "GemCad 5.0\ng 96 0.0\ny 4 n\na 90 1 96 24 48 72\na 0 1 96\na -0 1 96\n";
 
-std::string stl() {
+std::string stl_text_of_it() {
     return mesh_text(parse_mesh(k_obj, MeshFormat::obj).solid, MeshFormat::stl);
 }
 
-double volume_of(const std::string& bytes, MeshFormat format) {
+double volume_in(const std::string& bytes, MeshFormat format) {
     return volume(parse_mesh(bytes, format).solid);
 }
 
 TEST(ForeignText, EveryMeshAndDesignIsReadHoweverItsTextIsKept) {
     for (const auto& [format, text] :
          {std::pair(MeshFormat::obj, k_obj), std::pair(MeshFormat::off, k_off),
-          std::pair(MeshFormat::ply, k_ply), std::pair(MeshFormat::stl, stl())}) {
+          std::pair(MeshFormat::ply, k_ply), std::pair(MeshFormat::stl, stl_text_of_it())}) {
         for (const auto& [how, bytes] : kept_otherwise(text)) {
             SCOPED_TRACE(std::string(how) + " " + std::to_string(static_cast<int>(format)));
-            EXPECT_NEAR(volume_of(bytes, format), 1.0 / 6, 1e-15);
+            EXPECT_NEAR(volume_in(bytes, format), 1.0 / 6, 1e-15);
         }
     }
     for (const auto& [how, bytes] : kept_otherwise(k_asc)) {
@@ -145,7 +146,7 @@ TEST(ForeignText, LinesOfErrorsStayRight) {
     const std::string wrong = "v 0 0 0\nv 1 0 0\nv 0 x 0\n";
     for (const auto& [how, bytes] : kept_otherwise(wrong)) {
         SCOPED_TRACE(how);
-        EXPECT_THAT(error_of([&, text = bytes] { parse_mesh(text, MeshFormat::obj, "a.obj"); }),
+        EXPECT_THAT(refusal_of([&, text = bytes] { parse_mesh(text, MeshFormat::obj, "a.obj"); }),
                     says("a.obj:3: ", "'x'"));
     }
 }
@@ -227,7 +228,7 @@ TEST_F(ForeignTables, WavelengthsComeInTheUnitThatTheirRangeOrHeaderTells) {
         const Spectrum spectrum = read_wavelength_table(write("n.csv", one.text), "index", notes);
         EXPECT_NEAR(spectrum.at(550), one.at_550, 1e-12);
         ASSERT_EQ(notes.size(), *one.note == '\0' ? 0u : 1u);
-        if (!notes.empty()) EXPECT_THAT(notes[0], HasSubstr(one.note));
+        for (const std::string& note : notes) EXPECT_THAT(note, HasSubstr(one.note));
     }
 }
 
@@ -249,13 +250,13 @@ TEST_F(ForeignTables, WavelengthsThatMayMeanSomethingElseAreRefused) {
         SCOPED_TRACE(one.text);
         std::vector<std::string> notes;
         const std::string file = write("n.csv", one.text);
-        EXPECT_THAT(error_of([&] { read_wavelength_table(file, "index", notes); }),
+        EXPECT_THAT(refusal_of([&] { read_wavelength_table(file, "index", notes); }),
                     HasSubstr(one.says));
     }
 }
 
 template <class Value>
-void put(std::string& bytes, Value value) {
+void append_value(std::string& bytes, Value value) {
     const auto* const raw = reinterpret_cast<const char*>(&value);
     std::string part(raw, sizeof value);
     if (std::endian::native != std::endian::little) part = {part.rbegin(), part.rend()};
@@ -266,18 +267,19 @@ void put(std::string& bytes, Value value) {
 TEST(ForeignText, HeadersOfBinaryPlyMayEndInAnyLineEnd) {
     const float x = std::bit_cast<float>(0x3f80000a);
     std::string data;
-    for (const float f : {x, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f}) put(data, f);
+    for (const float f : {x, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f})
+        append_value(data, f);
     for (const auto& face :
          {std::array{0, 1, 2}, std::array{0, 3, 1}, std::array{1, 3, 2}, std::array{0, 2, 3}}) {
         data += '\3';
-        for (const int corner : face) put(data, std::int32_t{corner});
+        for (const int corner : face) append_value(data, std::int32_t{corner});
     }
     std::string header = k_ply.substr(0, k_ply.find(k_corners));
     header.replace(header.find("ascii"), 5, "binary_little_endian");
     for (const std::string end : {"\n", "\r\n", "\r"}) {
         for (const std::string mark : {"", "\xef\xbb\xbf"}) {
             SCOPED_TRACE(static_cast<int>(end.size()));
-            EXPECT_NEAR(std::abs(volume_of(mark + with_ends(header, end) + data, MeshFormat::ply)),
+            EXPECT_NEAR(std::abs(volume_in(mark + with_ends(header, end) + data, MeshFormat::ply)),
                         static_cast<double>(x) / 6, 1e-12);
         }
     }
@@ -287,18 +289,18 @@ TEST(ForeignText, BinaryStlMayHaveAMarkAndTheWordSolidInItsHeader) {
     const Solid solid = parse_mesh(k_obj, MeshFormat::obj).solid;
     std::string bytes = "solid by some program";
     bytes.resize(80, ' ');
-    put(bytes, std::uint32_t{4});
+    append_value(bytes, std::uint32_t{4});
     for (const Facet& facet : solid.facets) {
-        for (int i = 0; i < 3; ++i) put(bytes, 0.f);
+        for (int i = 0; i < 3; ++i) append_value(bytes, 0.f);
         for (const int corner : facet.corners) {
             for (int axis = 0; axis < 3; ++axis)
-                put(bytes,
-                    static_cast<float>(solid.vertices[static_cast<std::size_t>(corner)][axis]));
+                append_value(bytes, static_cast<float>(
+                                        solid.vertices[static_cast<std::size_t>(corner)][axis]));
         }
-        put(bytes, std::uint16_t{0});
+        append_value(bytes, std::uint16_t{0});
     }
-    EXPECT_NEAR(volume_of(bytes, MeshFormat::stl), 1.0 / 6, 1e-15);
-    EXPECT_NEAR(volume_of("\xef\xbb\xbf" + bytes, MeshFormat::stl), 1.0 / 6, 1e-15);
+    EXPECT_NEAR(volume_in(bytes, MeshFormat::stl), 1.0 / 6, 1e-15);
+    EXPECT_NEAR(volume_in("\xef\xbb\xbf" + bytes, MeshFormat::stl), 1.0 / 6, 1e-15);
 }
 
 }  // namespace
