@@ -97,12 +97,12 @@ Description describe_image_file(const DescribeOptions& options) {
     Description about;
     double low = INFINITY, high = -INFINITY;
     Rgb sum{0, 0, 0};
-    std::size_t not_finite = 0;
+    std::size_t not_finite = 0, first_of_them = 0;
     for (std::size_t p = 0; p < picture.pixels(); ++p) {
         bool finite = true;
         for (std::size_t c = 0; c < 3; ++c) finite &= std::isfinite(picture.rgb[3 * p + c]);
         if (!finite) {
-            ++not_finite;
+            if (not_finite++ == 0) first_of_them = p;
             continue;
         }
         for (std::size_t c = 0; c < 3; ++c) {
@@ -137,7 +137,9 @@ Description describe_image_file(const DescribeOptions& options) {
     if (not_finite > 0) {
         about.faults.push_back(
             {FaultKind::not_finite,
-             fmt::format("{} pixels hold values that are not finite", not_finite)});
+             fmt::format("{} pixels hold values that are not finite; the first is pixel {},{}",
+                         not_finite, first_of_them % static_cast<std::size_t>(picture.width),
+                         first_of_them / static_cast<std::size_t>(picture.width))});
     }
     return about;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -48,8 +49,14 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
     if (notes != nullptr) {
         for (std::string& note : binder.notes()) notes->push_back(std::move(note));
         if (skipped > 0) {
-            notes->push_back(
-                fmt::format("{} row{} without a value skipped", skipped, skipped == 1 ? "" : "s"));
+            const auto first =
+                std::find_if(written.begin(), written.end(),
+                             [](const WrittenReading& reading) { return reading.skipped; });
+            notes->push_back(fmt::format(
+                "{} row{} without a value skipped{}", skipped, skipped == 1 ? "" : "s",
+                first->line > 0 ? fmt::format(", the first in line {} of {}", first->line,
+                                              first->file.filename().string())
+                                : ""));
         }
     }
     return readings;
