@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
     CommonOptions common;
+    std::string given;  ///< the command line
     std::vector<std::string> pictures;  ///< photographs, then the render or the scene
     std::string folder, json, mask, cache, start, uncertainty;
     std::vector<std::string> ignored;
@@ -64,26 +65,6 @@ private:
     bool made_ = false;
 };
 
-std::string command_line(const CompareArguments& a) {
-    std::string line = "culet compare";
-    for (const std::string& picture : a.pictures) line += " " + picture;
-    line += " -o " + a.folder;
-    if (!a.json.empty()) line += " --json " + a.json;
-    if (!a.mask.empty()) line += " --mask " + a.mask;
-    for (const std::string& mask : a.ignored) line += " --ignore " + mask;
-    if (a.simulated) line += " --simulated";
-    if (a.against_scene()) {
-        if (a.calibrate)
-            line += fmt::format(" --calibrate --budget {:g} --draws {}", a.budget, a.draws);
-        if (!a.cache.empty()) line += " --cache " + a.cache;
-        if (!a.start.empty()) line += " --start " + a.start;
-        if (!a.uncertainty.empty()) line += " --uncertainty " + a.uncertainty;
-        if (a.keep_pose) line += " --keep-pose";
-        for (const std::string& set : a.common.set) line += " --set " + set;
-    }
-    return line + fmt::format(" --seed {}", a.common.seed);
-}
-
 // Masks of what is left out, one upon the other.
 std::vector<float> ignored_of(const std::vector<std::string>& files, const Photo& photo) {
     std::vector<float> all;
@@ -119,7 +100,7 @@ Report report_of(const CompareArguments& a, const std::string& photo, const Comp
     report.title = fmt::format("{} against {}", fs::path(photo).filename().string(),
                                fs::path(a.against()).filename().string());
     report.version = version;
-    report.command = command_line(a);
+    report.command = a.given;
     report.files = {{a.simulated ? "simulated photograph" : "photograph", photo},
                     {a.against_scene() ? "scene" : "render", a.against()}};
     if (!a.mask.empty()) report.files.push_back({"mask", a.mask});
@@ -358,7 +339,8 @@ void add_command_compare(CLI::App& program, int& exit_code) {
         "  culet compare face-up.tif tilted.tif scene.toml -o report --calibrate --budget 120\n"
         "Exit codes: 0 compared, whatever the verdict (match, partial, no_evidence); 1 refused: "
         "the outlines do not fit; 2 could not be done.");
-    command->callback([&program, arguments, &exit_code] {
+    command->callback([&program, command, arguments, &exit_code] {
+        arguments->given = as_given(*command);
         std::string version = program.version();
         if (version.starts_with("culet ")) version.erase(0, 6);
         exit_code = run_compare(*arguments, version);

@@ -13,6 +13,7 @@
 #include "app/study_scene.h"
 #include "app/terminal.h"
 #include "page/grade_page.h"
+#include "page/quantity.h"
 #include "render/grade/grade_figures.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
@@ -37,6 +38,7 @@ struct GradeCommand {
     int draws = 30;
     int size = 320;
     bool page_alone = false;  ///< no summary
+    std::string optimized_json;
 };
 
 GradeOptions options_of(const GradeCommand& command) {
@@ -58,14 +60,16 @@ std::string json_of(const std::vector<Graded>& all) {
 void print_summary(const Graded& graded) {
     const auto line = [&](const GradeFigure& figure) {
         const auto sigma = graded.sigma.figures.find(figure.name);
-        const std::string sure =
-            sigma == graded.sigma.figures.end() ? "" : fmt::format(" +- {:.3g}", sigma->second);
-        return fmt::format("  {:<42}{:>9.3f}{}", figure.words, figure.value, sure);
+        return sigma == graded.sigma.figures.end()
+                   ? fmt::format("  {:<42}{:>9.3f}", figure.words, figure.value)
+                   : fmt::format("  {:<42}{:>9}", figure.words,
+                                 plain_signs(quantity(figure.value, sigma->second, "")));
     };
     std::string text = fmt::format("{}, index {:.4f}\n", graded.input.name, graded.grade.index.n);
     for (const GradeFigure& figure : figures_of(graded.grade)) text += line(figure) + "\n";
-    text += fmt::format("  hearts {} of 8, arrows {} of 8 (heads {})\n", graded.grade.hearts.count,
-                        graded.grade.arrows.count, graded.grade.arrows.list.size());
+    text += fmt::format("  {}, {} (heads {})\n", counted_of_eight(graded.grade.hearts.count, "heart"),
+                        counted_of_eight(graded.grade.arrows.count, "arrow"),
+                        graded.grade.arrows.list.size());
     for (std::size_t i = 0; i < std::min<std::size_t>(graded.costs.size(), 3); ++i) {
         const FacetCost& cost = graded.costs[i];
         text +=
@@ -80,8 +84,8 @@ void write_page(const GradeCommand& command, const std::vector<Graded>& all) {
     const fs::path folder = command.out;
     GradeView view;
     view.version = CULET_VERSION;
-    view.command = "culet grade";
-    for (const std::string& file : command.files) view.command += " " + file;
+    view.command = command.choices.given;
+    view.optimized_json = command.optimized_json;
     std::size_t number = 0;
     for (const Graded& one : all) {
         view.designs.push_back(
@@ -146,7 +150,8 @@ int run_grade(GradeCommand command) {
 }  // namespace
 
 void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
-                      const fs::path& folder, const CommonOptions& common) {
+                      const fs::path& folder, const CommonOptions& common,
+                      const std::string& optimized_json) {
     GradeCommand command;
     command.common = common;
     command.files = files;
@@ -154,6 +159,7 @@ void write_grade_page(const std::vector<std::string>& files, const GradeChoices&
     command.choices = choices;
     command.index = choices.index;
     command.page_alone = true;
+    command.optimized_json = optimized_json;
     run_grade(command);
 }
 
@@ -162,7 +168,8 @@ void add_command_grade(CLI::App& program, int& exit_code) {
     CLI::App* grade = program.add_subcommand(
         "grade",
         "what a cut does with light: light return, tilt curves, ASET, hearts and arrows, fire");
-    grade->add_option("stone", command->files, "stones, meshes or cut designs, side by side")
+    grade->add_option("stone", command->files,
+                     "stones, meshes, cut designs or names of standard cuts, side by side")
         ->required()
         ->type_name("STONE|CUT...");
     grade->add_option("-o,--output", command->out, "folder for the page, pictures and grade.json")
@@ -196,7 +203,10 @@ void add_command_grade(CLI::App& program, int& exit_code) {
         "  culet grade design.asc --index 1.54 --tilts -30:30:1 --json grade.json\n"
         "  culet grade old.asc new.asc --material quartz -o out/compared\n"
         "  culet grade stone.toml -o out/grade");
-    grade->callback([command, &exit_code] { exit_code = run_grade(*command); });
+    grade->callback([grade, command, &exit_code] {
+        command->choices.given = as_given(*grade);
+        exit_code = run_grade(*command);
+    });
 }
 
 }  // namespace culet

@@ -10,8 +10,10 @@
 
 namespace culet {
 
-/// report.html, grade.json and pictures of the files side by side, as `culet grade -o` writes them.
+/// report.html, grade.json and pictures of the files side by side, as `culet grade -o` writes them;
+/// above them what `culet optimize --json` writes, unless it is empty.
 void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
-                      const std::filesystem::path& folder, const CommonOptions& common);
+                      const std::filesystem::path& folder, const CommonOptions& common,
+                      const std::string& optimized_json = {});
 
 }  // namespace culet

@@ -83,6 +83,7 @@ std::string json_of(const Optimized& result, const OptimizeOptions& options,
                                   {"two_factors", json_of(result.by_two_factors, options.merit)},
                                   {"better", json_of(result.at_better, options.merit)}}},
                                 {"found", result.found},
+                                {"recut", command.recut},
                                 {"volume_ratio", result.volume_ratio},
                                 {"table_percent",
                                  {{"start", 100 * table_share(result.start)},
@@ -164,7 +165,7 @@ int run_optimize(OptimizeCommand command) {
         fs::create_directories(command.page);
         write_gemcad_asc(result.start, sheet, before);
         write_grade_page({before.string(), command.out}, command.choices, command.page,
-                         command.common);
+                         command.common, json_of(result, options, command));
     }
     if (command.json != "-") print_result(result, command);
     if (!input.trusted)
@@ -245,7 +246,10 @@ void add_command_optimize(CLI::App& program, int& exit_code) {
         "  culet optimize design.asc --material quartz -o better.asc --page out/better\n"
         "  culet optimize design.asc --index 1.54 --objective brilliance=2,tilt=1 -o better.asc\n"
         "  culet optimize stone.toml --recut --gain 2 -o recut.asc");
-    optimize->callback([command, &exit_code] { exit_code = run_optimize(*command); });
+    optimize->callback([optimize, command, &exit_code] {
+        command->choices.given = as_given(*optimize);
+        exit_code = run_optimize(*command);
+    });
 }
 
 }  // namespace culet

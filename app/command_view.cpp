@@ -52,15 +52,6 @@ ViewSource source_of(const ViewOptions& options, const fs::path& file) {
     return {file, options.common.set, options.stone, {}, {}, {}};
 }
 
-// A name of a standard cut, where no file is called so.
-bool is_cut_name(const std::string& input) {
-    std::error_code ignored;
-    if (fs::exists(input, ignored)) return false;
-    return std::any_of(cut_kinds().begin(), cut_kinds().end(),
-                       [&](const CutKind& kind) { return kind.name == input; }) ||
-           input == "emerald";
-}
-
 ViewItem one_item(const ViewOptions& options, std::vector<std::string>& notes) {
     ViewSource source = source_of(options, options.input);
     if (is_cut_name(options.input)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/text_scan.h"
@@ -80,6 +81,14 @@ std::string put_in_order_of_numbers(std::vector<std::string>& pictures) {
     const auto moved = std::mismatch(given.begin(), given.end(), pictures.begin());
     return fmt::format("the pictures are taken in the order of their numbers: {} before {}",
                        *moved.second, *moved.first);
+}
+
+bool is_cut_name(const std::string& input) {
+    std::error_code ignored;
+    if (std::filesystem::exists(input, ignored)) return false;
+    return std::any_of(cut_kinds().begin(), cut_kinds().end(),
+                       [&](const CutKind& kind) { return kind.name == input; }) ||
+           input == "emerald";
 }
 
 void require_photographs_first(const std::vector<std::string>& pictures, bool simulated,

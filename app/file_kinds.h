@@ -19,6 +19,9 @@ void require_kind(const std::filesystem::path& file, const std::vector<FileKind>
 /// order of their numbers; pictures in another order stay. What was done, for people; else empty.
 std::string put_in_order_of_numbers(std::vector<std::string>& pictures);
 
+/// A name of a standard cut, where no file is called so.
+bool is_cut_name(const std::string& input);
+
 /// Throws InputError unless `pictures` are photographs and, last, a render or a scene: a scene
 /// stands before the last, or the first was rendered by culet and the last was not (and is not
 /// said to be a simulated photograph).

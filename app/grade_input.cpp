@@ -9,6 +9,7 @@
 #include "app/terminal.h"
 #include "fit/fit.h"
 #include "fit/readings/measurement.h"
+#include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/output_file.h"
@@ -89,9 +90,16 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
     if (choices.index && !(*choices.index > 1 && *choices.index < 10))
         throw InputError(
             fmt::format("--index is a refractive index above 1, found {:g}", *choices.index));
-    require_kind(file, {FileKind::solid, FileKind::stone}, choices.command, choices.overrides);
     std::vector<GradeInput> inputs;
-    if (kind_of(file, choices.overrides) == FileKind::stone) {
+    const bool is_cut = is_cut_name(file.string());
+    if (!is_cut)
+        require_kind(file, {FileKind::solid, FileKind::stone}, choices.command, choices.overrides);
+    if (is_cut) {
+        GradeInput input;
+        input.file = input.name = file.string();
+        input.stone.solid = make_cut(input.name);
+        inputs.push_back(std::move(input));
+    } else if (kind_of(file, choices.overrides) == FileKind::stone) {
         inputs = load_stone_file(file, choices, drawn);
     } else {
         SolidInput solid = load_solid(file);

@@ -31,6 +31,7 @@ struct GradeChoices {
     std::vector<std::string> overrides;
     bool quiet = false;
     const char* command = "culet grade";  ///< who asks, for messages
+    std::string given;                    ///< the command line, for the page
 };
 
 /// A stone file with readings is fitted; `drawn`: its mesh as it was drawn comes second. Throws

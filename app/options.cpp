@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "page/html.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -22,6 +23,21 @@ void add_common(CLI::App& command, CommonOptions& options, bool reads_toml) {
             ->type_name("KEY=VALUE")
             ->allow_extra_args(false);
     }
+}
+
+std::string as_given(const CLI::App& command) {
+    std::string line = "culet " + command.get_name();
+    std::vector<const CLI::Option*> told;
+    for (const CLI::Option* option : command.parse_order()) {
+        if (std::find(told.begin(), told.end(), option) != told.end()) continue;
+        told.push_back(option);
+        const bool flag = option->get_expected_max() == 0;
+        for (const std::string& value : option->results()) {
+            if (!option->get_positional()) line += " " + option->get_name();
+            if (!flag) line += " " + shell_word(value);
+        }
+    }
+    return line;
 }
 
 std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,

@@ -29,6 +29,9 @@ struct CommonOptions {
 /// Adds -q, -v, --threads, --seed and, for commands that read TOML, --set.
 void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = false);
 
+/// The command line that `command` was given, for a page to say how it was made.
+std::string as_given(const CLI::App& command);
+
 /// "1,2,3" as numbers, so many; `expected` says in an error what the option is. Throws InputError.
 std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
                                const std::string& expected);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "page/chart.h"
 #include "page/grade_section.h"
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "page/quantity.h"
 #include "page/study_sections.h"
 #include "page/templates.h"
 
@@ -27,40 +29,37 @@ struct Row {
     const char* sigma;  // its key there
     double factor;
     int decimals;
-    const char* unit;
 };
 
 // In per cent throughout, so that figures can be held against each other.
 constexpr Row k_rows[] = {
-    {"Light return, even light", "ISO", "face_up.iso.whole", "iso", 1, 2, " %"},
-    {"through the table", "ISO", "face_up.iso.table", "iso_table", 1, 2, " %"},
-    {"Light return, cosine light", "COS", "face_up.cos.whole", "cos", 1, 2, " %"},
-    {"through the table", "COS", "face_up.cos.table", "cos_table", 1, 2, " %"},
-    {"Light return, light from the sides", "SC2", "face_up.sc2.whole", "sc2", 1, 2, " %"},
-    {"through the table", "SC2", "face_up.sc2.table", "sc2_table", 1, 2, " %"},
-    {"Light return, cos², no head", "WLR of this line of sight", "face_up.wlr.whole", "wlr", 1, 2,
-     " %"},
+    {"Light return, even light", "ISO", "face_up.iso.whole", "iso", 1, 2},
+    {"through the table", "ISO", "face_up.iso.table", "iso_table", 1, 2},
+    {"Light return, cosine light", "COS", "face_up.cos.whole", "cos", 1, 2},
+    {"through the table", "COS", "face_up.cos.table", "cos_table", 1, 2},
+    {"Light return, light from the sides", "SC2", "face_up.sc2.whole", "sc2", 1, 2},
+    {"through the table", "SC2", "face_up.sc2.table", "sc2_table", 1, 2},
+    {"Light return, cos², no head", "WLR of this line of sight", "face_up.wlr.whole", "wlr", 1, 2},
     {"Weighted light return", "GIA's, seen from all around", "weighted_light_return",
-     "weighted_light_return", 100, 2, " %"},
+     "weighted_light_return", 100, 2},
     {"Useful return", "out of the crown, between head and 64°", "balance.return", "balance.return",
-     100, 2, " %"},
-    {"Into the viewer's head", "", "balance.head", "balance.head", 100, 2, " %"},
-    {"Out of the crown elsewhere", "", "balance.other", "balance.other", 100, 2, " %"},
-    {"Leaks", "pavilion and girdle", "balance.leak", "balance.leak", 100, 2, " %"},
-    {"Reflected on entry", "", "balance.entry_reflection", "balance.entry_reflection", 100, 2,
-     " %"},
-    {"Not followed to the end", "", "balance.residual", "balance.residual", 100, 2, " %"},
-    {"Fire", "red and blue at least 0.25° apart", "fire.separated", "fire.separated", 100, 2, " %"},
+     100, 2},
+    {"Into the viewer's head", "", "balance.head", "balance.head", 100, 2},
+    {"Out of the crown elsewhere", "", "balance.other", "balance.other", 100, 2},
+    {"Leaks", "pavilion and girdle", "balance.leak", "balance.leak", 100, 2},
+    {"Reflected on entry", "", "balance.entry_reflection", "balance.entry_reflection", 100, 2},
+    {"Not followed to the end", "", "balance.residual", "balance.residual", 100, 2},
+    {"Fire", "red and blue at least 0.25° apart", "fire.separated", "fire.separated", 100, 2},
     {"Spectral fire", "cut out of its spectrum by a pupil", "fire.spectral", "fire.spectral", 100,
-     2, " %"},
-    {"ASET red", "45° to 75° of elevation", "aset.red", "aset.red", 100, 2, " %"},
-    {"ASET green", "up to 45°", "aset.green", "aset.green", 100, 2, " %"},
-    {"ASET blue", "75° to 90°", "aset.blue", "aset.blue", 100, 2, " %"},
-    {"ASET dark", "leaks", "aset.dark", "aset.dark", 100, 2, " %"},
+     2},
+    {"ASET red", "45° to 75° of elevation", "aset.red", "aset.red", 100, 2},
+    {"ASET green", "up to 45°", "aset.green", "aset.green", 100, 2},
+    {"ASET blue", "75° to 90°", "aset.blue", "aset.blue", 100, 2},
+    {"ASET dark", "leaks", "aset.dark", "aset.dark", 100, 2},
     {"Hearts", "of the same area: smallest over largest", "hearts.evenness", "hearts.evenness", 100,
-     1, " %"},
+     1},
     {"Arrows", "of the same area: smallest over largest", "arrows.evenness", "arrows.evenness", 100,
-     1, " %"}};
+     1}};
 
 const Json* found_at(const Json& json, const std::string& path) {
     const Json* at = &json;
@@ -84,13 +83,20 @@ std::optional<double> value_of(const Json& grade, const char* path) {
 std::string shown(const Json& grade, const Row& row) {
     const std::optional<double> value = value_of(grade, row.path);
     if (!value) return "–";
-    std::string text = decimals(row.factor * *value, row.decimals);
+    // One pattern alone is as even as can be: that says nothing.
+    const std::string path = row.path;
+    const std::string_view evenness = ".evenness";
+    if (path.ends_with(evenness)) {
+        const std::string of = path.substr(0, path.size() - evenness.size());
+        const std::optional<double> count = value_of(grade, (of + ".count").c_str());
+        if (count && *count < 2) return "–";
+    }
     const auto sigma = grade.find("sigma");
     if (sigma != grade.end()) {
         if (const auto sure = number_at(*sigma, row.sigma))
-            text += " ± " + significant(row.factor * *sure, 2);
+            return quantity(row.factor * *value, row.factor * *sure, "%");
     }
-    return text + row.unit;
+    return decimals(row.factor * *value, row.decimals) + unit_suffix("%");
 }
 
 std::string name_in(const Json& grade) {
@@ -217,19 +223,30 @@ std::vector<View> costs_view(const std::vector<Json>& grades) {
     return designs;
 }
 
-std::string count_in(const Json& grade, const char* path) {
-    return whole(value_of(grade, path));
+std::string counted_in(const Json& grade, const char* path, const char* what) {
+    return counted_of_eight(static_cast<int>(value_of(grade, path).value_or(0)), what);
 }
 
-std::string headline(const std::vector<Json>& grades) {
-    std::string text;
-    for (const Json& grade : grades) {
-        text += fmt::format("{}{}: {} of 8 hearts, {} of 8 arrows, light return {} %",
-                            text.empty() ? "" : "; ", name_in(grade),
-                            count_in(grade, "hearts.count"), count_in(grade, "arrows.count"),
-                            decimals(value_of(grade, "face_up.iso.whole"), 1));
-    }
-    return text;
+std::vector<View> headline(const std::vector<Json>& grades) {
+    std::vector<View> lines;
+    for (const Json& grade : grades)
+        lines.push_back({{"name", name_in(grade)},
+                         {"words", fmt::format("{}, {}, light return {} %",
+                                               counted_in(grade, "hearts.count", "heart"),
+                                               counted_in(grade, "arrows.count", "arrow"),
+                                               decimals(value_of(grade, "face_up.iso.whole"), 1))}});
+    return lines;
+}
+
+// A stone and its drawing are one; a design and what `culet optimize` made of it are one.
+std::string title_of(const std::vector<Json>& grades, bool optimized) {
+    const std::string name = name_in(grades.front());
+    if (optimized) return name_in(grades.back()) + ": before and after";
+    const std::string file = text_at(grades.front(), "file");
+    const bool one = std::all_of(grades.begin(), grades.end(), [&](const Json& grade) {
+        return !file.empty() && text_at(grade, "file") == file;
+    });
+    return one || grades.size() == 1 ? name : fmt::format("{} designs", grades.size());
 }
 
 std::vector<View> notes_view(const std::vector<Json>& grades) {
@@ -248,6 +265,10 @@ std::vector<View> notes_view(const std::vector<Json>& grades) {
 
 }  // namespace
 
+std::string counted_of_eight(int count, const std::string& what) {
+    return count <= 8 ? fmt::format("{} of 8 {}s", count, what) : fmt::format("{} {}s", count, what);
+}
+
 std::string grade_page(const GradeView& view) {
     std::vector<Json> grades;
     Json data = Json::array();
@@ -261,13 +282,13 @@ std::string grade_page(const GradeView& view) {
         if (!drawing.empty())
             sections.push_back({{"name", name_in(grades[i])}, {"drawing_html", drawing}});
     }
-    const std::string title = view.designs.size() == 1 ? name_in(grades.front())
-                                                       : fmt::format("{} designs", grades.size());
+    const std::string title = title_of(grades, !view.optimized_json.empty());
     const std::string body =
         filled(templates::grade, {{"title", title},
                                   {"headline", headline(grades)},
                                   {"index", significant(number_at(grades.front(), "index"), 5)},
                                   {"head", significant(number_at(grades.front(), "head_deg"))},
+                                  {"optimized", optimized_view(view.optimized_json)},
                                   {"figures", figures_view(grades)},
                                   {"pictures", pictures_view(view, grades)},
                                   {"charts", charts_view(grades)},

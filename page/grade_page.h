@@ -25,7 +25,11 @@ struct GradeDesign {
 struct GradeView {
     std::vector<GradeDesign> designs;  ///< at least one
     std::string version, command;
+    std::string optimized_json;  ///< of `culet optimize`, whose before and after these are; or empty
 };
+
+/// "7 of 8 hearts"; "12 hearts" of a stone that has more of them than a standard brilliant.
+std::string counted_of_eight(int count, const std::string& what);
 
 /// A whole page in itself, with the grades as data. Throws InputError when a grade is no JSON
 /// object.

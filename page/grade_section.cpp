@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double k_width = 640;
+constexpr double k_width = 640, k_air = 4;  // around it, as the template has it
 
 struct Box {
     double left = std::numeric_limits<double>::infinity(), right = -left, low = left, high = -left;
@@ -59,8 +59,8 @@ std::string section_drawing(const std::string& section_json) {
             {{"points", points_in(array_at(path, "points"), box)}, {"end", text_at(path, "end")}});
     }
     return filled(templates::grade_section,
-                  {{"width", fmt::format("{:.0f}", k_width)},
-                   {"height", fmt::format("{:.0f}", (box.high - box.low) * box.scale())},
+                  {{"width", fmt::format("{:.0f}", k_width + 2 * k_air)},
+                   {"height", fmt::format("{:.0f}", (box.high - box.low) * box.scale() + 2 * k_air)},
                    {"azimuth", decimals(number_at(section, "azimuth_deg"), 1)},
                    {"outline", points_in(outline, box)},
                    {"paths", paths}});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -110,6 +111,16 @@ std::optional<std::string> bytes_of_base64(std::string_view text) {
 
 std::string png_uri(std::string_view png) {
     return "data:image/png;base64," + base64(png);
+}
+
+std::string shell_word(const std::string& word) {
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+        return std::isalnum(c) || std::string_view("._-/=+:,").find(char(c)) != std::string::npos;
+    });
+    if (plain) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
 }
 
 std::string as_sentence(std::string text) {

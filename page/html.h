@@ -31,6 +31,9 @@ std::string decimals(const std::optional<double>& value, int count);
 /// A count: no decimals.
 std::string whole(const std::optional<double>& value);
 
+/// One word of a command line for a POSIX shell: quoted where it must be.
+std::string shell_word(const std::string& word);
+
 /// With a capital in front and a stop behind. Not escaped.
 std::string as_sentence(std::string text);
 

@@ -93,6 +93,16 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
     return to_place_of(value, sigma, "") + " ± " + in_place(*sigma, place_of(*sigma)) + suffix;
 }
 
+std::string plain_signs(std::string text) {
+    for (const auto& [from, to] :
+         {std::pair("±", "+-"), std::pair("−", "-"), std::pair("–", "-"), std::pair("≤ ", "<="),
+          std::pair("×", "x"), std::pair("\u00a0", " "), std::pair("°", " deg")}) {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from))
+            text.replace(at, std::string(from).size(), to);
+    }
+    return text;
+}
+
 std::string as_read(const std::optional<double>& value, std::string_view unit) {
     return given(value) ? trimmed(*value, unit) + unit_suffix(unit) : k_none;
 }

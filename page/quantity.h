@@ -20,6 +20,9 @@ double finest_of(std::string_view unit);
 std::string quantity(const std::optional<double>& value, const std::optional<double>& sigma,
                      std::string_view unit);
 
+/// The same for a terminal of plain letters: "+-" for the sign, a plain minus and blank.
+std::string plain_signs(std::string text);
+
 /// The value alone, to the place that sigma allows, with its unit: fitted values, residuals.
 std::string to_place_of(const std::optional<double>& value, const std::optional<double>& sigma,
                         std::string_view unit);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "page/chart.h"
 #include "page/html.h"
 #include "page/json_fields.h"
+#include "page/quantity.h"
 #include "page/scene_study_fields.h"
 #include "page/scene_study_page.h"
 
@@ -78,24 +78,16 @@ std::string scene_study_chart(const std::string& study_json) {
 std::string scene_study_table(const std::string& study_json) {
     const Json study = parsed_study<Json>(study_json);
     std::string text;
-    const auto plain = [](std::string cell) {
-        for (const auto& [from, to] : {std::pair("−", "-"), std::pair("–", "-"),
-                                       std::pair("≤ ", "<="), std::pair("×", "x")}) {
-            for (std::size_t at = cell.find(from); at != std::string::npos; at = cell.find(from))
-                cell.replace(at, std::string(from).size(), to);
-        }
-        return cell;
-    };
     for (const Json* row : front_of(study)) {
         if (text.empty()) {
             text = fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", "CPU/ms", "wall/ms",
                                "error", "RMSE", "dE00", "FLIP", "setting on the front");
         }
-        text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", plain(ms(*row)),
-                            plain(ms(*row, "wall_seconds")), plain(error_of(*row)),
-                            plain(significant(number_at(*row, "rmse"), 2)),
-                            plain(decimals(number_at(*row, "deltaE00_mean"), 2)),
-                            plain(decimals(number_at(*row, "flip_mean"), 4)), words_in(*row));
+        text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", plain_signs(ms(*row)),
+                            plain_signs(ms(*row, "wall_seconds")), plain_signs(error_of(*row)),
+                            plain_signs(significant(number_at(*row, "rmse"), 2)),
+                            plain_signs(decimals(number_at(*row, "deltaE00_mean"), 2)),
+                            plain_signs(decimals(number_at(*row, "flip_mean"), 4)), words_in(*row));
     }
     if (!array_at(study, "recommendations").empty()) text += "\n";
     for (const Json& advice : array_at(study, "recommendations"))

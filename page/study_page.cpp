@@ -11,6 +11,7 @@
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "page/quantity.h"
 #include "page/study_sections.h"
 #include "page/templates.h"
 
@@ -186,14 +187,6 @@ View limit_of(const Json& study) {
 std::string study_table(const std::string& study_json) {
     const Json study = parsed_study<Json>(study_json);
     const std::string unit = text_at(study, "unit");
-    const auto plain = [](std::string text) {
-        for (const auto& [from, to] : {std::pair("−", "-"), std::pair("–", "-")}) {
-            for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from)) {
-                text.replace(at, std::string(from).size(), to);
-            }
-        }
-        return text;
-    };
     std::string text;
     if (!array_at(study, "settings").empty()) {
         text += fmt::format("{:<11} {:<13} {:>6} {:>8} {:>6} {:>10} {:>9} {:>11} {:>9}\n", "what",
@@ -205,11 +198,11 @@ std::string study_table(const std::string& study_json) {
         text += fmt::format("{:<11} {:<13} {:>6} {:>8} {:>6} {:>10} {:>11} {:>9}\n",
                             words != nullptr ? words->name : text_at(row, "sweep"),
                             text_at(row, "setting") + (true_at(row, "as_asked") ? " *" : ""),
-                            plain(of_fits(row, "sound")), plain(of_fits(row, "settled")),
-                            plain(of_fits(row, "best")),
-                            plain(significant(number_at(row, "angle_error"))),
-                            plain(significant(number_at(row, "offset_error"))),
-                            plain(ms(value_at(row, "seconds"))));
+                            plain_signs(of_fits(row, "sound")), plain_signs(of_fits(row, "settled")),
+                            plain_signs(of_fits(row, "best")),
+                            plain_signs(significant(number_at(row, "angle_error"))),
+                            plain_signs(significant(number_at(row, "offset_error"))),
+                            plain_signs(ms(value_at(row, "seconds"))));
     }
     if (!array_at(study, "limits").empty()) {
         text += fmt::format("{}{:>8} {:>7} {:>11} {:>10} {:>9} {:>6} {:>6}\n",
@@ -219,11 +212,11 @@ std::string study_table(const std::string& study_json) {
     for (const Json& row : array_at(study, "limits")) {
         text += fmt::format(
             "{:>8} {:>6}% {:>11} {:>10} {:>9} {:>6} {:>6}\n",
-            plain(whole(number_at(row, "readings"))), plain(whole(100 * value_at(row, "share"))),
-            plain(whole(number_at(row, "dof"))), plain(significant(number_at(row, "angle_error"))),
-            plain(significant(number_at(row, "angle_limit"))),
-            plain(decimals(number_at(row, "ratio"), 3)),
-            plain(decimals(number_at(row, "ratio_sigma"), 3)));
+            plain_signs(whole(number_at(row, "readings"))), plain_signs(whole(100 * value_at(row, "share"))),
+            plain_signs(whole(number_at(row, "dof"))), plain_signs(significant(number_at(row, "angle_error"))),
+            plain_signs(significant(number_at(row, "angle_limit"))),
+            plain_signs(decimals(number_at(row, "ratio"), 3)),
+            plain_signs(decimals(number_at(row, "ratio_sigma"), 3)));
     }
     return text;
 }

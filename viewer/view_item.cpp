@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <string_view>
 
 #include "page/fit_facts.h"
 #include "page/html.h"
@@ -21,6 +19,7 @@
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "viewer/engine/panorama.h"
+#include "viewer/engine/shown_stone.h"
 
 namespace culet {
 
@@ -33,24 +32,13 @@ constexpr std::array k_still_nm{450.0, 540.0, 610.0};
 
 constexpr const char* k_map_name = "environment.pfm";
 
-// A word for the shell.
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-        return std::isalnum(c) || std::string_view("._-/=+:,").find(char(c)) != std::string::npos;
-    });
-    if (plain) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
 std::string render_command(const ViewSource& source) {
-    std::string command = "culet render " + quoted(source.file.string());
+    std::string command = "culet render " + shell_word(source.file.string());
     const StoneScene& choices = source.choices;
-    if (!choices.material.empty()) command += " --material " + quoted(choices.material);
-    if (!choices.light.empty()) command += " --light " + quoted(choices.light);
+    if (!choices.material.empty()) command += " --material " + shell_word(choices.material);
+    if (!choices.light.empty()) command += " --light " + shell_word(choices.light);
     if (choices.width_mm) command += fmt::format(" --width {}", *choices.width_mm);
-    for (const std::string& key : source.overrides) command += " --set " + quoted(key);
+    for (const std::string& key : source.overrides) command += " --set " + shell_word(key);
     return command;
 }
 
@@ -90,7 +78,7 @@ std::string still_of(Scene scene, const std::string& refused) {
     }
     scene.settings.check = Check::none;
     RenderResult result;
-    if (refused.empty()) {
+    if (refused.empty() && scene.stone.convex) {
         scene.settings.engine = k_beam_engine;
         scene.settings.tolerance = std::max(scene.settings.tolerance, k_still_tolerance);
         if (scene.settings.wavelengths_nm.empty())
@@ -167,7 +155,7 @@ ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
     ViewItem item;
     item.name = !scene.stone.name.empty() ? scene.stone.name : source.file.stem().string();
     item.refused =
-        scene.has_stone() ? refused_by_beams(scene) : "beams draw a stone, and this scene has none";
+        scene.has_stone() ? refused_by_page(scene) : "beams draw a stone, and this scene has none";
     if (scene.has_stone()) {
         if (const std::optional<Stone> before = catalogue_of(source, scene.stone)) {
             ViewedStone catalogue;

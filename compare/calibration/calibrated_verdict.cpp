@@ -84,7 +84,7 @@ std::string headline_of(const CalibratedVerdict& verdict) {
     std::string text;
     const EquivalentError& error = verdict.equivalent;
     if (!error.deg) {
-        text = "how large an error of the facets this would be is not known";
+        text = "does not tell how large the errors of the facets are";
     } else if (error.at_least) {
         text = "fits no better than the same stone with " + degrees_in_words(*error.deg) +
                " of facet error";

@@ -79,8 +79,7 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
     const bool tiltable = with_facet_error(stone.solid, 1e-4, 1).has_value();
     if (!tiltable) {
         notes.push_back(
-            "the stone is not convex: its facets cannot be tilted_stone one by one, and there is "
-            "no "
+            "the stone is not convex: its facets cannot be tilted one by one, and there is no "
             "sensitivity curve");
     }
     const bool one_light = same_light_from_everywhere(model_.lights);

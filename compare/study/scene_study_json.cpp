@@ -65,7 +65,7 @@ Json row_of(const StudiedRender& render) {
                 {"words", render.words},
                 {"automatic", render.automatic},
                 {"engine", render.stats.engine},
-                {"tolerance", asked.tolerance},
+                {"tolerance", render.automatic ? render.settings.tolerance : asked.tolerance},
                 {"depth_asked", asked.depth},
                 {"depth", render.stats.depth},
                 {"samples", asked.samples},

@@ -146,12 +146,17 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         study.limit_made_exact = true;
     };
     treat_exact(options.meets);
+    // So is what is supposed of the facets: it stands nearest to the truth in every draw, and errors
+    // would come out below a limit that counts it.
+    const bool supposed = options.prior.source != Prior::Source::none;
+    options.prior.source = Prior::Source::none;
     for (Reading& reading : readings) {
         if (!is_relation(reading.kind) || reading.exact || reading.released) continue;
         reading.exact = true;
         study.limit_made_exact = true;
     }
-    const FitResult ideal = study.limit_made_exact ? fit_stone(stone, readings, options) : base;
+    const FitResult ideal =
+        study.limit_made_exact || supposed ? fit_stone(stone, readings, options) : base;
     if (!is_sound(stone, ideal)) {
         study.limit_message =
             fmt::format("no stone with exact meets and symmetries was found: {}", ideal.message);

@@ -28,6 +28,7 @@ RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
     settings.effects_auto = false;
     for (const Effects effect : {Effects::dispersion, Effects::polarization, Effects::aperture})
         settings.effects[static_cast<std::size_t>(effect)] = false;
+    settings.meets_again = false;
     if (settings.wavelengths_nm.empty()) settings.wavelengths_nm = k_three_nm;
     RenderResult result;
     if (refused_by_beams(quick).empty()) {
@@ -39,6 +40,7 @@ RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
     } else {
         settings.engine = k_reference_engine;
         settings.samples = 1;
+        settings.effects[static_cast<std::size_t>(Effects::birefringence)] = false;
         result = engine_named(settings.engine).draw(quick, progress);
     }
     result.stats.error_bound = std::numeric_limits<double>::quiet_NaN();

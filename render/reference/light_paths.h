@@ -1,6 +1,8 @@
 #pragma once
 // The exact light paths behind one eye ray in an isotropic, convex stone: crystal_paths.h without
-// what such a stone cannot do. There is one path, which sends a leaf out at every face.
+// what such a stone cannot do. There is one path, which sends a leaf out at every face. In a stone
+// that is not convex (Body: StoneBody) they are exact but for light that meets the stone again
+// after it left: it counts as gone.
 //
 // Traced backwards from the eye, which is exact because a face's power fractions are the same when
 // every wave vector is reversed: the eye ray is an emitted, unpolarised ray, and the radiance seen
@@ -15,8 +17,9 @@
 #include <complex>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <type_traits>
 
-#include "render/geometry/convex_body.h"
+#include "render/geometry/stone_body.h"
 #include "render/optics/fresnel.h"
 #include "render/optics/path.h"
 #include "render/scene/scene.h"
@@ -30,15 +33,15 @@ namespace culet {
 //   PathTrace&); void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const
 //   NodeWeights&);
 // `single`: the band has one node, and loops over nodes are none.
-template <class Sink, bool single = !k_has_effects>
+template <class Sink, bool single = !k_has_effects, class Body = ConvexBody>
 class LightPaths {
 public:
     /// `trace`: room for the way, and where to look first: what the last ray met there. It changes
     /// the time taken and nothing else, and comes from the same body or is new.
-    LightPaths(const ConvexBody& body, const Band& band, const PathLimits& limits, Sink& sink,
+    LightPaths(const Body& body, const Band& band, const PathLimits& limits, Sink& sink,
                PathTrace& trace)
         : body_(body), band_(band), limits_(limits), sink_(sink), trace_(trace) {}
-    LightPaths(const ConvexBody& body, const Band& band, const PathLimits& limits, Sink& sink)
+    LightPaths(const Body& body, const Band& band, const PathLimits& limits, Sink& sink)
         : body_(body),
           band_(band),
           limits_(limits),
@@ -80,7 +83,11 @@ private:
         for (int i = 0; i < nodes(); ++i) most = std::max(most, tau[i]);
         return weight * most;
     }
-    int guess() const { return trace_.facets[trace_.length]; }
+    // A convex body takes where the last ray went from here, another the facet that it comes from.
+    BodyHit way_out(const Vec3& at, const Vec3& direction) const {
+        constexpr bool convex = std::is_same_v<Body, ConvexBody>;
+        return body_.exit(at, direction, trace_.facets[trace_.length - (convex ? 0 : 1)]);
+    }
     void push(int facet) {
         trace_.facets[trace_.length] = facet;
         trace_.modes[trace_.length] = 'i';
@@ -174,7 +181,7 @@ private:
                 sink_.cut(weighted(carried.I, tau));
                 return;
             }
-            const BodyHit hit = body_.exit(at, direction, guess());
+            const BodyHit hit = way_out(at, direction);
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
             if constexpr (absorbs) absorb(carried.I, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
@@ -204,7 +211,7 @@ private:
                 sink_.cut(weighted(weight, tau));
                 return;
             }
-            const BodyHit hit = body_.exit(at, direction, guess());
+            const BodyHit hit = way_out(at, direction);
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
             if constexpr (absorbs) absorb(weight, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
@@ -225,7 +232,7 @@ private:
         if (weight > 0) sink_.path_exits(at, direction, weighted(weight, tau), trace_);
     }
 
-    const ConvexBody& body_;
+    const Body& body_;
     const Band& band_;
     PathLimits limits_;
     Sink& sink_;

@@ -257,11 +257,15 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.variance += share * share * gather.variance();
                 take(gather);
             } else {
-                const auto follow = [&](auto one) {
+                const auto follow_in = [&](const auto& body, auto one) {
                     Gather<one> gather(surroundings_, band, seen);
-                    LightPaths<Gather<one>, one>(body_.planes(), band, limits, gather, memory.trace)
+                    LightPaths<Gather<one>, one, std::decay_t<decltype(body)>>(body, band, limits,
+                                                                               gather, memory.trace)
                         .trace(ray, *entry);
                     take(gather);
+                };
+                const auto follow = [&](auto one) {
+                    body_.convex() ? follow_in(body_.planes(), one) : follow_in(body_, one);
                 };
                 if (!k_has_effects || band.count == 1) {
                     follow(std::true_type{});

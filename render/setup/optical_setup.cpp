@@ -198,7 +198,8 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     setup.stokes =
         has_polariser(scene) || (setup.on(Effects::polarization) &&
                                  (scene.settings.spectral || surroundings_polarise(scene)));
-    setup.general = setup.splits || setup.stokes || !scene.stone.convex || scene.immersion != 1;
+    setup.general = setup.splits || setup.stokes || scene.immersion != 1 ||
+                    (!scene.stone.convex && scene.settings.meets_again);
     setup.polarised = setup.on(Effects::polarization);
     if (setup.general && !setup.polarised) {
         EffectDecision& decision = setup.effects[static_cast<std::size_t>(Effects::polarization)];

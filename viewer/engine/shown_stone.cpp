@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "render/engine/engine.h"
+#include "render/planner/quick_picture.h"
 #include "render/scene/scene_io.h"
 #include "render/scene/turned_lights.h"
 #include "stone/errors.h"
@@ -43,6 +45,11 @@ std::string body_of(const Stone& stone) {
 
 }  // namespace
 
+std::string refused_by_page(Scene scene) {
+    scene.stone.convex = true;  // not asked for
+    return refused_by_beams(scene);
+}
+
 ShownStone::ShownStone(ViewedStone viewed, const std::string& scene_toml, const HeldFiles& files,
                        const std::string& name)
     : viewed_(std::move(viewed)) {
@@ -62,7 +69,7 @@ void ShownStone::set(const std::vector<std::string>& settings, const std::string
         scene.film.glare = 0;
         scene.notes.emplace_back("glare is left out here: culet render draws it");
     }
-    std::string refused = refused_by_beams(scene);
+    std::string refused = refused_by_page(scene);
     std::string body = body_of(scene.stone);
     if (body != body_) drawers_ = {};
     for (auto& drawer : drawers_) {
@@ -104,6 +111,12 @@ const RenderResult& ShownStone::draw(const FrameRequest& request) {
     if (!refused_.empty()) throw InputError(refused_);
     std::unique_ptr<Drawer>& drawer = drawers_[request.preview ? 1 : 0];
     Scene scene = scene_of(request);
+    if (!scene.stone.convex) {
+        scene.settings.engine = k_reference_engine;
+        traced_ = request.preview ? draw_quickly(scene)
+                                  : engine_named(scene.settings.engine).draw(scene, {});
+        return traced_;
+    }
     if (!drawer) {
         drawer.reset(new Drawer{FrameRenderer(scene), request.samples, false});
     } else if (request.quick && !drawer->stale && drawer->samples == request.samples) {

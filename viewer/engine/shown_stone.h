@@ -27,6 +27,10 @@ struct FrameRequest {
     std::optional<int> samples;
 };
 
+/// Why a page cannot draw this, in words; empty: it can. A convex stone is drawn by beams, any other
+/// by rays: `draw_quickly` for `preview`, else the reference.
+std::string refused_by_page(Scene scene);
+
 class ShownStone {
 public:
     ShownStone(ViewedStone viewed, const std::string& scene_toml, const HeldFiles& files,
@@ -38,7 +42,7 @@ public:
 
     const ViewedStone& viewed() const { return viewed_; }
     const Scene& scene() const { return scene_; }
-    /// Why beams cannot draw it; empty: they can.
+    /// Why a page cannot draw it; empty: it can.
     const std::string& refused() const { return refused_; }
 
     /// What a GPU draws of the scene as it is set.
@@ -61,6 +65,7 @@ private:
     std::string refused_, body_;
     mutable std::shared_ptr<const EnvironmentMap> coarse_map_;
     mutable std::optional<GpuSetup> on_gpu_;
+    RenderResult traced_;
     std::array<std::unique_ptr<Drawer>, 2> drawers_;  ///< beams, preview
 };
 

@@ -145,6 +145,7 @@ Json ViewerEngine::State::set(const Json& arguments) {
     }
     return {{"stone", now},
             {"wavelengths", setup.wavelengths_nm},
+            {"engine", stone.scene().stone.convex ? k_beam_engine : k_reference_engine},
             {"effects", effects},
             {"notes", stone.scene().notes},
             {"refused", item.refused.empty() ? stone.refused() : item.refused},

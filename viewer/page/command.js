@@ -12,6 +12,8 @@ class Command {
     // The scene's own light by its name: a stone without a scene has none that could be turned.
     if (this.page.own_light() && !settings.some((key) => key.startsWith("light")))
       settings.push(`light.preset=${toml_text(this.page.own_light())}`);
+    const rays = this.page.drawn_by_rays;
+    if (rays) settings.push("render.samples=1");
     return command_line({
       command: this.of_stone(stone),
       settings,
@@ -19,7 +21,7 @@ class Command {
       size: [width, height],
       exposure: this.page.exposure(),
       tonemap: this.page.tonemap(),
-      engine: "beams",
+      engine: rays ? "reference" : "beams",
       lights_turned: values.polariser === null ? this.page.lights_turn() : null,
     });
   }

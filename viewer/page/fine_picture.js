@@ -36,18 +36,18 @@ class FinePicture {
 
   // [side, picture] of each side, or nothing where the page has moved on. What an earlier call
   // still draws is given up.
-  async draw(sides, width, height, exposure) {
+  async draw(sides, width, height, exposure, engine) {
     if (this.busy) this.stop();
     const mine = this.busy = {};
     try {
       await this.open();
-      return await this.draw_sides(sides, width, height, exposure);
+      return await this.draw_sides(sides, width, height, exposure, engine);
     } finally {
       if (this.busy === mine) this.busy = null;
     }
   }
 
-  async draw_sides(sides, width, height, exposure) {
+  async draw_sides(sides, width, height, exposure, engine) {
     const page = this.page, version = page.loop.version, drawn = [];
     const late = () => page.loop.version !== version;
     for (const [side, stone] of sides) {
@@ -58,7 +58,8 @@ class FinePicture {
       page.panels.picture.took(answer);
       const picture = await this.engine.call("draw", {
         ...page.drawing(stone, width, height),
-        engine: "beams",
+        engine,
+        samples: page.drawn_by_rays ? 1 : null,
         exposure,
         tonemap: page.tonemap(),
       });

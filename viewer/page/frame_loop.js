@@ -4,10 +4,14 @@
 // time.
 
 const k_quick_ms = 33;       // of a frame while the stone moves
+const k_ray_ms = 90;         // of one of a stone that is not convex
 const k_rest_ms = 140;       // without a move, after which the whole picture is drawn
 const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
 const k_fine_ms = 250;       // without a move, after which the fine picture is begun
 const k_quick_depth = 12;    // faces of a path: a diamond's others bring 1.5 % of its light
+// Of a stone that is not convex: first without light that meets it again after it left, then as
+// culet render draws it, which takes ten times as long.
+const k_ray_rounds = ["preview", "beams"];
 const k_levels = {
   quick: 0,
   whole: 1,
@@ -138,18 +142,21 @@ class FrameLoop {
     await new Promise((resolve) => setTimeout(resolve, k_fine_ms));
     if (version !== this.version || page.info !== info || page.refused) return;
     const [width, height] = page.picture.size(1);
-    let drawn;
-    try {
-      drawn = await page.fine.draw(this.sides(), width, height, page.exposure());
-    } catch (error) {
-      if (version === this.version) page.failed(error);
+    const rounds = page.drawn_by_rays ? k_ray_rounds : ["beams"];
+    for (const [round, engine] of rounds.entries()) {
+      let drawn;
+      try {
+        drawn = await page.fine.draw(this.sides(), width, height, page.exposure(), engine);
+      } catch (error) {
+        if (version === this.version) page.failed(error);
+      }
+      if (!drawn || version !== this.version || page.info !== info) return;
+      for (const [side, picture] of drawn) page.picture.take(picture, side);
+      this.exposure = drawn[drawn.length - 1][1].exposure;
+      this.milliseconds.beams = drawn.reduce((sum, [, picture]) => sum + picture.milliseconds, 0);
+      page.show_picture();
+      page.drawn(false, round + 1 < rounds.length);
     }
-    if (!drawn || version !== this.version || page.info !== info) return;
-    for (const [side, picture] of drawn) page.picture.take(picture, side);
-    this.exposure = drawn[drawn.length - 1][1].exposure;
-    this.milliseconds.beams = drawn.reduce((sum, [, picture]) => sum + picture.milliseconds, 0);
-    page.show_picture();
-    page.drawn(false);
   }
 
   // Which stone stands on which side.
@@ -161,8 +168,10 @@ class FrameLoop {
   async draw(quick) {
     const page = this.page, info = page.info;
     const sides = this.sides();
-    const [width, height] = page.picture.size(quick ? this.scale : 1);
-    let spent = 0, exposure = this.exposure_for(quick);
+    // By rays a large picture takes seconds, for which the hand would wait.
+    const rays = page.drawn_by_rays, rest_scale = rays ? Math.min(1, 2.5 * this.scale) : 1;
+    const [width, height] = page.picture.size(quick ? this.scale : rest_scale);
+    let spent = 0, shading = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
       const settings = this.settings(stone);
       await page.engine.in_turn(() => page.info === info && this.prepare(stone, settings));
@@ -175,12 +184,13 @@ class FrameLoop {
       }
       const drawn = await this.ask(stone, settings, "draw", {
         ...page.drawing(stone, width, height),
-        engine: quick ? "preview" : "beams",
+        engine: quick || page.drawn_by_rays ? "preview" : "beams",
         exposure,
         tonemap: page.tonemap(),
       });
       if (!drawn || page.info !== info) return;
       spent += drawn.milliseconds;
+      shading += drawn.milliseconds - (drawn.build_ms || 0);
       page.picture.take(drawn, side);
       // Two stones beside each other are shown alike.
       if (side === "left" && typeof drawn.exposure === "number") exposure = drawn.exposure;
@@ -188,7 +198,7 @@ class FrameLoop {
     if (sides.length === 1) page.picture.pictures.delete("right");
     if (!quick && typeof exposure === "number") this.exposure = exposure;
     this.milliseconds[quick ? "preview" : "whole"] = spent;
-    if (quick) this.adapt(spent);
+    if (quick) this.adapt(spent, shading);
     page.show_picture();
     page.drawn(quick, !quick);
   }
@@ -199,8 +209,17 @@ class FrameLoop {
     return exposure === "auto" && quick && this.exposure ? this.exposure : exposure;
   }
 
-  adapt(milliseconds) {
-    const wanted = this.scale * Math.sqrt(k_quick_ms / Math.max(1, milliseconds));
+  // Before it is known how long a frame takes.
+  start_coarsely() {
+    if (this.milliseconds.preview === undefined) this.scale = k_least_scale;
+  }
+
+  // Fewer pixels shorten the shading only: a frame whose beams alone take longer than it may is not
+  // drawn more coarsely for that.
+  adapt(milliseconds, shading) {
+    const frame_ms = this.page.drawn_by_rays ? k_ray_ms : k_quick_ms;
+    const left = Math.max(frame_ms / 2, frame_ms - (milliseconds - shading));
+    const wanted = this.scale * Math.sqrt(left / Math.max(1, shading));
     this.scale = Math.min(1, Math.max(k_least_scale, 0.7 * this.scale + 0.3 * wanted));
   }
 }

@@ -19,7 +19,8 @@ class Page {
     this.designs =
       new Map();        // by a stone's index, under which number the engine holds its changed cut
     this.info = null;   // what the engine told of the item
-    this.refused = "";  // why beams cannot draw what is set
+    this.refused = "";      // why the engine cannot draw what is set
+    this.drawn_by_rays = false;  // a stone that is not convex: pictures take longer than by beams
     this.scene_version = 0;  // of what the engine holds beside stone and settings: cut, panorama
     this.hand_turns_light = false;
     this.motion = new Motion(this);
@@ -81,10 +82,11 @@ class Page {
     return Turn.after(Turn.after(Turn.inverse(turn), this.home()), light_turn);
   }
   // As `culet render` exposes where nothing is said: to the stone, but for instruments and own
-  // lights.
+  // lights. Nobody knows how bright a panorama is that was dropped.
   exposure() {
     const own = this.state.get("exposure");
     if (own !== null) return own;
+    if (this.state.get("light") === "panorama") return "auto";
     const preset = this.light_preset();
     return preset && !preset.instrument ? "auto" : 1;
   }
@@ -186,6 +188,8 @@ class Page {
 
   took_settings(answer) {
     this.refused = answer.refused || "";
+    this.drawn_by_rays = answer.engine === "reference";
+    if (this.drawn_by_rays) this.loop.start_coarsely();
     this.gpu.took_settings(answer);
     if (!this.panels.picture.told.length) this.panels.picture.took(answer);
   }
@@ -205,12 +209,7 @@ class Page {
   }
   // `rough`: a finer picture follows.
   drawn(quick, rough = false) {
-    const {preview, whole, beams, gpu} = this.loop.milliseconds;
-    const [name, ms] = this.gpu.shown ? ["GPU", gpu]
-      : quick                         ? ["quick", preview]
-      : rough                         ? ["beams, three wavelengths", whole]
-                                      : ["beams", beams];
-    by_id("timing").textContent = `${name} ${ms.toFixed(0)} ms${rough ? ", refining\u2026" : ""}`;
+    by_id("refining").hidden = !rough;
     this.stage.dataset.drawn = quick ? "quick" : rough ? "whole" : "fine";
     if (this.says_refused) by_id("trouble").hidden = true;
     this.says_refused = false;

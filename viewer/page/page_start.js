@@ -62,12 +62,7 @@ class Tabs {
 
 Object.assign(Page.prototype, {
   async start() {
-    const count = this.document.items.length;
-    this.state.set({item: Math.min(count - 1, Math.max(0, this.document.first || 0))});
-    this.state.restore(location.hash);
-    if (!(this.state.get("item") < count) || !location.hash.includes("item=")) {
-      this.state.set({item: Math.min(count - 1, Math.max(0, this.document.first || 0))});
-    }
+    this.restore_link();
     this.keys = new Keys(this, by_id("hand"), by_id("help"));
     this.gallery = new Gallery(this, by_id("gallery"));
     this.show_item();
@@ -80,6 +75,11 @@ Object.assign(Page.prototype, {
     }
     this.state.listen((changed, by) => this.changed(changed, by));
     await this.start_engine();
+  },
+
+  restore_link() {
+    const count = this.document.items.length;
+    this.state.restore(location.hash, count, Math.min(count - 1, this.document.first || 0));
   },
 
   async start_engine() {

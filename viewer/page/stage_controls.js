@@ -32,7 +32,7 @@ Object.assign(Page.prototype, {
     addEventListener("hashchange", () => {
       if (!this.ready()) return;
       const before = this.state.get("item");
-      this.state.restore(location.hash);
+      this.restore_link();
       if (this.state.get("item") !== before) {
         this.info = null;
         this.show_item();

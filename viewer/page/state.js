@@ -130,7 +130,8 @@ class State {
     }
     return parts.join("&");
   }
-  restore(fragment) {
+  // `count` stones there are, of which `first` is shown where the link names none of them.
+  restore(fragment, count = Infinity, first = 0) {
     const values = {};
     for (const part of fragment.replace(/^#/, "").split("&")) {
       const [key, text] = part.split("=");
@@ -144,6 +145,7 @@ class State {
       if (value !== undefined) values[key] = value;
     }
     if (values.zoom !== undefined) values.zoom = Math.min(50, Math.max(0.2, values.zoom));
+    if (!(values.item < count)) values.item = first;
     this.set({...k_state_defaults, ...values});
   }
 }

@@ -47,7 +47,7 @@ class Turntable {
         Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
       const drawn = await page.loop.ask(stone, page.loop.settings(stone), "draw", {
         ...page.drawing(stone, width, height, {...view, turn}),
-        engine: "beams",
+        engine: page.drawn_by_rays ? "preview" : "beams",
         exposure,
         tonemap: page.tonemap(),
       });
@@ -62,7 +62,7 @@ class Turntable {
     const canvas = element("canvas", {width, height});
     const context = canvas.getContext("2d", {alpha: false});
     context.putImageData(frames[0], 0, 0);
-    const stream = canvas.captureStream(k_film_rate), chunks = [];
+    const stream = canvas.captureStream(0), chunks = [];
     const recorder =
       new MediaRecorder(stream, {mimeType: Turntable.type(), videoBitsPerSecond: 8e6});
     recorder.ondataavailable = (event) => chunks.push(event.data);
@@ -70,17 +70,23 @@ class Turntable {
       recorder.onstop = resolve;
       recorder.onerror = () => reject(new Error("the browser stopped recording"));
     });
+    // The recorder takes a while to begin; what is played before is lost.
+    const begun = new Promise((resolve) => {
+      recorder.onstart = resolve;
+    });
     recorder.start();
-    const begin = performance.now();
+    await begun;
+    const [track] = stream.getVideoTracks(), begin = performance.now();
     for (const [i, frame] of frames.entries()) {
       context.putImageData(frame, 0, 0);
+      track.requestFrame();
       progress(0.7 + 0.3 * (i + 1) / frames.length);
       const next = begin + 1000 * (i + 1) / k_film_rate;
       await new Promise((resolve) => setTimeout(resolve, Math.max(0, next - performance.now())));
     }
     recorder.stop();
     await ended;
-    for (const track of stream.getTracks()) track.stop();
+    track.stop();
     return new Blob(chunks, {type: "video/webm"});
   }
 }

@@ -1,5 +1,6 @@
 // What the engine leaves to the program: files, and what needs libraries that a page does without.
 
+#include "render/engine/engine.h"
 #include "render/image/glare.h"
 #include "render/image/image_io.h"
 #include "render/reference/light_field.h"
@@ -47,6 +48,14 @@ std::vector<std::string> engine_names() {
     return {
         k_auto_engine, k_reference_engine, k_beam_engine,     k_preview_engine, "flat", "gouraud",
         "phong",       "whitted",          k_raytable_engine, k_gpu_engine};
+}
+
+const Engine& reference_engine();  // render/reference/reference_engine.cpp
+
+// Others are drawn by frames of beams.
+const Engine& engine_named(const std::string& name) {
+    check(name == k_reference_engine, "a page has one engine for stones that are not convex");
+    return reference_engine();
 }
 
 // `ViewerEngine` shows pictures without it.
