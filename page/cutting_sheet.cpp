@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "page/drawing.h"
+#include "page/html.h"
 #include "page/parts.h"
+#include "page/quantity.h"
 #include "page/template.h"
 #include "page/templates.h"
 #include "stone/proportions.h"
@@ -18,12 +20,13 @@ using SheetRow = std::pair<std::string, std::string>;
 
 // As fine as a machine is read: a hundredth of a degree.
 constexpr double k_alike_deg = 0.005;
+constexpr int k_places = 2;
 
-std::string angle_text(const CuttingSheet& sheet, std::size_t step, const char* plus_minus) {
+std::string angle_text(const CuttingSheet& sheet, std::size_t step) {
     const CuttingStep& cut = sheet.steps[step];
-    std::string text = fmt::format("{:.2f}", cut.angle_deg);
-    if (step < sheet.sigmas_deg.size() && sheet.sigmas_deg[step] > 0)
-        text += fmt::format(" {} {:.2g}", plus_minus, sheet.sigmas_deg[step]);
+    const double sigma = step < sheet.sigmas_deg.size() ? sheet.sigmas_deg[step] : 0;
+    std::string text = sigma > 0 ? quantity(cut.angle_deg, sigma, "", k_places)
+                                 : decimals(cut.angle_deg, k_places);
     if (cut.most_angle_deg - cut.least_angle_deg >= k_alike_deg)
         text += fmt::format(" ({:.2f} to {:.2f})", cut.least_angle_deg, cut.most_angle_deg);
     return text;
@@ -77,7 +80,7 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
         steps.push_back({{"number", fmt::format("{}", i + 1)},
                          {"tier", step.tier},
                          {"part", name_of(step.part)},
-                         {"angle", angle_text(sheet, i, "±")},
+                         {"angle", angle_text(sheet, i)},
                          {"indices", index_settings(step, sheet.gear)},
                          {"depth", depth_words(step.depth)}});
     }
@@ -106,7 +109,7 @@ std::string cutting_sheet_text(const CuttingSheet& sheet) {
     std::size_t tier = 4, angle = 5, depth = 6;
     for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
         tier = std::max(tier, sheet.steps[i].tier.size());
-        angle = std::max(angle, angle_text(sheet, i, "+-").size());
+        angle = std::max(angle, plain_signs(angle_text(sheet, i)).size());
         depth = std::max(depth, depth_words(sheet.steps[i].depth).size());
     }
     text += fmt::format(" no  {:<{}}  part      {:>{}}  {:<{}}  index settings\n", "tier", tier,
@@ -114,7 +117,7 @@ std::string cutting_sheet_text(const CuttingSheet& sheet) {
     for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
         const CuttingStep& step = sheet.steps[i];
         text += fmt::format("{:>3}  {:<{}}  {:<8}  {:>{}}  {:<{}}  {}\n", i + 1, step.tier, tier,
-                            name_of(step.part), angle_text(sheet, i, "+-"), angle,
+                            name_of(step.part), plain_signs(angle_text(sheet, i)), angle,
                             depth_words(step.depth), depth, index_settings(step, sheet.gear));
     }
     text += "\n";

@@ -76,9 +76,14 @@ if (viewer) {
   for (const picture of document.querySelectorAll(".turns img")) picture.addEventListener("click", open_viewer);
   viewer.querySelector(".viewer-close").addEventListener("click", () => viewer.close());
 }
-// Paper cannot be clicked: what is folded is printed open.
+// Paper cannot be clicked: what is folded is printed open. It says when it was printed, which the file
+// does not: the same input gives the same bytes.
 const opened = [];
+const printed = document.createElement("p");
+printed.className = "printed note";
+document.querySelector("main").prepend(printed);
 addEventListener("beforeprint", () => {
+  printed.textContent = `${document.title} · printed ` + new Date().toLocaleDateString(undefined, { dateStyle: "long" });
   for (const part of document.querySelectorAll("details:not([open])")) {
     part.open = true;
     opened.push(part);

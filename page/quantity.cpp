@@ -81,7 +81,7 @@ std::string to_place_of(const std::optional<double>& value, const std::optional<
 }
 
 std::string quantity(const std::optional<double>& value, const std::optional<double>& sigma,
-                     std::string_view unit) {
+                     std::string_view unit, int most_places) {
     if (!given(value)) return k_none;
     const std::string suffix = unit_suffix(unit);
     if (!given(sigma) || *sigma < 0) return to_place_of(value, std::nullopt, unit);
@@ -90,7 +90,9 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
     if (*sigma >= k_largest_written) {
         return significant(*value, 2) + " ± " + significant(*sigma, 2) + suffix;
     }
-    return to_place_of(value, sigma, "") + " ± " + in_place(*sigma, place_of(*sigma)) + suffix;
+    // One digit of sigma at least.
+    const int place = place_of(*sigma), shown = std::min(place, std::max(most_places, place - 1));
+    return in_place(*value, shown) + " ± " + in_place(*sigma, shown) + suffix;
 }
 
 std::string plain_signs(std::string text) {

@@ -14,11 +14,14 @@ std::string unit_suffix(std::string_view unit);
 /// Below this the unit's displays show nothing: a smaller sigma is that of what is held exactly.
 double finest_of(std::string_view unit);
 
+inline constexpr int k_any_place = 99;
+
 /// "33.784 ± 0.099°": sigma to two digits, the value to the same place. "0° (held exactly)" where
 /// sigma is finer than `finest_of`; the value alone where there is no sigma (none, NaN, infinite,
 /// negative); "–" without a value; "not known" for an angle whose sigma is a right angle or more.
+/// `most_places`: decimals of what is read, beyond which sigma's second digit says nothing.
 std::string quantity(const std::optional<double>& value, const std::optional<double>& sigma,
-                     std::string_view unit);
+                     std::string_view unit, int most_places = k_any_place);
 
 /// The same for a terminal of plain letters: "+-" for the sign, a plain minus and blank.
 std::string plain_signs(std::string text);

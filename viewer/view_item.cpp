@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <utility>
 
 #include "page/fit_facts.h"
 #include "page/html.h"
@@ -128,6 +131,51 @@ Scene scene_of(const ViewSource& source) {
     return culet::scene_of(root, &stone, light);
 }
 
+// Where a stone that is not convex has its notch, as seen from above: the mean of the edges at which
+// it bends inwards, from the middle. Nothing where there is none on one side.
+std::optional<Vec3> notch_of(const Solid& solid) {
+    constexpr double k_least = 1e-6, k_least_apart = 1e-3;  // of the stone's size
+    const double size = diameter(solid);
+    const Vec3 middle = centroid(solid);
+    std::map<std::pair<int, int>, std::size_t> owners;
+    Vec3 sum{0, 0, 0};
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        const std::vector<int>& corners = solid.facets[f].corners;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            owners[{corners[i], corners[(i + 1) % corners.size()]}] = f;
+    }
+    for (const auto& [ends, f] : owners) {
+        const auto other = owners.find({ends.second, ends.first});
+        if (other == owners.end()) continue;
+        const Facet& across = solid.facets[other->second];
+        const Plane& plane = solid.facets[f].plane;
+        const bool inwards =
+            std::any_of(across.corners.begin(), across.corners.end(), [&](int corner) {
+                const Vec3& at = solid.vertices[static_cast<std::size_t>(corner)];
+                return glm::dot(plane.normal, at) - plane.offset > k_least * size;
+            });
+        if (!inwards) continue;
+        const Vec3 &a = solid.vertices[static_cast<std::size_t>(ends.first)],
+                   &b = solid.vertices[static_cast<std::size_t>(ends.second)];
+        sum += glm::length(b - a) * (0.5 * (a + b) - middle);
+    }
+    sum.z = 0;
+    if (!(glm::length(sum) > k_least_apart * size * size)) return std::nullopt;
+    return glm::normalize(sum);
+}
+
+// A heart stands on its tip, its notch above; where a scene file has no word in it.
+ViewSource upright(const ViewSource& source, const Scene& scene) {
+    ViewSource turned = source;
+    if (scene.stone.convex || is_scene_file(source)) return turned;
+    for (const std::string& key : source.overrides) {
+        if (key.starts_with("camera")) return turned;
+    }
+    if (const std::optional<Vec3> notch = notch_of(scene.stone.solid))
+        turned.overrides.push_back(fmt::format("camera.up=[{:.6g},{:.6g},0]", notch->x, notch->y));
+    return turned;
+}
+
 // In the material of the stone that is looked at.
 std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_at) {
     Stone catalogue = looked_at;
@@ -149,8 +197,10 @@ std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_
 
 }  // namespace
 
-ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
-    Scene scene = scene_of(source);
+ViewItem view_item(const ViewSource& as_given, std::vector<std::string>& notes) {
+    Scene scene = scene_of(as_given);
+    const ViewSource source = upright(as_given, scene);
+    if (source.overrides != as_given.overrides) scene = scene_of(source);
     notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
     ViewItem item;
     item.name = !scene.stone.name.empty() ? scene.stone.name : source.file.stem().string();

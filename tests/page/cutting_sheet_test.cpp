@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "stone/cuts/cuts.h"
+#include "tests/page/kept_pages.h"
 
 namespace culet {
 namespace {
@@ -62,11 +63,16 @@ TEST(CuttingSheet, OfADesignWithoutMeetsIsCutToSize) {
 TEST(CuttingSheet, PageAndTextSayTheSame) {
     CuttingSheet sheet = brilliant();
     sheet.sigmas_deg.assign(sheet.steps.size(), 0.12);
+    sheet.sigmas_deg.front() = 0.034;  // a machine is read to a hundredth
     const std::string page = cutting_sheet_page(sheet), text = cutting_sheet_text(sheet);
     EXPECT_THAT(page, Not(HasSubstr("<b>brilliant</b>")));
     EXPECT_THAT(page, HasSubstr("<svg"));
     EXPECT_THAT(page, HasSubstr("34.50 ± 0.12"));
     EXPECT_THAT(text, HasSubstr("34.50 +- 0.12"));
+    EXPECT_THAT(page, HasSubstr(" ± 0.03"));
+    EXPECT_THAT(page, Not(HasSubstr("0.034")));
+    sheet.name = test::hostile_name();
+    test::keep_page("cutting-sheet", cutting_sheet_page(sheet));
     for (const char* both : {"meet G, U", "12 24 36 48 60 72 84", "0.5700", "6.5 mm"}) {
         EXPECT_THAT(page, HasSubstr(both));
         EXPECT_THAT(text, HasSubstr(both));

@@ -10,7 +10,9 @@
 #include <set>
 #include <string>
 
+#include "page/parts.h"
 #include "stone/errors.h"
+#include "tests/page/kept_pages.h"
 #include "tests/says.h"
 
 namespace culet {
@@ -91,6 +93,21 @@ TEST(FitPage, CardTellsWhatStandsOut) {
     fit["tier_angles"] = {{{"what", {"P3 is 0.6 degrees (+- 0.1) steeper", "P5 is flatter"}}}};
     EXPECT_THAT(fit_card(view(fit)), says("P3 is 0.6° (± 0.1) steeper", "1 more"));
     EXPECT_THAT(fit_look_section(view(fit)), HasSubstr("<li>P5 is flatter.</li>"));
+}
+
+TEST(FitPage, TakesForeignTextForText) {
+    Json fit = slipped();
+    const std::string name = test::hostile_name();
+    fit["doubts"] = {name};
+    fit["facets"][1]["name"] = name;
+    fit["readings"][1]["of"] = {name};
+    fit["readings"][1]["id"] = name;
+    const FitView shown = view(fit);
+    const std::string page =
+        html_page(name, fit_card(shown) + "<dl class=\"tiles\">" + fit_tiles(shown) + "</dl>" +
+                            fit_look_section(shown) + fit_section(shown));
+    EXPECT_THAT(page, Not(HasSubstr("<img")));
+    test::keep_page("fit", page);
 }
 
 TEST(FitPage, NamesTheSlipAndWhatToDo) {

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "page/grade_section.h"
 #include "stone/errors.h"
+#include "tests/page/kept_pages.h"
 
 namespace culet {
 namespace {
@@ -17,8 +20,8 @@ const char* const k_section =
         "paths": [{"points": [[0, 2], [0, 1], [0.5, 0]], "end": "leak"}]})";
 
 GradeDesign design(const std::string& name) {
-    return {R"({"schema": 1, "name": ")" + name +
-                R"(", "index": 2.417, "head_deg": 10, "crystal": "merged",
+    return {R"({"schema": 1, "name": )" + nlohmann::json(name).dump() +
+                R"(, "file": "a.toml", "index": 2.417, "head_deg": 10, "crystal": "merged",
             "face_up": {"iso": {"whole": 70.123, "table": null}},
             "models": [{"name": "iso", "tilt_deg": [-10, 0, 10], "tilt_azimuth_deg": 0,
                         "whole": [60, 70, 60], "table": [1, 2, 3]}],
@@ -31,7 +34,7 @@ GradeDesign design(const std::string& name) {
 }
 
 TEST(GradePage, ShowsFiguresWithTheirSigmasCostsAndNotes) {
-    const std::string page = grade_page({{design("Mine")}, "0.2", "culet grade mine.asc"});
+    const std::string page = grade_page({{design("Mine")}, "0.2", "culet grade mine.asc", {}});
     EXPECT_THAT(page, HasSubstr("70.12 ± 0.46 %"));
     EXPECT_THAT(page, HasSubstr("60.00 %"));
     EXPECT_THAT(page, testing::AllOf(HasSubstr("8 of 8 hearts"), HasSubstr("7 of 8 arrows")));
@@ -44,11 +47,45 @@ TEST(GradePage, ShowsFiguresWithTheirSigmasCostsAndNotes) {
 }
 
 TEST(GradePage, SetsDesignsSideBySide) {
-    const std::string page = grade_page({{design("Mine"), design("Yours")}, "0.2", "culet grade"});
+    GradeDesign yours = design("Yours");
+    yours.json.replace(yours.json.find("a.toml"), 6, "b.toml");
+    const std::string page = grade_page({{design("Mine"), yours}, "0.2", "culet grade", {}});
     EXPECT_THAT(page, HasSubstr("2 designs"));
-    EXPECT_THAT(page, HasSubstr(">Mine</th>"));
-    EXPECT_THAT(page, HasSubstr(">Yours</th>"));
+    EXPECT_THAT(page, HasSubstr(">Mine</bdi>"));
+    EXPECT_THAT(page, HasSubstr(">Yours</bdi>"));
     EXPECT_THAT(page, HasSubstr("iso, about x and (dashed) y"));
+}
+
+TEST(GradePage, CallsAStoneAndItsDrawingByTheStonesName) {
+    const std::string page =
+        grade_page({{design("Mine"), design("Mine (as drawn)")}, "0.2", "culet grade", {}});
+    EXPECT_THAT(page, HasSubstr("<h1>Mine</h1>"));
+}
+
+TEST(GradePage, CountsOfEightOnlyWhatAStandardBrilliantHas) {
+    EXPECT_EQ(counted_of_eight(7, "heart"), "7 of 8 hearts");
+    EXPECT_EQ(counted_of_eight(12, "heart"), "12 hearts");
+    // One heart is as even as can be.
+    GradeDesign one = design("Mine");
+    one.json.replace(one.json.find("{\"count\": 8"), 11, "{\"count\": 1");
+    EXPECT_THAT(grade_page({{one}, "0.2", "", {}}), Not(HasSubstr("98.0")));
+    EXPECT_THAT(grade_page({{design("Mine")}, "0.2", "", {}}), HasSubstr("98.0"));
+}
+
+TEST(GradePage, SaysWhatWasOptimised) {
+    const char* const optimized = R"({"objective": "brilliance=2,tilt=1", "model": "cos",
+        "merit": {"start": {"total": 48.21, "brilliance": 40.5, "tilt": 63.6},
+                  "two_factors": {"total": 49}, "better": {"total": 50.13, "brilliance": 43.1}},
+        "found": true, "recut": false, "volume_ratio": 0.968,
+        "table_percent": {"start": 55, "better": 56.2},
+        "tiers": [{"name": "", "part": "pavilion", "facets": ["P1<b>", "P2"], "from_deg": 43,
+                   "to_deg": 41.5}]})";
+    const std::string page = grade_page(
+        {{design(test::hostile_name()), design("better")}, "0.2", "culet optimize", optimized});
+    for (const char* said : {"brilliance=2,tilt=1", "48.21", "50.13", "43.10", "P1&lt;b&gt;", "43.00",
+                             "41.50", "−1.50", "−3.20 %", "55.0 to 56.2 %", "better: before and after"})
+        EXPECT_THAT(page, HasSubstr(said));
+    test::keep_page("grade", page);
 }
 
 TEST(GradePage, DrawsLightPathsByHowTheyEnd) {
@@ -57,7 +94,7 @@ TEST(GradePage, DrawsLightPathsByHowTheyEnd) {
     EXPECT_THAT(drawing, HasSubstr("azimuth 22.5"));
     EXPECT_EQ(section_drawing("{}"), "");
     EXPECT_THROW(section_drawing("[]"), InputError);
-    EXPECT_THROW(grade_page({{{"[]", "{}", {}, {}}}, "0.2", ""}), InputError);
+    EXPECT_THROW(grade_page({{{"[]", "{}", {}, {}}}, "0.2", "", {}}), InputError);
 }
 
 }  // namespace

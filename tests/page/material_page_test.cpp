@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "stone/errors.h"
+#include "tests/page/kept_pages.h"
 
 namespace culet {
 namespace {
@@ -17,6 +18,7 @@ TEST(MaterialPage, ShowsColoursRaysInOrderAndWhatIsMissing) {
              "usual_colour": "light blue"},
             {"id": "clear", "index_589nm": {"n": 1.5}, "colour": null}]})",
         "0.2");
+    test::keep_page("materials", page);
     EXPECT_NE(page.find("background:#99002a"), std::string::npos);
     EXPECT_NE(page.find("o 1.768<br>e 1.760"), std::string::npos);
     EXPECT_NE(page.find("light blue"), std::string::npos);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stone/errors.h"
+#include "tests/page/kept_pages.h"
 #include "tests/page/xml.h"
 
 namespace culet {
@@ -50,6 +51,9 @@ TEST(SceneStudyPage, ShowsAdviceFrontAndSettings) {
                           "culet study s",
                           {{-1, "data:,r", "", 0}, {1, "data:,p", "data:,d", 0.3}}});
     EXPECT_THAT(page, HasSubstr("<h1>Stone &amp; &lt;co&gt;</h1>"));
+    test::keep_page("scene-study", scene_study_page({study().dump(), test::hostile_name(), "1.2",
+                                                     test::hostile_name(),
+                                                     {{1, "data:,p", "data:,d", 0.3}}}));
     EXPECT_THAT(page, HasSubstr("64 × 48"));
     EXPECT_THAT(page, HasSubstr("640 × 480"));
     EXPECT_THAT(page, HasSubstr("for tolerance 0.01 take preview"));

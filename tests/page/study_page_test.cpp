@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stone/errors.h"
+#include "tests/page/kept_pages.h"
 #include "tests/page/xml.h"
 
 namespace culet {
@@ -37,6 +38,8 @@ nlohmann::json study() {
 
 TEST(StudyPage, ShowsTablesAndCharts) {
     const std::string page = study_page({study().dump(), "", "1.2", "culet study s"});
+    test::keep_page("study", study_page({study().dump(), test::hostile_name(), "1.2",
+                                         "culet study " + test::hostile_name()}));
     EXPECT_THAT(page, HasSubstr("<h1>Stone &amp; &lt;co&gt;</h1>"));
     EXPECT_THAT(page, HasSubstr("<section id=\"time\""));
     EXPECT_THAT(page, HasSubstr("<section id=\"limit\""));

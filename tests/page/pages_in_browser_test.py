@@ -1,0 +1,59 @@
+"""Every kind of page that the tests of the room make, with hostile names, on the screen of a telephone
+and on paper."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "viewer"))
+from viewer_pages import Browser  # noqa: E402
+
+PROGRAMS = [sys.argv.pop(1)]
+
+
+class PagesInBrowserTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="culet-kept-pages-"))
+        for program in PROGRAMS:
+            subprocess.run([program], check=True, capture_output=True, env={**os.environ, "CULET_KEPT_PAGES": str(cls.folder)})
+        cls.pages = sorted(cls.folder.glob("*.html"))
+        cls.browser = Browser(390, 844).__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def test_no_page_is_wider_than_a_telephone(self):
+        self.assertGreaterEqual(len(self.pages), 7, self.pages)
+        for page in self.pages:
+            with self.subTest(page=page.name):
+                self.browser.open(page)
+                self.browser.run("for (const part of document.querySelectorAll('details')) part.open = true")
+                self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
+                # What is cut off by a box of its own can be scrolled to.
+                cut = self.browser.run("""return [...document.querySelectorAll('main *')].filter((e) =>
+                    e.getBoundingClientRect().right > 391 && !e.closest('.scroll, svg, pre')).map((e) => e.outerHTML.slice(0, 80))""")
+                self.assertEqual(cut, [])
+                self.assertNotEqual(self.browser.run("return document.title"), "x", "foreign text was run as a script")
+
+    def test_paper_says_when_it_was_printed(self):
+        for page in self.pages:
+            with self.subTest(page=page.name):
+                self.browser.open(page)
+                self.browser.run("dispatchEvent(new Event('beforeprint'))")
+                said = self.browser.run("return document.querySelector('.printed').textContent")
+                self.assertIn(str(self.browser.run("return new Date().getFullYear()")), said)
+
+    def test_a_cutting_sheet_is_two_sides_of_paper(self):
+        import base64
+        self.browser.open(self.folder / "cutting-sheet.html")
+        pdf = base64.b64decode(self.browser.driver.execute_cdp_cmd(
+            "Page.printToPDF", {"preferCSSPageSize": True})["data"])
+        self.assertLessEqual(pdf.count(b"/Type /Page\n") + pdf.count(b"/Type /Page "), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
