@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/mesh_formats.h"
 #include "stone/output_file.h"
+#include "stone/text_decoding.h"
+#include "stone/text_scan.h"
 
 namespace culet {
 
@@ -93,13 +96,22 @@ void write_design(const Solid& solid, const std::string& design,
 std::optional<std::string> design_of(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     if (extension == "asc" || extension == "gem") return "GemCad";
-    std::ifstream stream(file);
+    std::ifstream stream(file, std::ios::binary);
     constexpr int k_first_lines = 5;
-    std::string line;
-    for (int i = 0; i < k_first_lines && std::getline(stream, line); ++i) {
-        const std::size_t at = line.find(k_design);
-        if (at == std::string::npos || line.empty() || (line[0] != '#' && line[0] != 'c')) continue;
-        return line.substr(at + k_design.size());
+    std::string bytes(4096, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    try {
+        const std::string text = decoded_text(bytes, file);
+        LineReader lines(text);
+        for (int i = 0; i < k_first_lines; ++i) {
+            const std::string_view line = lines.next().value_or("");
+            const std::size_t at = line.find(k_design);
+            if (at == std::string::npos || (line[0] != '#' && line[0] != 'c')) continue;
+            return std::string(line.substr(at + k_design.size()));
+        }
+    } catch (const InputError&) {
+        // No text, no comments.
     }
     return std::nullopt;
 }
