@@ -224,6 +224,8 @@ BatchList read_batch(const fs::path& jobs) {
     if (!fs::exists(jobs, problem)) throw InputError(jobs, "no such folder or table");
     if (fs::is_directory(jobs, problem)) return read_folder(jobs);
     if (extension_of(jobs) == "csv") return read_job_table(jobs);
+    if (const std::string other = foreign_kind_of(jobs); !other.empty())
+        throw InputError(jobs, other);
     throw InputError(jobs, "is neither a folder of stones nor a table of jobs (.csv)");
 }
 
