@@ -198,11 +198,14 @@ TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
 TEST_F(BatchCommand, ATableOfJobs) {
     write_stone("a.toml", 3.6);
     write("jobs.csv",
-          "name;stone;fit.iterations\nfirst;stones/a.toml;\nsecond;stones/a.toml;50\n"
-          "gone;stones/none.toml;\n");
+          "Name;Stone;fit.iterations\nfirst;stones/a.toml;\nsecond;stones/a.toml;50\n"
+          "gone;stones/none.toml;\n" +
+              std::string(150, 'x') + ";stones/none.toml;\n");
     EXPECT_EQ(batch({file("jobs.csv"), "-o", file("out"), "-q"}).exit_code, 1);
     const Json table = json("out/table.json");
-    ASSERT_EQ(table["jobs"].size(), 3u);
+    ASSERT_EQ(table["jobs"].size(), 4u);
+    // A folder's name has 100 bytes at most (docs/batch.md).
+    EXPECT_EQ(table["jobs"][3]["name"].get<std::string>().size(), 100u);
     EXPECT_EQ(json("out/jobs/second/fit.json")["options"]["iterations"], 50);
     EXPECT_EQ(table["jobs"][2]["status"], "failed");
     EXPECT_THAT(table["jobs"][2]["message"].get<std::string>(), HasSubstr("stones/none.toml"));
