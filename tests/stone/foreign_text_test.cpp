@@ -65,7 +65,7 @@ TEST(ForeignText, BytesBecomeUtf8) {
         std::string bytes, text;
     } cases[] = {
         {"a\nb\n", "a\nb\n"},
-        {"a\rb\r\nc\n\rd", "a\nb\nc\n\nd"},  // a lone CR is an end, CRLF is one
+        {"a\rb\r\nc\n\re", "a\nb\nc\n\ne"},  // a lone CR is an end, CRLF is one
         {"a\x1a", "a"},
         {"a\x1a"
          "b",
