@@ -211,7 +211,8 @@ private:
         constexpr std::size_t k_most_facets = 1000;  // of whom all pairs are looked at
         std::vector<double> fitting;
         if (planes.size() <= k_most_facets && !repeats_on(k_usual)) {
-            for (const double gear : {32, 48, 64, 72, 77, 80, 84, 88, 100, 112, 120, 128, 144}) {
+            for (const double gear : {32, 36, 40, 48, 60, 64, 72, 77, 80, 84, 88, 90, 99, 100, 108,
+                                      112, 120, 128, 144}) {
                 if (repeats_on(gear)) fitting.push_back(gear);
             }
         }
