@@ -13,6 +13,7 @@
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/proportions.h"
+#include "stone/text_decoding.h"
 #include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 
