@@ -12,6 +12,7 @@
 #include "stone/csv.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
+#include "stone/output_file.h"
 #include "stone/solid_input.h"
 #include "stone/text_decoding.h"
 #include "stone/text_scan.h"

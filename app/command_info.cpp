@@ -14,7 +14,6 @@
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
 #include "stone/stone_io.h"
-#include "stone/text_decoding.h"
 #include "stone/toml_file.h"
 
 namespace culet {

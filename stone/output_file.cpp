@@ -5,13 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <system_error>
 
 #include "stone/errors.h"
+#include "stone/text_decoding.h"
 
 namespace culet {
 
@@ -102,6 +105,14 @@ std::string read_text(const fs::path& file, std::size_t limit_bytes) {
     std::fclose(stream);
     text.resize(got);
     return text;
+}
+
+std::string foreign_kind_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes(64, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    return foreign_kind(bytes);
 }
 
 }  // namespace culet

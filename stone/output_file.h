@@ -37,4 +37,8 @@ void write_text(const std::filesystem::path& target, std::string_view text);
 /// `limit_bytes`.
 std::string read_text(const std::filesystem::path& file, std::size_t limit_bytes = 256u << 20);
 
+/// What a file's first bytes say that it is (foreign_kind, text_decoding.h); empty where it cannot
+/// be read.
+std::string foreign_kind_of(const std::filesystem::path& file);
+
 }  // namespace culet

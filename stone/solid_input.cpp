@@ -3,7 +3,7 @@
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/mesh_io.h"
-#include "stone/text_decoding.h"
+#include "stone/output_file.h"
 
 namespace culet {
 

@@ -1,10 +1,7 @@
 #include "stone/text_decoding.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 #include "stone/errors.h"
 
@@ -179,14 +176,6 @@ std::string foreign_kind(std::string_view bytes) {
     if (start.starts_with("<!doctype html") || start.starts_with("<html"))
         return "is a page of the web (HTML), not the file that it links to: download that";
     return {};
-}
-
-std::string foreign_kind_of(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes(64, '\0');
-    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-    return foreign_kind(bytes);
 }
 
 std::string decoded_text(std::string_view bytes, const std::filesystem::path& file) {

@@ -28,8 +28,6 @@ constexpr std::string_view k_utf8_mark = "\xef\xbb\xbf";
 /// What the first bytes of a file say that it is, and what to do: "is an Excel workbook or ...";
 /// empty: none of the files that people give in place of another.
 std::string foreign_kind(std::string_view bytes);
-/// The same of a file; empty where it cannot be read.
-std::string foreign_kind_of(const std::filesystem::path& file);
 
 /// The code point of UTF-8 at `at`, moved past it; -1 (and one byte on) where the text is no UTF-8.
 std::int32_t next_code_point(std::string_view text, std::size_t& at);

@@ -10,6 +10,7 @@
 #include "stone/output_file.h"
 #include "stone/stone.h"
 #include "stone/surface_mesh.h"
+#include "stone/wavelength_table.h"
 
 namespace culet {
 
@@ -25,6 +26,13 @@ std::string read_text(const std::filesystem::path& file, std::size_t) {
     refuse(file);
 }
 SolidFile read_solid(const std::filesystem::path& file) {
+    refuse(file);
+}
+std::string doubtful_size(const Solid&) {
+    return {};
+}
+Spectrum read_wavelength_table(const std::filesystem::path& file, const char*,
+                               std::vector<std::string>&) {
     refuse(file);
 }
 TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
