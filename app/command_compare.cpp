@@ -256,7 +256,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     const std::string json = several_json(several, rows);
     const std::string page =
         several_page(several, rows, fs::path(a.against()).stem().string() + " and its photographs",
-                     version, command_line(a));
+                     version, a.given);
     if (!a.json.empty()) write_text(a.json, json);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         write_text(fs::path(a.folder) / rows[i].page, pages[i]);

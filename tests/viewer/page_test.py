@@ -265,6 +265,40 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertTrue(self.browser.run("return document.getElementById('trouble').hidden"))
         self.assertEqual(self.browser.run("return culet_page.state.get('item')"), 0)
 
+    def test_link_to_a_stone_that_is_not_there_shows_the_first(self):
+        self.open(made_up_document(2), "item=99")
+        self.assertEqual(self.browser.run("return culet_page.state.get('item')"), 0)
+        self.browser.run("location.hash = 'item=1'")
+        self.browser.wait("while (culet_page.state.get('item') !== 1) await new Promise((r) => setTimeout(r, 20));")
+        self.browser.run("location.hash = 'item=77&wire=yes'")
+        self.browser.wait("while (culet_page.state.get('item') !== 0) await new Promise((r) => setTimeout(r, 20));")
+        self.browser.rest()
+
+    def test_stone_that_is_not_convex_turns(self):
+        """By rays: coarse frames while it moves, and the engine's whole picture once it rests."""
+        document = made_up_document()
+        document["items"][0]["stones"][0]["convex"] = False
+        self.open(document)
+        before = self.seen()
+        self.drag(60, 20)
+        self.assertNotEqual(before, self.seen())
+        self.assertEqual(self.browser.run("return document.getElementById('stage').dataset.drawn"), "fine")
+        self.assertIn("--engine reference", self.browser.run("return culet_page.command.line()"))
+        self.assertTrue(self.browser.run("return document.getElementById('trouble').hidden"))
+
+    def test_picture_keeps_its_shape_while_the_page_is_resized(self):
+        self.open()
+        for picture in ["picture", "gpu-picture", "still"]:
+            self.assertEqual(self.browser.run("return getComputedStyle(document.getElementById(arguments[0])).objectFit", picture), "contain")
+
+    def test_frames_are_coarser_only_where_that_helps(self):
+        """30 ms of beams and 10 of pixels in a frame of 33 ms: at a quarter of the resolution it would take 31."""
+        self.open()
+        scale = self.browser.run("const loop = culet_page.loop; loop.scale = 1; for (let i = 0; i < 50; ++i) loop.adapt(30 + 10 * loop.scale ** 2, 10 * loop.scale ** 2); return loop.scale")
+        self.assertGreater(scale, 0.95)
+        scale = self.browser.run("const loop = culet_page.loop; loop.scale = 1; for (let i = 0; i < 50; ++i) loop.adapt(132 * loop.scale ** 2, 132 * loop.scale ** 2); return loop.scale")
+        self.assertAlmostEqual(scale, 0.5, delta=0.01)  # the root of 33 over 132
+
     def test_names_are_text_and_never_html(self):
         document = made_up_document(2, two=True)
         evil = "<img src=x onerror=\"document.title='hit'\"></script><b>"
@@ -322,6 +356,16 @@ class PageTest(PageActions, unittest.TestCase):
         self.browser.run("culet_page.state.set({tonemap: 'reinhard'})")
         self.assertNotEqual(before, self.seen())
 
+    def test_slow_gpu_leaves_it_at_its_first_sample(self):
+        document = made_up_document()
+        document["title"] = "with a GPU"
+        self.open(document)
+        self.browser.run("""const now = performance.now.bind(performance), add = GpuProgram.prototype.add; let late = 0;
+            performance.now = () => now() + late; GpuProgram.prototype.add = function (sample) { late += 1e5; return add.call(this, sample); };
+            culet_page.state.set({drawn_by: 'gpu'});""")
+        self.browser.rest()
+        self.assertTrue(self.browser.run("return culet_page.gpu.shown && document.getElementById('trouble').hidden"))
+
     def test_lost_context_comes_back(self):
         self.gpu_page()
         before = self.seen()
@@ -340,6 +384,8 @@ class PageTest(PageActions, unittest.TestCase):
         before = self.seen()
         self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.hdr'));")
         self.assertNotEqual(before, self.seen())
+        # Nobody knows how bright it is.
+        self.assertEqual(self.browser.run("return culet_page.exposure()"), "auto")
         self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.txt'));")
         self.assertIn("room.txt is no panorama", self.browser.run("return document.getElementById('trouble').innerText"))
 
@@ -375,6 +421,16 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertTrue(self.downloaded(".png").startswith(b"\x89PNG"))
         self.browser.wait("await culet_page.panels.save.film();")
         self.assertTrue(self.downloaded(".webm").startswith(b"\x1a\x45\xdf\xa3"))  # EBML, of which WebM is made
+
+    def test_film_is_four_seconds_long(self):
+        """As the page promises; the recorder's own start is not in it, a slow machine may make it longer."""
+        self.open()
+        seconds = self.browser.wait("""const film = await culet_page.panels.save.turntable.film(() => {}); culet_page.loop.paused = false;
+            const video = document.createElement('video'); video.src = URL.createObjectURL(film);
+            await new Promise((r) => { video.onloadedmetadata = r; }); video.currentTime = 1e6;
+            await new Promise((r) => { video.ontimeupdate = r; }); return video.duration;""")
+        self.assertGreater(seconds, 3.7)
+        self.assertLess(seconds, 5)
 
     def downloaded(self, ending):
         """The file with that ending, once the browser has written it."""

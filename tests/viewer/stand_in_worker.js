@@ -136,7 +136,7 @@ const calls = {
     shown = call.stone;
     settings = call.settings;
     if (settings.some((s) => s.includes("refuse"))) throw new Error("a line for people");
-    return { wavelengths: 3, effects: [{ name: "dispersion", on: true, why: "the index changes" }, { name: "absorption", on: false, why: "it is clear" }], notes: [], refused: "", gpu_refused: with_gpu ? "" : "a stand-in has none" };
+    return { wavelengths: 3, effects: [{ name: "dispersion", on: true, why: "the index changes" }, { name: "absorption", on: false, why: "it is clear" }], notes: [], refused: "", engine: stones[shown].convex === false ? "reference" : "beams", gpu_refused: with_gpu ? "" : "a stand-in has none" };
   },
   draw,
   path: ({ x }) => x < 5 ? { paths: [] } : { paths: [

@@ -5,6 +5,7 @@
 const k_film_frames = 100;
 const k_film_rate = 25;   // a second
 const k_film_most = 720;  // pixels a side
+const k_film_slice_ms = 40;
 
 class Turntable {
   constructor(page) {
@@ -19,7 +20,8 @@ class Turntable {
                             : "This browser records no WebM; culet render --frames makes a film.";
   }
   static type() {
-    return ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find(
+    // VP8 first: a recorder that does not keep up drops frames.
+    return ["video/webm;codecs=vp8", "video/webm;codecs=vp9", "video/webm"].find(
       (type) => MediaRecorder.isTypeSupported(type));
   }
   stop() { this.recording = false; }
@@ -61,7 +63,6 @@ class Turntable {
   async play(frames, width, height, progress) {
     const canvas = element("canvas", {width, height});
     const context = canvas.getContext("2d", {alpha: false});
-    context.putImageData(frames[0], 0, 0);
     const stream = canvas.captureStream(0), chunks = [];
     const recorder =
       new MediaRecorder(stream, {mimeType: Turntable.type(), videoBitsPerSecond: 8e6});
@@ -70,19 +71,23 @@ class Turntable {
       recorder.onstop = resolve;
       recorder.onerror = () => reject(new Error("the browser stopped recording"));
     });
-    // The recorder takes a while to begin; what is played before is lost.
-    const begun = new Promise((resolve) => {
-      recorder.onstart = resolve;
-    });
-    recorder.start();
-    await begun;
-    const [track] = stream.getVideoTracks(), begin = performance.now();
-    for (const [i, frame] of frames.entries()) {
+    // The recorder takes a while to begin; what is played before its first bytes is lost.
+    const [track] = stream.getVideoTracks();
+    const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+    const show = (frame) => {
       context.putImageData(frame, 0, 0);
       track.requestFrame();
+    };
+    recorder.start(k_film_slice_ms);
+    while (!chunks.some((chunk) => chunk.size > 0) && recorder.state === "recording") {
+      show(frames[0]);
+      await pause(k_film_slice_ms);
+    }
+    const begin = performance.now();
+    for (const [i, frame] of frames.entries()) {
+      show(frame);
       progress(0.7 + 0.3 * (i + 1) / frames.length);
-      const next = begin + 1000 * (i + 1) / k_film_rate;
-      await new Promise((resolve) => setTimeout(resolve, Math.max(0, next - performance.now())));
+      await pause(Math.max(0, begin + 1000 * (i + 1) / k_film_rate - performance.now()));
     }
     recorder.stop();
     await ended;
