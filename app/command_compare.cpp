@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
     CommonOptions common;
-    std::string given;  ///< the command line
+    std::string given;                  ///< the command line
     std::vector<std::string> pictures;  ///< photographs, then the render or the scene
     std::string folder, json, mask, cache, start, uncertainty;
     std::vector<std::string> ignored;

@@ -67,9 +67,9 @@ void print_summary(const Graded& graded) {
     };
     std::string text = fmt::format("{}, index {:.4f}\n", graded.input.name, graded.grade.index.n);
     for (const GradeFigure& figure : figures_of(graded.grade)) text += line(figure) + "\n";
-    text += fmt::format("  {}, {} (heads {})\n", counted_of_eight(graded.grade.hearts.count, "heart"),
-                        counted_of_eight(graded.grade.arrows.count, "arrow"),
-                        graded.grade.arrows.list.size());
+    text += fmt::format(
+        "  {}, {} (heads {})\n", counted_of_eight(graded.grade.hearts.count, "heart"),
+        counted_of_eight(graded.grade.arrows.count, "arrow"), graded.grade.arrows.list.size());
     for (std::size_t i = 0; i < std::min<std::size_t>(graded.costs.size(), 3); ++i) {
         const FacetCost& cost = graded.costs[i];
         text +=
@@ -168,7 +168,8 @@ void add_command_grade(CLI::App& program, int& exit_code) {
     CLI::App* grade = program.add_subcommand(
         "grade",
         "what a cut does with light: light return, tilt curves, ASET, hearts and arrows, fire");
-    grade->add_option("stone", command->files,
+    grade
+        ->add_option("stone", command->files,
                      "stones, meshes, cut designs or names of standard cuts, side by side")
         ->required()
         ->type_name("STONE|CUT...");

@@ -230,11 +230,12 @@ std::string counted_in(const Json& grade, const char* path, const char* what) {
 std::vector<View> headline(const std::vector<Json>& grades) {
     std::vector<View> lines;
     for (const Json& grade : grades)
-        lines.push_back({{"name", name_in(grade)},
-                         {"words", fmt::format("{}, {}, light return {} %",
-                                               counted_in(grade, "hearts.count", "heart"),
-                                               counted_in(grade, "arrows.count", "arrow"),
-                                               decimals(value_of(grade, "face_up.iso.whole"), 1))}});
+        lines.push_back(
+            {{"name", name_in(grade)},
+             {"words",
+              fmt::format("{}, {}, light return {} %", counted_in(grade, "hearts.count", "heart"),
+                          counted_in(grade, "arrows.count", "arrow"),
+                          decimals(value_of(grade, "face_up.iso.whole"), 1))}});
     return lines;
 }
 
@@ -266,7 +267,8 @@ std::vector<View> notes_view(const std::vector<Json>& grades) {
 }  // namespace
 
 std::string counted_of_eight(int count, const std::string& what) {
-    return count <= 8 ? fmt::format("{} of 8 {}s", count, what) : fmt::format("{} {}s", count, what);
+    return count <= 8 ? fmt::format("{} of 8 {}s", count, what)
+                      : fmt::format("{} {}s", count, what);
 }
 
 std::string grade_page(const GradeView& view) {

@@ -25,7 +25,8 @@ struct GradeDesign {
 struct GradeView {
     std::vector<GradeDesign> designs;  ///< at least one
     std::string version, command;
-    std::string optimized_json;  ///< of `culet optimize`, whose before and after these are; or empty
+    std::string
+        optimized_json;  ///< of `culet optimize`, whose before and after these are; or empty
 };
 
 /// "7 of 8 hearts"; "12 hearts" of a stone that has more of them than a standard brilliant.

@@ -58,12 +58,13 @@ std::string section_drawing(const std::string& section_json) {
         paths.push_back(
             {{"points", points_in(array_at(path, "points"), box)}, {"end", text_at(path, "end")}});
     }
-    return filled(templates::grade_section,
-                  {{"width", fmt::format("{:.0f}", k_width + 2 * k_air)},
-                   {"height", fmt::format("{:.0f}", (box.high - box.low) * box.scale() + 2 * k_air)},
-                   {"azimuth", decimals(number_at(section, "azimuth_deg"), 1)},
-                   {"outline", points_in(outline, box)},
-                   {"paths", paths}});
+    return filled(
+        templates::grade_section,
+        {{"width", fmt::format("{:.0f}", k_width + 2 * k_air)},
+         {"height", fmt::format("{:.0f}", (box.high - box.low) * box.scale() + 2 * k_air)},
+         {"azimuth", decimals(number_at(section, "azimuth_deg"), 1)},
+         {"outline", points_in(outline, box)},
+         {"paths", paths}});
 }
 
 }  // namespace culet

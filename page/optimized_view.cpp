@@ -30,9 +30,8 @@ View optimized_view(const std::string& optimized_json) {
     const Json start = merits("start");
     for (const auto& [part, value] : start.items()) {
         if (part != "total" && start.size() > 2)
-            parts.push_back({{"part", part},
-                             {"before", merit("start", part)},
-                             {"now", merit("better", part)}});
+            parts.push_back(
+                {{"part", part}, {"before", merit("start", part)}, {"now", merit("better", part)}});
     }
     for (const Json& tier : array_at(json, "tiers")) {
         const Json& facets = array_at(tier, "facets");

@@ -198,8 +198,8 @@ std::string study_table(const std::string& study_json) {
         text += fmt::format("{:<11} {:<13} {:>6} {:>8} {:>6} {:>10} {:>11} {:>9}\n",
                             words != nullptr ? words->name : text_at(row, "sweep"),
                             text_at(row, "setting") + (true_at(row, "as_asked") ? " *" : ""),
-                            plain_signs(of_fits(row, "sound")), plain_signs(of_fits(row, "settled")),
-                            plain_signs(of_fits(row, "best")),
+                            plain_signs(of_fits(row, "sound")),
+                            plain_signs(of_fits(row, "settled")), plain_signs(of_fits(row, "best")),
                             plain_signs(significant(number_at(row, "angle_error"))),
                             plain_signs(significant(number_at(row, "offset_error"))),
                             plain_signs(ms(value_at(row, "seconds"))));
@@ -210,13 +210,14 @@ std::string study_table(const std::string& study_json) {
                             "redundancy", "angles/deg", "limit/deg", "ratio", "+-");
     }
     for (const Json& row : array_at(study, "limits")) {
-        text += fmt::format(
-            "{:>8} {:>6}% {:>11} {:>10} {:>9} {:>6} {:>6}\n",
-            plain_signs(whole(number_at(row, "readings"))), plain_signs(whole(100 * value_at(row, "share"))),
-            plain_signs(whole(number_at(row, "dof"))), plain_signs(significant(number_at(row, "angle_error"))),
-            plain_signs(significant(number_at(row, "angle_limit"))),
-            plain_signs(decimals(number_at(row, "ratio"), 3)),
-            plain_signs(decimals(number_at(row, "ratio_sigma"), 3)));
+        text += fmt::format("{:>8} {:>6}% {:>11} {:>10} {:>9} {:>6} {:>6}\n",
+                            plain_signs(whole(number_at(row, "readings"))),
+                            plain_signs(whole(100 * value_at(row, "share"))),
+                            plain_signs(whole(number_at(row, "dof"))),
+                            plain_signs(significant(number_at(row, "angle_error"))),
+                            plain_signs(significant(number_at(row, "angle_limit"))),
+                            plain_signs(decimals(number_at(row, "ratio"), 3)),
+                            plain_signs(decimals(number_at(row, "ratio_sigma"), 3)));
     }
     return text;
 }

@@ -131,8 +131,8 @@ Scene scene_of(const ViewSource& source) {
     return culet::scene_of(root, &stone, light);
 }
 
-// Where a stone that is not convex has its notch, as seen from above: the mean of the edges at which
-// it bends inwards, from the middle. Nothing where there is none on one side.
+// Where a stone that is not convex has its notch, as seen from above: the mean of the edges at
+// which it bends inwards, from the middle. Nothing where there is none on one side.
 std::optional<Vec3> notch_of(const Solid& solid) {
     constexpr double k_least = 1e-6, k_least_apart = 1e-3;  // of the stone's size
     const double size = diameter(solid);

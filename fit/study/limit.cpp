@@ -146,8 +146,8 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         study.limit_made_exact = true;
     };
     treat_exact(options.meets);
-    // So is what is supposed of the facets: it stands nearest to the truth in every draw, and errors
-    // would come out below a limit that counts it.
+    // So is what is supposed of the facets: it stands nearest to the truth in every draw, and
+    // errors would come out below a limit that counts it.
     const bool supposed = options.prior.source != Prior::Source::none;
     options.prior.source = Prior::Source::none;
     for (Reading& reading : readings) {

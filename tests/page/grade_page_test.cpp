@@ -82,8 +82,9 @@ TEST(GradePage, SaysWhatWasOptimised) {
                    "to_deg": 41.5}]})";
     const std::string page = grade_page(
         {{design(test::hostile_name()), design("better")}, "0.2", "culet optimize", optimized});
-    for (const char* said : {"brilliance=2,tilt=1", "48.21", "50.13", "43.10", "P1&lt;b&gt;", "43.00",
-                             "41.50", "−1.50", "−3.20 %", "55.0 to 56.2 %", "better: before and after"})
+    for (const char* said :
+         {"brilliance=2,tilt=1", "48.21", "50.13", "43.10", "P1&lt;b&gt;", "43.00", "41.50",
+          "−1.50", "−3.20 %", "55.0 to 56.2 %", "better: before and after"})
         EXPECT_THAT(page, HasSubstr(said));
     test::keep_page("grade", page);
 }

@@ -51,7 +51,9 @@ TEST(SceneStudyPage, ShowsAdviceFrontAndSettings) {
                           "culet study s",
                           {{-1, "data:,r", "", 0}, {1, "data:,p", "data:,d", 0.3}}});
     EXPECT_THAT(page, HasSubstr("<h1>Stone &amp; &lt;co&gt;</h1>"));
-    test::keep_page("scene-study", scene_study_page({study().dump(), test::hostile_name(), "1.2",
+    test::keep_page("scene-study", scene_study_page({study().dump(),
+                                                     test::hostile_name(),
+                                                     "1.2",
                                                      test::hostile_name(),
                                                      {{1, "data:,p", "data:,d", 0.3}}}));
     EXPECT_THAT(page, HasSubstr("64 × 48"));

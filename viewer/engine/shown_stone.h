@@ -27,8 +27,8 @@ struct FrameRequest {
     std::optional<int> samples;
 };
 
-/// Why a page cannot draw this, in words; empty: it can. A convex stone is drawn by beams, any other
-/// by rays: `draw_quickly` for `preview`, else the reference.
+/// Why a page cannot draw this, in words; empty: it can. A convex stone is drawn by beams, any
+/// other by rays: `draw_quickly` for `preview`, else the reference.
 std::string refused_by_page(Scene scene);
 
 class ShownStone {

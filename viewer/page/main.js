@@ -19,7 +19,7 @@ class Page {
     this.designs =
       new Map();        // by a stone's index, under which number the engine holds its changed cut
     this.info = null;   // what the engine told of the item
-    this.refused = "";      // why the engine cannot draw what is set
+    this.refused = "";  // why the engine cannot draw what is set
     this.drawn_by_rays = false;  // a stone that is not convex: pictures take longer than by beams
     this.scene_version = 0;  // of what the engine holds beside stone and settings: cut, panorama
     this.hand_turns_light = false;
