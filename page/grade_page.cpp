@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string_view>
 
 #include "page/chart.h"
 #include "page/grade_section.h"
@@ -28,38 +27,35 @@ struct Row {
     const char* path;   // in the JSON, with dots
     const char* sigma;  // its key there
     double factor;
-    int decimals;
 };
 
 // In per cent throughout, so that figures can be held against each other.
 constexpr Row k_rows[] = {
-    {"Light return, even light", "ISO", "face_up.iso.whole", "iso", 1, 2},
-    {"through the table", "ISO", "face_up.iso.table", "iso_table", 1, 2},
-    {"Light return, cosine light", "COS", "face_up.cos.whole", "cos", 1, 2},
-    {"through the table", "COS", "face_up.cos.table", "cos_table", 1, 2},
-    {"Light return, light from the sides", "SC2", "face_up.sc2.whole", "sc2", 1, 2},
-    {"through the table", "SC2", "face_up.sc2.table", "sc2_table", 1, 2},
-    {"Light return, cos², no head", "WLR of this line of sight", "face_up.wlr.whole", "wlr", 1, 2},
+    {"Light return, even light", "ISO", "face_up.iso.whole", "iso", 1},
+    {"through the table", "ISO", "face_up.iso.table", "iso_table", 1},
+    {"Light return, cosine light", "COS", "face_up.cos.whole", "cos", 1},
+    {"through the table", "COS", "face_up.cos.table", "cos_table", 1},
+    {"Light return, light from the sides", "SC2", "face_up.sc2.whole", "sc2", 1},
+    {"through the table", "SC2", "face_up.sc2.table", "sc2_table", 1},
+    {"Light return, cos², no head", "WLR of this line of sight", "face_up.wlr.whole", "wlr", 1},
     {"Weighted light return", "GIA's, seen from all around", "weighted_light_return",
-     "weighted_light_return", 100, 2},
+     "weighted_light_return", 100},
     {"Useful return", "out of the crown, between head and 64°", "balance.return", "balance.return",
-     100, 2},
-    {"Into the viewer's head", "", "balance.head", "balance.head", 100, 2},
-    {"Out of the crown elsewhere", "", "balance.other", "balance.other", 100, 2},
-    {"Leaks", "pavilion and girdle", "balance.leak", "balance.leak", 100, 2},
-    {"Reflected on entry", "", "balance.entry_reflection", "balance.entry_reflection", 100, 2},
-    {"Not followed to the end", "", "balance.residual", "balance.residual", 100, 2},
-    {"Fire", "red and blue at least 0.25° apart", "fire.separated", "fire.separated", 100, 2},
-    {"Spectral fire", "cut out of its spectrum by a pupil", "fire.spectral", "fire.spectral", 100,
-     2},
-    {"ASET red", "45° to 75° of elevation", "aset.red", "aset.red", 100, 2},
-    {"ASET green", "up to 45°", "aset.green", "aset.green", 100, 2},
-    {"ASET blue", "75° to 90°", "aset.blue", "aset.blue", 100, 2},
-    {"ASET dark", "leaks", "aset.dark", "aset.dark", 100, 2},
-    {"Hearts", "of the same area: smallest over largest", "hearts.evenness", "hearts.evenness", 100,
-     1},
-    {"Arrows", "of the same area: smallest over largest", "arrows.evenness", "arrows.evenness", 100,
-     1}};
+     100},
+    {"Into the viewer's head", "", "balance.head", "balance.head", 100},
+    {"Out of the crown elsewhere", "", "balance.other", "balance.other", 100},
+    {"Leaks", "pavilion and girdle", "balance.leak", "balance.leak", 100},
+    {"Reflected on entry", "", "balance.entry_reflection", "balance.entry_reflection", 100},
+    {"Not followed to the end", "", "balance.residual", "balance.residual", 100},
+    {"Fire", "red and blue at least 0.25° apart", "fire.separated", "fire.separated", 100},
+    {"Spectral fire", "cut out of its spectrum by a pupil", "fire.spectral", "fire.spectral", 100},
+    {"ASET red", "45° to 75° of elevation", "aset.red", "aset.red", 100},
+    {"ASET green", "up to 45°", "aset.green", "aset.green", 100},
+    {"ASET blue", "75° to 90°", "aset.blue", "aset.blue", 100},
+    {"ASET dark", "leaks", "aset.dark", "aset.dark", 100},
+    {"Evenness of hearts", "smallest over largest area", "hearts.evenness", "hearts.evenness", 100},
+    {"Evenness of arrows", "smallest over largest area", "arrows.evenness", "arrows.evenness",
+     100}};
 
 const Json* found_at(const Json& json, const std::string& path) {
     const Json* at = &json;
@@ -85,18 +81,16 @@ std::string shown(const Json& grade, const Row& row) {
     if (!value) return "–";
     // One pattern alone is as even as can be: that says nothing.
     const std::string path = row.path;
-    const std::string_view evenness = ".evenness";
-    if (path.ends_with(evenness)) {
-        const std::string of = path.substr(0, path.size() - evenness.size());
-        const std::optional<double> count = value_of(grade, (of + ".count").c_str());
-        if (count && *count < 2) return "–";
+    if (path.ends_with(".evenness")) {
+        const std::string count = path.substr(0, path.find('.')) + ".count";
+        if (value_of(grade, count.c_str()).value_or(2) < 2) return "–";
     }
     const auto sigma = grade.find("sigma");
     if (sigma != grade.end()) {
         if (const auto sure = number_at(*sigma, row.sigma))
             return quantity(row.factor * *value, row.factor * *sure, "%");
     }
-    return decimals(row.factor * *value, row.decimals) + unit_suffix("%");
+    return decimals(row.factor * *value, 2) + unit_suffix("%");
 }
 
 std::string name_in(const Json& grade) {
