@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 }  // namespace
 

@@ -16,7 +16,7 @@ using test::xml_fault;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-nlohmann::json study() {
+nlohmann::json scene_study() {
     return nlohmann::json::parse(R"({"schema": 1, "kind": "scene", "name": "Stone & <co>",
         "usable": true, "size": [64, 48], "scene_size": [640, 480],
         "reference": {"samples": 7, "rough_samples": 99, "wavelengths": 57, "cpu_seconds": 12,
@@ -45,13 +45,13 @@ nlohmann::json study() {
 
 TEST(SceneStudyPage, ShowsAdviceFrontAndSettings) {
     const std::string page =
-        scene_study_page({study().dump(),
+        scene_study_page({scene_study().dump(),
                           "",
                           "1.2",
                           "culet study s",
                           {{-1, "data:,r", "", 0}, {1, "data:,p", "data:,d", 0.3}}});
     EXPECT_THAT(page, HasSubstr("<h1>Stone &amp; &lt;co&gt;</h1>"));
-    test::keep_page("scene-study", scene_study_page({study().dump(),
+    test::keep_page("scene-study", scene_study_page({scene_study().dump(),
                                                      test::hostile_name(),
                                                      "1.2",
                                                      test::hostile_name(),
@@ -66,18 +66,18 @@ TEST(SceneStudyPage, ShowsAdviceFrontAndSettings) {
     EXPECT_THAT(page, HasSubstr("8 faces; &lt;enough&gt;"));
     EXPECT_THAT(page, HasSubstr("depth 4: took over 9 s"));
     EXPECT_THAT(page, HasSubstr("culet study s"));
-    EXPECT_EQ(xml_fault(scene_study_chart(study().dump())), "");
+    EXPECT_EQ(xml_fault(scene_study_chart(scene_study().dump())), "");
 }
 
 TEST(SceneStudyPage, ChartHasEnginesFrontAndNoise) {
-    const std::string svg = scene_study_chart(study().dump());
+    const std::string svg = scene_study_chart(scene_study().dump());
     for (const char* name : {">front<", ">preview<", ">reference<", ">automatic<", ">noise<"})
         EXPECT_THAT(svg, HasSubstr(name));
     EXPECT_THAT(svg, Not(HasSubstr(">beams<"))) << "none but the automatic one";
 }
 
 TEST(SceneStudyPage, WritesAPlainTable) {
-    const std::string text = scene_study_table(study().dump());
+    const std::string text = scene_study_table(scene_study().dump());
     EXPECT_THAT(text, HasSubstr("preview, 3 wavelengths"));
     EXPECT_THAT(text, HasSubstr("<=0.0020"));
     for (const char c : text) EXPECT_GT(c, 0) << text;  // plain letters only

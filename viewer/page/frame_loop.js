@@ -6,7 +6,8 @@
 const k_quick_ms = 33;       // of a frame while the stone moves
 const k_ray_ms = 90;         // of one of a stone that is not convex
 const k_rest_ms = 140;       // without a move, after which the whole picture is drawn
-const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
+const k_least_scale = 0.35;  // of the screen's resolution: coarser is no picture any more
+const k_least_ray_scale = 0.25;
 const k_fine_ms = 250;       // without a move, after which the fine picture is begun
 const k_quick_depth = 12;    // faces of a path: a diamond's others bring 1.5 % of its light
 // Of a stone that is not convex: first without light that meets it again after it left, then as
@@ -211,15 +212,16 @@ class FrameLoop {
 
   // Before it is known how long a frame takes.
   start_coarsely() {
-    if (this.milliseconds.preview === undefined) this.scale = k_least_scale;
+    if (this.milliseconds.preview === undefined) this.scale = k_least_ray_scale;
   }
 
   // Fewer pixels shorten the shading only: a frame whose beams alone take longer than it may is not
   // drawn more coarsely for that.
   adapt(milliseconds, shading) {
-    const frame_ms = this.page.drawn_by_rays ? k_ray_ms : k_quick_ms;
+    const rays = this.page.drawn_by_rays, frame_ms = rays ? k_ray_ms : k_quick_ms;
+    const least = rays ? k_least_ray_scale : k_least_scale;
     const left = Math.max(frame_ms / 2, frame_ms - (milliseconds - shading));
     const wanted = this.scale * Math.sqrt(left / Math.max(1, shading));
-    this.scale = Math.min(1, Math.max(k_least_scale, 0.7 * this.scale + 0.3 * wanted));
+    this.scale = Math.min(1, Math.max(least, 0.7 * this.scale + 0.3 * wanted));
   }
 }
