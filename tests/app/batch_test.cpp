@@ -79,6 +79,18 @@ protected:
     }
 };
 
+TEST_F(BatchCommand, ShortensNamesThatNoFolderCouldHave) {
+    const std::string stem(160, 'w');
+    write_stone(stem + "1.toml", 3.6);
+    write_stone(stem + "2.toml", 3.6);
+    const ProgramRun run = batch({file("stones"), "-o", file("out")});
+    EXPECT_NE(run.exit_code, 2) << run.err;
+    const Json table = json("out/table.json");
+    ASSERT_EQ(table.at("jobs").size(), 2u);
+    for (const Json& job : table["jobs"]) EXPECT_LE(job.at("name").get<std::string>().size(), 100u);
+    EXPECT_NE(table["jobs"][0]["name"], table["jobs"][1]["name"]);
+}
+
 TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
     write_stone("a.toml", 3.6);
     cut("emerald", "stones/b.asc");

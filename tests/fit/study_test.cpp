@@ -152,6 +152,17 @@ TEST(Study, ComesToTheCramerRaoLimit) {
     EXPECT_LT(study.limits.front().ratio, 1.05);
 }
 
+// A prior lies at the truth in every draw: errors would be below a limit that counts it. The limit
+// is that of the readings alone, whatever is supposed.
+TEST(Study, LimitCountsReadingsAlone) {
+    const Case c;
+    StudyOptions options = without_limit(1);
+    options.times = false;
+    const Json alone = without_times(study_fit(c.stone, c.readings, options)).at("limits");
+    options.fit.prior.source = Prior::Source::catalogue;
+    EXPECT_EQ(without_times(study_fit(c.stone, c.readings, options)).at("limits"), alone);
+}
+
 TEST(Study, IsTheSameEachTimeApartFromTheTimes) {
     const Case c(true);
     const Json first = without_times(study_fit(c.stone, c.readings, without_limit(1, 9)));

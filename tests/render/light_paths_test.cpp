@@ -56,6 +56,34 @@ TEST(LightPaths, IsotropicWhiteFurnaceBalancesAtEveryDepth) {
     EXPECT_LT(worst, 1e-12) << "seed " << seed;
 }
 
+// Of a convex stone, the way through any solid sees what the way through planes sees.
+TEST(LightPaths, GoThroughAnySolidAsThroughPlanes) {
+    std::mt19937_64 random(411);
+    double worst = 0;
+    for (int stone = 0; stone < 5; ++stone) {
+        const Solid solid = random_stone(random, 30);
+        const ConvexBody planes(solid);
+        const StoneBody any(solid, false);
+        Band band;
+        band.n = 1.7;
+        for (int i = 0; i < 40; ++i) {
+            const EyeRay ray = random_ray(random);
+            const auto entry = planes.entry(ray.origin, ray.direction);
+            if (!entry) continue;
+            PathLimits limits;
+            limits.depth = 5;
+            Sums by_planes, by_any;
+            LightPaths<Sums>(planes, band, limits, by_planes).trace(ray, *entry);
+            LightPaths<Sums, false, StoneBody>(any, band, limits, by_any).trace(ray, *entry);
+            ASSERT_EQ(by_any.leaf_weights.size(), by_planes.leaf_weights.size());
+            for (std::size_t k = 0; k < by_any.leaf_weights.size(); ++k)
+                worst =
+                    std::max(worst, std::abs(by_any.leaf_weights[k] - by_planes.leaf_weights[k]));
+        }
+    }
+    EXPECT_LT(worst, 1e-9);
+}
+
 TEST(LightPaths, SlabTransmitsTheClosedSeries) {
     // Incoherent plate at normal incidence: T = (1-R)/(1+R), R = ((n-1)/(n+1))^2.
     const ConvexBody body(slab(2));

@@ -10,6 +10,7 @@
 
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
+#include "render/planner/quick_picture.h"
 #include "render/reference/probe.h"
 #include "render/render.h"
 #include "render/scene/light_presets.h"
@@ -171,6 +172,30 @@ TEST(ViewerEngine, TurnsLightsByRowsOfAMatrix) {
     for (std::size_t i = 0; i < expected.size(); ++i)
         apart += std::abs(expected[i] - page.engine.pixels()[i]) > 1;
     EXPECT_EQ(apart, 0);
+}
+
+// Expectation: the program's own quick picture, and its reference with one ray a pixel.
+TEST(ViewerEngine, DrawsAStoneThatIsNotConvexByRays) {
+    Stone heart = stone_of("heart", "diamond");
+    heart.convex = false;
+    Opened page(heart, k_jeweller);
+    const Json set = page.call("set", {{"settings", {"render.tolerance=0.1"}}});
+    EXPECT_EQ(set.at("refused"), "");
+    EXPECT_EQ(set.at("engine"), "reference");
+    Scene scene = scene_of(
+        toml_of_text(k_jeweller, "scene.toml", {"render.tolerance=0.1", "render.samples=1"}),
+        &heart);
+    scene.camera.width = scene.camera.height = 24;
+    scene.settings.engine = k_reference_engine;
+    scene.settings.check = Check::none;
+    const auto drawn = [&](const char* engine) {
+        Json asked = of_size(24);
+        asked.update({{"engine", engine}, {"samples", 1}, {"exposure", 1}});
+        page.call("draw", asked);
+        return page.engine.pixels();
+    };
+    EXPECT_EQ(drawn("preview"), shown_bytes(draw_quickly(scene).picture, scene.film, true));
+    EXPECT_EQ(drawn("beams"), shown_bytes(render(scene).picture, scene.film, true));
 }
 
 // The middle of a convex facet that is seen is on that facet.
