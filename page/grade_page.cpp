@@ -218,7 +218,8 @@ std::vector<View> costs_view(const std::vector<Json>& grades) {
 }
 
 std::string counted_in(const Json& grade, const char* path, const char* what) {
-    return counted_of_eight(static_cast<int>(value_of(grade, path).value_or(0)), what);
+    return counted_of_eight(
+        static_cast<int>(std::clamp(value_of(grade, path).value_or(0), 0.0, 1e6)), what);
 }
 
 std::vector<View> headline(const std::vector<Json>& grades) {

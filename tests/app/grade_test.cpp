@@ -137,6 +137,7 @@ TEST_F(GradeCommand, RefusesWithOneLineAndWritesNothing) {
     };
     const std::string round = file("round.obj");
     refused({round}, "--material");
+    refused({"round-brilliant"}, "--material");  // a cut that it knows
     refused({round, "--material", "diamnd"}, "diamond");
     refused({round, "--index", "0.9"}, "above 1");
     refused({round, "--index", "nan"}, "index");

@@ -93,6 +93,8 @@ TEST(GradePage, DrawsLightPathsByHowTheyEnd) {
     const std::string drawing = section_drawing(k_section);
     EXPECT_THAT(drawing, HasSubstr("class=\"path-leak\""));
     EXPECT_THAT(drawing, HasSubstr("azimuth 22.5"));
+    // 2 wide and 2 high, 640 across, with air of 4 on every side.
+    EXPECT_THAT(drawing, HasSubstr("viewBox=\"-4 -4 648 648\""));
     EXPECT_EQ(section_drawing("{}"), "");
     EXPECT_THROW(section_drawing("[]"), InputError);
     EXPECT_THROW(grade_page({{{"[]", "{}", {}, {}}}, "0.2", "", {}}), InputError);
