@@ -284,6 +284,9 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertNotEqual(before, self.seen())
         self.assertEqual(self.browser.run("return document.getElementById('stage').dataset.drawn"), "fine")
         self.assertIn("--engine reference", self.browser.run("return culet_page.command.line()"))
+        document["items"][0]["command"] = ""
+        self.open(document)
+        self.assertIn("design.obj --material diamond --set convex=false", self.browser.run("return culet_page.command.line()"))
         self.assertTrue(self.browser.run("return document.getElementById('trouble').hidden"))
 
     def test_picture_keeps_its_shape_while_the_page_is_resized(self):

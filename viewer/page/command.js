@@ -27,7 +27,8 @@ class Command {
   }
   // As far as the file. A standard cut is made first.
   of_stone(index) {
-    const {cut, material} = this.page.item().stones[index], changed = this.page.state.get("cut");
+    const {cut, convex, material} = this.page.item().stones[index];
+    const changed = this.page.state.get("cut");
     // What --light says would hide every light that is set.
     if (!changed && this.page.item().command)
       return this.page.item().command.replace(/ --light (?:'[^']*'|\S+)/, "");
@@ -36,7 +37,7 @@ class Command {
       value]) => ` --${name} ${toml_number(value)}`);
     return `culet cut ${cut.kind}${
       sizes.join("")} -o design.obj && culet render design.obj --material ${
-      quoted(material.id || "diamond")}`;
+      quoted(material.id || "diamond")}${convex === false ? " --set convex=false" : ""}`;
   }
   // What the command does not say.
   limits() {
