@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 # A package is made of what its workflow built, not of everything.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 install(TARGETS culet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-install(TARGETS culet_stone culet_page culet_fit culet_render culet_viewer culet_compare culet_refine EXPORT culetTargets
+install(TARGETS culet_stone culet_page culet_silhouettes culet_fit culet_render culet_viewer culet_compare culet_refine EXPORT culetTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(room stone page fit render viewer compare refine)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/culet

@@ -96,8 +96,25 @@ bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, st
     return false;
 }
 
-// Only these planes go on.
-void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, FoundPlanes& found) {
+// From where an earlier round ended; the start's pull stays where the start was.
+void run_on(const PlaneFitProblem& problem, int steps, const std::function<void()>& goes_on,
+            FoundPlanes& found) {
+    const int before = found.fit.steps;
+    PlaneFitProblem from_here = problem;
+    from_here.motions = found.fit.motions;
+    found.fit = fit_planes(from_here, found.fit.planes, steps, goes_on);
+    found.fit.steps += before;
+    if (!found.fit.body.closed) {
+        throw InputError(
+            "the planes of the outlines enclose no stone: are they of this stone, and "
+            "their directions along the line of sight?");
+    }
+}
+
+// Only these planes go on. Body, distances and scales are made anew at once: they are numbered by
+// planes.
+void keep(const std::vector<bool>& kept, PlaneFitProblem& problem,
+          const std::function<void()>& goes_on, FoundPlanes& found) {
     std::vector<Plane> start, planes;
     std::vector<double> tilts;
     std::vector<int> facets;
@@ -115,21 +132,7 @@ void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, FoundPlanes& 
     problem.start_tilts = std::move(tilts);
     found.fit.planes = std::move(planes);
     found.mesh_facet = std::move(facets);
-}
-
-// From where an earlier round ended; the start's pull stays where the start was.
-void run_on(const PlaneFitProblem& problem, int steps, const std::function<void()>& goes_on,
-            FoundPlanes& found) {
-    const int before = found.fit.steps;
-    PlaneFitProblem from_here = problem;
-    from_here.motions = found.fit.motions;
-    found.fit = fit_planes(from_here, found.fit.planes, steps, goes_on);
-    found.fit.steps += before;
-    if (!found.fit.body.closed) {
-        throw InputError(
-            "the planes of the outlines enclose no stone: are they of this stone, and "
-            "their directions along the line of sight?");
-    }
+    run_on(problem, 0, goes_on, found);
 }
 
 }  // namespace
@@ -155,18 +158,17 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem,
             found.mesh_facet.push_back(-1);
         }
         run_on(problem, k_round_steps, goes_on, found);
-        keep(kept_planes(found.fit, mesh_planes(found), false), problem, found);
-        run_on(problem, 0, goes_on, found);
+        keep(kept_planes(found.fit, mesh_planes(found), false), problem, goes_on, found);
     }
     problem.reach = 0;
     bring_back(mesh, problem, found);
-    for (int round = 0; round < 3; ++round) {
+    // Each round but the last drops planes: what comes out is a fit of its own planes.
+    for (;;) {
         run_on(problem, k_last_steps, goes_on, found);
         const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found), true);
-        if (std::count(kept.begin(), kept.end(), false) == 0) break;
-        keep(kept, problem, found);
+        if (std::count(kept.begin(), kept.end(), false) == 0) return found;
+        keep(kept, problem, goes_on, found);
     }
-    return found;
 }
 
 }  // namespace culet

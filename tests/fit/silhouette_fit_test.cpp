@@ -1,13 +1,10 @@
-// Stones from their outlines: against stones that are known, and derivatives against differences.
+// Stones from their outlines: against stones that are known.
 
 #include "fit/silhouettes/silhouette_fit.h"
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "fit/fit.h"
-#include "fit/silhouettes/plane_solver.h"
 #include "fit/silhouettes/registration.h"
 #include "stone/errors.h"
 #include "tests/fit/test_stones.h"
@@ -17,24 +14,10 @@ namespace culet {
 namespace {
 
 using test::brilliant;
+using test::off_standard;
 using test::stone_of;
 using test::Turntable;
 using test::turntable_outlines;
-
-// Every plane tilted and moved by itself: meets come apart. The table stays level.
-Solid off_standard(const Solid& design, double tilt_deg, double shift, unsigned seed) {
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    std::vector<NamedPlane> planes;
-    for (const Facet& f : design.facets) {
-        Vec3 n = f.plane.normal;
-        if (f.name != "T") {
-            n += radians(tilt_deg) * Vec3{normal(random), normal(random), normal(random)};
-        }
-        planes.push_back({f.name, {glm::normalize(n), f.plane.offset + shift * normal(random)}});
-    }
-    return intersect_half_spaces(planes).solid;
-}
 
 // The design as a catalogue has it: of another size, and standing elsewhere.
 Stone catalogue(double scale, double turn_deg, const Vec3& shift) {
@@ -109,58 +92,6 @@ Errors errors_of(const FitResult& result, const Solid& truth, double least_area,
         if (k == 0 || errors.rms_deg < best.rms_deg) best = errors;
     }
     return best;
-}
-
-// A cube of edge 2 seen along its diagonal (1, 1, 0) is a rectangle of 2 sqrt 2 by 2.
-TEST(ProjectedOutline, OfACubeAlongADiagonalIsARectangle) {
-    const Vec3 across = glm::normalize(Vec3{1, -1, 0}), along{0, 0, 1};
-    const ProjectedOutline outline = projected_outline(test::cube().vertices, across, along);
-    ASSERT_EQ(outline.edges.size(), 4u);
-    double around = 0;
-    for (const auto& e : outline.edges) around += e.length;
-    EXPECT_NEAR(around, 4 * std::numbers::sqrt2 + 4, 1e-12);
-    EXPECT_NEAR(outline.nearest(0, 0).distance, -1, 1e-12);
-    EXPECT_NEAR(outline.nearest(2, 0.5).distance, 2 - std::numbers::sqrt2, 1e-12);
-}
-
-// Analytic gradient of half the cost against central differences of it: quadratic error, so that
-// a step of 1e-6 leaves 1e-6 of it, times a curvature of the order of one. At kinks, where a corner
-// leaves the outline within the step, there is no derivative: few of the unknowns meet one.
-TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
-    const Solid truth = off_standard(brilliant(), 0.3, 0.01, 3);
-    SilhouetteSet set = turntable_outlines(truth, {.views = 6, .points = 60, .sigma = 0.002});
-    PlaneFitProblem problem;
-    for (const Contour& c : set.contours) problem.contours.push_back(flattened(c, 0));
-    problem.motions.resize(1);
-    problem.motions[0].shift = {0.01, -0.02, 0.03};
-    problem.is_free = {true};
-    problem.stated_sigmas = {0};
-    problem.start_tilts.assign(truth.facets.size(), 0.03);
-    for (const Facet& f : truth.facets) problem.start.push_back(f.plane);
-    const PlaneSolver solver(problem);
-    PlaneState state{problem.start, problem.motions, {}, {}};
-    ASSERT_TRUE(solver.look(state));
-    const std::vector<double> sigmas{0.01};
-    const PlaneSolver::Weights weights = solver.weights(state, {1});
-    const auto equations = solver.equations(state, weights, sigmas, true);
-    int seen = 0, alike = 0, other = 0;
-    for (Eigen::Index i = 0; i < equations.gradient.size(); ++i) {
-        constexpr double k_step = 1e-6;
-        Eigen::VectorXd step = Eigen::VectorXd::Zero(equations.gradient.size());
-        double cost[2];
-        for (int side = 0; side < 2; ++side) {
-            step(i) = side == 0 ? -k_step : k_step;
-            PlaneState there = solver.moved(state, step);
-            ASSERT_TRUE(solver.look(there));
-            cost[side] = solver.cost(there, weights, sigmas);
-        }
-        const double difference = 0.5 * (cost[1] - cost[0]) / (2 * k_step);
-        const double allowed = 1e-3 * (1 + std::abs(difference)) + 1e-6 * equations.matrix(i, i);
-        (std::abs(equations.gradient(i) - difference) < allowed ? alike : other)++;
-        seen += std::abs(difference) > 1;
-    }
-    EXPECT_GT(seen, 60);
-    EXPECT_LT(other, 0.05 * alike);
 }
 
 // Without noise nothing but the outlines' finite number of points is between the fit and the truth.

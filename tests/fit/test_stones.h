@@ -117,6 +117,21 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
     return enclosed(planes);
 }
 
+/// Every plane tilted and moved by itself: meets come apart. The table stays level.
+inline Solid off_standard(const Solid& design, double tilt_deg, double shift, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<NamedPlane> planes;
+    for (const Facet& f : design.facets) {
+        Vec3 n = f.plane.normal;
+        if (f.name != "T") {
+            n += radians(tilt_deg) * Vec3{normal(random), normal(random), normal(random)};
+        }
+        planes.push_back({f.name, {glm::normalize(n), f.plane.offset + shift * normal(random)}});
+    }
+    return intersect_half_spaces(planes).solid;
+}
+
 inline Stone stone_of(Solid solid, const std::string& up = "T") {
     Stone stone;
     stone.solid = std::move(solid);
