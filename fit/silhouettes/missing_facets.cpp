@@ -11,9 +11,6 @@ namespace culet {
 
 namespace {
 
-// The mean of a place's distances is off by chance as a normal variable is: of thirty thousand
-// places one is so far off.
-constexpr double k_significant = 4;
 // And no less than this part of the scatter of one point.
 constexpr double k_depth = 1.0;
 // Points this near to a corner, as part of the shorter edge there, lie on what would be cut off.
@@ -73,12 +70,21 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
     return places;
 }
 
-bool stands_out(const Place& place, double scale) {
-    return -place.mean() > k_depth * scale &&
-           -place.mean() * std::sqrt(place.weight) > k_significant * scale;
+// The sum of weighted squares, in variances, that a further plane must save: it has three
+// parameters, and each costs the logarithm of the number of points (Schwarz 1978). A cut saves
+// mean^2 * weight at the outline that shows it best.
+double price_of_plane(const PlaneFitProblem& problem) {
+    std::size_t points = 0;
+    for (const FlatContour& contour : problem.contours) points += contour.points.size();
+    return 3 * std::log(double(points));
 }
 
-void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c,
+bool stands_out(const Place& place, double scale, double price) {
+    return -place.mean() > k_depth * scale &&
+           std::pow(place.mean() / scale, 2) * place.weight > price;
+}
+
+void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c, double price,
               std::vector<Cut>& cuts) {
     const FlatContour& contour = problem.contours[c];
     const ProjectedOutline& outline = fit.distances.outlines[c];
@@ -92,14 +98,14 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
     for (std::size_t k = 0; k < count; ++k) {
         const ProjectedOutline::Edge &e = outline.edges[k], &next = outline.edges[(k + 1) % count];
         const Vec3 n = normal(e);
-        if (stands_out(places[k].whole, scale)) {
+        if (stands_out(places[k].whole, scale, price)) {
             cuts.push_back({{n, e.offset + places[k].whole.mean()}, -places[k].whole.mean()});
         }
         Place corner = places[k].end;
         const Place& other = places[(k + 1) % count].begin;
         corner.weight += other.weight;
         corner.sum += other.sum;
-        if (!stands_out(corner, scale)) continue;
+        if (!stands_out(corner, scale, price)) continue;
         const Vec3 between = glm::normalize(n + normal(next));
         const Vec3& tip = fit.body.corners[std::size_t(e.to)];
         cuts.push_back({{between, glm::dot(between, tip) + corner.mean()}, -corner.mean()});
@@ -111,7 +117,10 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
 std::vector<Plane> missing_planes(const PlaneFitProblem& problem, const PlaneFit& fit,
                                   std::size_t most) {
     std::vector<Cut> cuts;
-    for (std::size_t c = 0; c < problem.contours.size(); ++c) add_cuts(problem, fit, c, cuts);
+    const double price = price_of_plane(problem);
+    for (std::size_t c = 0; c < problem.contours.size(); ++c) {
+        add_cuts(problem, fit, c, price, cuts);
+    }
     std::stable_sort(cuts.begin(), cuts.end(),
                      [](const Cut& a, const Cut& b) { return a.depth > b.depth; });
     std::vector<Plane> planes;
