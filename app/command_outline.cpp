@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,9 +22,6 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Blur and noise of a sharp picture leave a tenth of a pixel or two.
-constexpr double k_doubtful_px = 1;
 
 struct OutlineArguments {
     CommonOptions common;
@@ -77,6 +75,30 @@ double scale_of(const OutlineArguments& a, const OutlineWidths& widths) {
     return a.pixel_mm > 0 ? a.pixel_mm : a.width_mm / widths.least;
 }
 
+// As given, or in the order of the numbers in the files' names where a turntable explains that much
+// better: a shell lists turn-10 before turn-2.
+Turntable ordered(const OutlineArguments& a, std::vector<BackLitOutline>& outlines) {
+    // Backwards a stone turns the other way, and fits as well: only what is far better counts.
+    constexpr double k_better = 0.5;
+    const double step = radians(a.step_deg);
+    const Turntable as_given = turntable_of(outlines, step);
+    const std::vector<std::size_t> order = order_of_numbers(a.photos);
+    if (std::is_sorted(order.begin(), order.end())) return as_given;
+    std::vector<BackLitOutline> by_number;
+    for (const std::size_t i : order) by_number.push_back(outlines[i]);
+    Turntable other = turntable_of(by_number, step);
+    if (other.residual_px > k_better * as_given.residual_px) return as_given;
+    const auto name = [&](std::size_t i) {
+        return std::filesystem::path(a.photos[i]).filename().string();
+    };
+    say(fmt::format("the pictures were taken in the order of their numbers, {} before {}: so "
+                    "outlines agree within {:.2f} px, as given within {:.2f} px",
+                    name(order[1]), name(order[2]), other.residual_px, as_given.residual_px),
+        a.common.quiet);
+    outlines = std::move(by_number);
+    return other;
+}
+
 Json contours_json(const std::vector<PlacedOutline>& placed, const Turntable& table, double scale) {
     Json json{{"unit", "mm"},
               {"turntable",
@@ -87,7 +109,8 @@ Json contours_json(const std::vector<PlacedOutline>& placed, const Turntable& ta
                 {"sigma_axis_px", table.sigma_axis_px},
                 {"sigma_roll_deg", degrees(table.sigma_roll)},
                 {"sigma_elevation_deg", degrees(table.sigma_elevation)},
-                {"residual_px", table.residual_px}}},
+                {"residual_px", table.residual_px},
+                {"trouble", table.trouble}}},
               {"contours", Json::array()}};
     // A hundredth of a micrometre is far below a pixel.
     const auto rounded = [](double mm) { return std::round(mm * 1e5) / 1e5; };
@@ -109,8 +132,8 @@ int run_outline(OutlineArguments a) {
             "say how large a pixel is: --pixel MM, or --width MM, the least width of "
             "the stone that calipers find across the axis");
     require_writable(a.out);
-    const std::vector<BackLitOutline> outlines = traced(a);
-    const Turntable table = turntable_of(outlines, radians(a.step_deg));
+    std::vector<BackLitOutline> outlines = traced(a);
+    const Turntable table = ordered(a, outlines);
     const OutlineWidths widths = widths_of(outlines, table);
     const double scale = scale_of(a, widths);
     const Json json =
@@ -121,6 +144,10 @@ int run_outline(OutlineArguments a) {
     say(fmt::format("{} outlines, {} points; the stone is {:.3f} to {:.3f} mm wide",
                     outlines.size(), points, scale * widths.least, scale * widths.largest),
         a.common.quiet);
+    if (!table.trouble.empty()) {
+        say(fmt::format("not to be used: {}. {}.", table.trouble, table.remedy), a.common.quiet);
+        return exit_untrusted;
+    }
     say(fmt::format("axis {:.2f} px from the middle (+- {:.2f}), turned {:.3f} degrees in the "
                     "picture (+- {:.3f}), camera {:.3f} degrees above the table (+- {:.3f}); "
                     "outlines agree within {:.2f} px",
@@ -128,17 +155,11 @@ int run_outline(OutlineArguments a) {
                     degrees(table.sigma_roll), degrees(table.elevation),
                     degrees(table.sigma_elevation), table.residual_px),
         a.common.quiet);
-    for (const std::string& note : table.notes) say("note: " + note, a.common.quiet);
-    if (table.residual_px > k_doubtful_px)
-        say(fmt::format("note: that is more than a sharp picture of a steady stone leaves: check "
-                        "--step {:g} and its sign, --turntable, and that the camera is far away",
-                        a.step_deg),
-            a.common.quiet);
     say(fmt::format("next: [[silhouette]] with file = \"{}\" and frame = \"free\" in a stone file, "
                     "then culet fit",
                     std::filesystem::path(a.out).filename().string()),
         a.common.quiet);
-    return table.residual_px > k_doubtful_px ? exit_untrusted : exit_good;
+    return exit_good;
 }
 
 }  // namespace
@@ -182,7 +203,8 @@ void add_command_outline(CLI::App& program, int& exit_code) {
         "  culet outline turn-*.png --step 5 --pixel 0.005 -o contours.json\n"
         "Lines of sight are taken as parallel: use a telecentric lens, or a camera whose distance "
         "is a hundred times the stone's width.\n"
-        "Exit codes: 0 traced; 1 the outlines contradict each other; 2 could not be done.");
+        "Exit codes: 0 traced; 1 the outlines contradict each other or do not tell how the camera "
+        "stood; 2 could not be done.");
     command->callback([arguments, &exit_code] { exit_code = run_outline(*arguments); });
 }
 

@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+#include <numeric>
 
 #include "stone/errors.h"
 #include "stone/units.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -20,6 +24,10 @@ constexpr double k_least_sine = 0.1;
 constexpr double k_opposite = 0.05;
 constexpr std::size_t k_most_pairs = 4000;
 constexpr double k_loss_px = 1;
+// Blur and noise of a sharp picture leave a tenth of a pixel or two (turntable_test.cpp).
+constexpr double k_doubtful_px = 1;
+// Where an angle of the camera is not known to this, outlines tell less of a facet than its name.
+constexpr double k_unknown = radians(1);
 
 using Hull = std::vector<glm::dvec2>;
 
@@ -179,7 +187,7 @@ void take_sigmas(Problem& problem, Turntable& table) {
     ceres::Covariance covariance({});
     const std::vector<const double*> block{problem.table.data()};
     if (!covariance.Compute(block, &problem.ceres)) {
-        table.notes.push_back("the outlines do not fix the axis' inclination");
+        table.sigma_axis_px = table.sigma_roll = table.sigma_elevation = HUGE_VAL;
         return;
     }
     std::array<double, 9> values;
@@ -189,7 +197,35 @@ void take_sigmas(Problem& problem, Turntable& table) {
     table.sigma_elevation = table.residual_px * std::sqrt(values[8]);
 }
 
+void judge(const std::vector<BackLitOutline>& outlines, double step, Turntable& table) {
+    const bool is_known = table.sigma_roll < k_unknown && table.sigma_elevation < k_unknown;
+    if (table.residual_px <= k_doubtful_px && is_known) return;
+    table.trouble = table.residual_px > k_doubtful_px
+                        ? fmt::format(
+                              "the outlines contradict each other by {:.1f} pixels, where a "
+                              "steady stone in sharp pictures leaves less than {:g}",
+                              table.residual_px, k_doubtful_px)
+                        : "the outlines do not tell how the camera stood to the axis";
+    std::vector<double> contrasts;
+    for (const BackLitOutline& outline : outlines) contrasts.push_back(outline.contrast);
+    table.remedy = fmt::format(
+        "Light the stone from behind, so that it is dark before a bright, even ground (along these "
+        "outlines it is {:.0f} % darker; back-lit stones come to 90 %); check that each picture "
+        "shows the stone {:g} degrees further, in this order, that the axis is upright or "
+        "--turntable says otherwise, and that the camera is far away and about level",
+        100 * upper_median(std::move(contrasts)), degrees(step));
+}
+
 }  // namespace
+
+std::vector<std::size_t> order_of_numbers(const std::vector<std::string>& names) {
+    std::vector<std::size_t> order(names.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return ::strverscmp(names[a].c_str(), names[b].c_str()) < 0;
+    });
+    return order;
+}
 
 Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step) {
     if (outlines.size() < 3) throw InputError("a turntable needs three pictures at least");
@@ -231,6 +267,7 @@ Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step)
     table.residual_px =
         std::sqrt(table.residual_px / std::max(1.0, static_cast<double>(residuals.size()) - 3));
     take_sigmas(problem, table);
+    judge(outlines, step, table);
     return table;
 }
 

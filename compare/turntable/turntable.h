@@ -20,7 +20,9 @@ struct Turntable {
     int tangents = 0;  ///< such planes
     /// Standard uncertainties from the residuals.
     double sigma_axis_px = 0, sigma_roll = 0, sigma_elevation = 0;
-    std::vector<std::string> notes;
+    /// Why the outlines are of no use, and what to do about it: sentences for people. Empty when
+    /// all is well.
+    std::string trouble, remedy;
 };
 
 /// `step`: radians that the stone turned from one outline to the next, counter-clockwise as seen
@@ -29,6 +31,10 @@ struct Turntable {
 /// outlines are as far from the axis on one side as on the other. Throws InputError with fewer
 /// than three outlines, or where nothing tells the axis' place: no two of them are opposite.
 Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step);
+
+/// Places of file names in the order of the numbers in them: turn-2 comes before turn-10, which a
+/// shell lists first.
+std::vector<std::size_t> order_of_numbers(const std::vector<std::string>& names);
 
 /// One outline in the stone's frame, `scale` lengths a pixel.
 struct PlacedOutline {

@@ -90,6 +90,41 @@ TEST(Turntable, IsFoundFromOutlinesAlone) {
     EXPECT_NEAR(degrees(found.roll), 0.8, 0.1);
     EXPECT_NEAR(degrees(found.elevation), 1.5, 0.15);
     EXPECT_LT(found.residual_px, 0.77);
+    EXPECT_EQ(found.trouble, "");
+}
+
+// As `ls` sorts them: turn-1, turn-10, turn-11, ..., turn-2, ...
+TEST(Turntable, PicturesInTheShellsOrderAreSortedByTheirNumbers) {
+    std::vector<std::string> names;
+    for (int i = 1; i <= 24; ++i) names.push_back("turn-" + std::to_string(i) + ".png");
+    std::vector<std::string> listed = names;
+    std::sort(listed.begin(), listed.end());
+    std::vector<std::string> sorted;
+    for (const std::size_t i : order_of_numbers(listed)) sorted.push_back(listed[i]);
+    EXPECT_EQ(sorted, names);
+}
+
+// In a wrong order the outlines are of no stone that turned: the trouble names the figure.
+TEST(Turntable, SaysThatPicturesOutOfOrderContradictEachOther) {
+    std::vector<BackLitOutline> outlines = outlines_of(stone_of_width("pear", 5), 24, small());
+    for (std::size_t i = 3; i < 12; ++i) std::swap(outlines[i], outlines[23 - i]);
+    const Turntable found = turntable_of(outlines, radians(15));
+    EXPECT_GT(found.residual_px, 1);
+    EXPECT_NE(found.trouble.find("contradict each other"), std::string::npos) << found.trouble;
+    EXPECT_NE(found.remedy.find("from behind"), std::string::npos) << found.remedy;
+}
+
+// A ball looks the same from everywhere, so that nothing tells how the camera stood.
+TEST(Turntable, SaysThatABallDoesNotTellHowTheCameraStood) {
+    BackLitOutline ball;
+    for (int i = 0; i < 360; ++i) {
+        const double a = 2 * std::numbers::pi * i / 360;
+        ball.corners.push_back({100 * std::cos(a), 100 * std::sin(a)});
+    }
+    ball.points = ball.corners;
+    const Turntable found = turntable_of(std::vector<BackLitOutline>(24, ball), radians(15));
+    EXPECT_LT(found.residual_px, 1);
+    EXPECT_NE(found.trouble.find("how the camera stood"), std::string::npos) << found.trouble;
 }
 
 TEST(Turntable, NeedsOppositePictures) {
