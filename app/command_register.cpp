@@ -26,7 +26,7 @@ struct RegisterArguments {
     std::string photo, scene, out, overlay, json, mask;
     double facet_error_deg = 0.2, search_deg = 35, focal_error = 20, principal_point_error = 0,
            within_deg = 10, within_px = 0, doubt_percent = 0.1;
-    bool one_chirality = false;
+    bool mirrored = false;
 };
 
 PoseOptions options_of(const RegisterArguments& a, const Photo& photo) {
@@ -39,7 +39,7 @@ PoseOptions options_of(const RegisterArguments& a, const Photo& photo) {
     options.limits.angle = radians(a.within_deg);
     options.limits.shift_px = a.within_px;
     options.limits.doubt = a.doubt_percent / 100;
-    options.both_chiralities = !a.one_chirality;
+    options.both_chiralities = a.mirrored;
     options.threads = a.common.threads;
     return options;
 }
@@ -146,8 +146,8 @@ void add_command_register(CLI::App& program, int& exit_code) {
                      "refuse a pose whose chance of being a wrong one is larger (percent; default "
                      "0.1; 100 takes any)")
         ->check(CLI::Range(1e-6, 100.0));
-    command->add_flag("--not-mirrored", a.one_chirality,
-                      "the photograph is surely not mirrored: do not try it so");
+    command->add_flag("--mirrored,!--not-mirrored", a.mirrored,
+                      "the photograph may be turned left to right: try both (default: it is not)");
     add_common(*command, a.common, true);
     command->footer(
         "Examples:\n"

@@ -71,6 +71,7 @@ Trial one_trial(const Settings& settings, Fault fault, int seed) {
     const PosePhotograph made = pose_photograph(settings.photographs, seed, fault);
     PoseOptions options;
     options.threads = settings.photographs.threads;
+    options.both_chiralities = fault == Fault::mirrored;
     if (settings.limit_deg > 0) options.limits.angle = radians(settings.limit_deg);
     if (settings.limit_px > 0) options.limits.shift_px = settings.limit_px;
     if (settings.with_mask) options.mask = made.coverage;

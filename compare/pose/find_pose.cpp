@@ -1,5 +1,6 @@
 #include "compare/pose/find_pose.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -58,6 +59,12 @@ bool looks_alike(const PoseTask& task, const Candidate& a, const Candidate& b) {
                       a.side->mirrored != b.side->mirrored);
 }
 
+/// How much less likely a view is for where the start stands: that is off by about half of what is
+/// searched, and one in a thousand is at another place of the stone's symmetry. Natural logarithm.
+double unlikely_from(double start_angle, const PoseTask& task) {
+    return std::min(0.5 * std::pow(start_angle / (0.5 * task.options.search), 2), std::log(1000.0));
+}
+
 /// How much likelier the first of two views is that look alike by the stone's symmetry: by the
 /// edges that it meets, and by how little the model's facets must change for them. (Of normal
 /// errors of unknown size the likelihood goes with the size to the power of minus their number.)
@@ -68,19 +75,27 @@ double lead_of(const Candidate& a, const Candidate& b) {
            tilts * std::log(other.facet_error / one.facet_error);
 }
 
-/// Of poses that differ by the stone's symmetry the likeliest comes first; of about as likely ones
-/// the one that is not mirrored and nearest to the start.
+/// Of poses that differ by the stone's symmetry the likeliest comes first, by the edges and by
+/// where the start stands; of about as likely ones the one that is not mirrored and nearest to the
+/// start.
 void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) {
+    const auto lead = [&](const Candidate& a, const Candidate& b) {
+        const auto start_angle = [](const Candidate& c) {
+            return angle_between(c.refined.solved.view, c.side->start);
+        };
+        return lead_of(a, b) + unlikely_from(start_angle(b), task) -
+               unlikely_from(start_angle(a), task);
+    };
     std::vector<std::size_t> alike{0};
     std::size_t likeliest = 0;
     for (std::size_t i = 1; i < best.size(); ++i) {
         if (!looks_alike(task, best[0], best[i])) continue;
         alike.push_back(i);
-        if (lead_of(best[i], best[likeliest]) > 0) likeliest = i;
+        if (lead(best[i], best[likeliest]) > 0) likeliest = i;
     }
     std::size_t chosen = likeliest;
     for (const std::size_t i : alike) {
-        if (lead_of(best[likeliest], best[i]) > k_tie) continue;
+        if (lead(best[likeliest], best[i]) > k_tie) continue;
         if (nearer_to_start(best[i].side, best[i].refined.solved.view, best[chosen].side,
                             best[chosen].refined.solved.view))
             chosen = i;
@@ -98,17 +113,29 @@ void widen(const Candidate& won, const Candidate& other, const TriedPose& tried,
 }
 
 /// How much less likely than the pose another view is. One within what the pose may be off is the
-/// same. What the stone looks alike from counts only where the start may have meant it: the start
-/// is off by about half of what is searched.
+/// same. What the stone looks alike from counts only where the start may have meant it.
 double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
     const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
     if (within) return 1e300;
     if (!other.symmetric) return other.lead;
     if (other.mirrored != pose.mirrored || other.start_angle > task.options.search) return 1e300;
-    const double sigma = 0.5 * task.options.search;
-    return other.lead +
-           0.5 * (other.start_angle * other.start_angle - pose.start_angle * pose.start_angle) /
-               (sigma * sigma);
+    return other.lead + unlikely_from(other.start_angle, task) -
+           unlikely_from(pose.start_angle, task);
+}
+
+/// The view that the start means was taken, though its edges alone speak for one that it does not.
+void warn_of_look_alikes(const PoseTask& task, FoundPose& pose) {
+    for (const TriedPose& other : pose.others) {
+        if (!other.symmetric || other.mirrored != pose.mirrored || other.lead > -k_tie ||
+            other.start_angle <= task.options.search)
+            continue;
+        pose.warnings.push_back(fmt::format(
+            "turned by {:.0f} degrees the stone looks alike and fits the photograph somewhat "
+            "better: the view nearer to the scene's camera was taken. If the stone was held the "
+            "other way round, turn the scene's camera",
+            degrees(other.turn)));
+        return;
+    }
 }
 
 void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPose& pose) {
@@ -146,6 +173,7 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
         rival = here;
         rival_turn = other.turn;
     }
+    warn_of_look_alikes(task, pose);
     const std::vector<SeenView> images = images_of(task, won.side, solved.view);
     for (std::size_t i = 1; i < images.size(); ++i) {
         const StoneView& view = images[i].coarse.view;

@@ -41,7 +41,9 @@ struct PoseOptions {
     std::vector<float> mask;       ///< of the photo, from `read_mask`; empty: found in the picture
     double search = 0.61;          ///< the start's view may be off by this angle (35 degrees) ...
     bool all_turns = true;         ///< ... besides any turn about the stone's z axis
-    bool both_chiralities = true;  ///< try the photograph mirrored left to right, too
+    /// Try the photograph mirrored left to right, too. Of a stone that looks alike in a mirror the
+    /// facets' errors alone tell which it is, and a small picture does not show them.
+    bool both_chiralities = false;
     /// One standard deviation of the model's facet tilts, angle to the true facet: the edges'
     /// errors that follow from it are part of the uncertainty. 0.2 degrees.
     double facet_error = 0.0035;
@@ -106,7 +108,7 @@ struct FoundPose {
     /// photograph turned left to right.
     Camera camera;
     bool mirrored = false;
-    bool chirality_known = true;  ///< false: a stone of this symmetry looks alike in both
+    bool chirality_known = true;  ///< false: both were tried, and the stone looks alike in both
     PoseSigmas sigmas;
     double start_angle = 0;  ///< from the start's view to the one found
     double start_scale = 1;  ///< size found over the start's size

@@ -120,6 +120,10 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
     }
     // Beyond what is searched lie only views that the stone looks alike from. Which of those it is
     // small irregularities say, and what was asked for says another.
+    const char* const or_mirrored =
+        task.sides.size() > 1
+            ? ""
+            : ", and that the picture is not turned left to right (--mirrored tries both)";
     if (pose.start_angle > task.options.search) {
         const double off = degrees(pose.start_angle);
         refuse(
@@ -128,8 +132,8 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
                         off, degrees(task.options.search)),
             fmt::format("See the overlay: if that is how the stone was held, turn the scene's "
                         "camera there, or search so far with --search-deg {:.0f}; else turn it "
-                        "to within 10 degrees of how it was held",
-                        std::ceil(off) + 1));
+                        "to within 10 degrees of how it was held. Check that this is the stone{}",
+                        std::min(180.0, std::ceil(off) + 1), or_mirrored));
     }
     const double outline_limit = std::max(1.0, limits.outline_residual * diameter);
     if (pose.outline_px > outline_limit) {
@@ -144,14 +148,16 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
     const double by_rival = rival < 700 ? 1 / (1 + std::exp(rival)) : 0;
     pose.doubt = std::min(1.0, by_chance + by_rival);
     if (pose.doubt > limits.doubt && by_chance >= by_rival) {
-        refuse(fmt::format("{} of {} edges of the crown are where this model has them, and by "
-                           "chance {:.0f} would be: that happens in {} of wrong views (at most {})",
-                           pose.evidence.met, pose.evidence.looked,
-                           pose.evidence.chance_share * pose.evidence.looked, percent(by_chance),
-                           percent(limits.doubt)),
-               "Check that this is the stone, from this side; then take it larger and sharper, in "
-               "a light that shows the edges around the table, or tilted by 10 to 20 degrees; "
-               "--doubt accepts more");
+        refuse(
+            fmt::format("{} of {} edges of the crown are where this model has them, and by "
+                        "chance {:.0f} would be: that happens in {} of wrong views (at most {})",
+                        pose.evidence.met, pose.evidence.looked,
+                        pose.evidence.chance_share * pose.evidence.looked, percent(by_chance),
+                        percent(limits.doubt)),
+            fmt::format("Check that this is the stone, from this side{}; then take it larger and "
+                        "sharper, in a light that shows the edges around the table, or tilted "
+                        "by 10 to 20 degrees; --doubt accepts more",
+                        or_mirrored));
     } else if (pose.doubt > limits.doubt) {
         refuse(fmt::format("another view, {:.0f} degrees from this one, explains the photograph "
                            "nearly as well: the chance that it is the right one is {} (at most {})",

@@ -30,10 +30,10 @@ Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const
         options.limits.angle = k_pose_angle;
         options.limits.shift_px = std::max(1.0, k_pose_shift * across);
         // Near the scene's camera: turned by more, a stone looks like itself.
-        options.all_turns = options.both_chiralities = false;
+        options.all_turns = false;
         FoundPose pose = find_pose(photo, scene.stone.solid, scene.camera, options, progress);
         if (!pose.usable()) {
-            options.all_turns = options.both_chiralities = true;
+            options.all_turns = true;
             pose = find_pose(photo, scene.stone.solid, scene.camera, options, progress);
         }
         if (!pose.usable()) {
@@ -41,10 +41,6 @@ Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const
                              ". What to do: culet register finds the pose and takes options; give "
                              "the scene its camera, and refine --keep-pose. " +
                              pose.remedy);
-        }
-        if (pose.mirrored) {
-            throw InputError(
-                "it shows the stone mirrored, by its edges: turn the picture left to right");
         }
         result.camera = pose.camera;
     }

@@ -402,6 +402,11 @@ TEST(FindPose, SeesThatAPhotographIsMirrored) {
     options.search = radians(12);
     options.limits.angle = radians(1);
     options.limits.shift_px = 1;
+    // Unasked, no photograph is taken as mirrored, and what is found nowhere is refused.
+    const FoundPose unasked = find_pose(turned, made.model, start, options);
+    EXPECT_FALSE(unasked.mirrored);
+    EXPECT_FALSE(unasked.usable());
+    options.both_chiralities = true;
     const FoundPose as_is = find_pose(made.photo, made.model, start, options);
     EXPECT_FALSE(as_is.mirrored);
     EXPECT_TRUE(as_is.chirality_known);
