@@ -44,35 +44,6 @@ constexpr double k_pose_angle = radians(2.0), k_pose_shift = 0.005;
 // What a pose is off by less than this costs the scores nothing that shows.
 constexpr double k_worth_saying = radians(0.1);
 
-template <class Value>
-void flip_rows(std::vector<Value>& values, int width, std::size_t channels) {
-    const auto row = static_cast<std::size_t>(width) * channels;
-    for (std::size_t y = 0; row > 0 && y + row <= values.size(); y += row) {
-        for (std::size_t left = 0, right = static_cast<std::size_t>(width) - 1; left < right;
-             ++left, --right) {
-            for (std::size_t c = 0; c < channels; ++c) {
-                std::swap(values[y + left * channels + c], values[y + right * channels + c]);
-            }
-        }
-    }
-}
-
-struct Mirrored {
-    Photo photo;
-    std::vector<float> mask, ignored;
-};
-
-Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
-    Mirrored result{photo, options.mask, options.ignored};
-    flip_rows(result.photo.rgb, photo.width, 3);
-    flip_rows(result.photo.coverage, photo.width, 1);
-    flip_rows(result.photo.variance, photo.width, 3);
-    flip_rows(result.photo.saturated, photo.width, 1);
-    flip_rows(result.mask, photo.width, 1);
-    flip_rows(result.ignored, photo.width, 1);
-    return result;
-}
-
 // What is left out, seen from the model's picture.
 std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     if (frame.photo.ignored.empty()) return {};
@@ -159,15 +130,13 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
 
 }  // namespace
 
-SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
+SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
                                    const SceneCompareOptions& options, const Progress& progress) {
     const auto start = Clock::now();
     SceneComparison result;
     result.scene = scene;
     CompareOptions how = options.compare;
     how.largest = options.largest;
-    Photo turned_over;
-    const Photo* photo = &given;
     std::vector<std::string> notes;
 
     if (options.find_pose && !is_convex(scene.stone.solid)) {
@@ -180,8 +149,8 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
         pose_options.threads = how.threads;
         pose_options.limits.angle = k_pose_angle;
         pose_options.limits.shift_px =
-            std::max(1.0, k_pose_shift * stone_diameter_px(given, how.mask));
-        result.pose = find_pose(given, scene.stone.solid, scene.camera, pose_options,
+            std::max(1.0, k_pose_shift * stone_diameter_px(photo, how.mask));
+        result.pose = find_pose(photo, scene.stone.solid, scene.camera, pose_options,
                                 part_of(progress, 0, k_bar_for_pose));
         if (result.pose->usable()) {
             result.pose_used = true;
@@ -192,14 +161,6 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
                     "0.5 degrees as 0.15 to 0.25",
                     degrees(result.pose->sigmas.angle_99)));
             }
-            if (result.pose->mirrored) {
-                Mirrored other = mirrored(given, how);
-                turned_over = std::move(other.photo);
-                how.mask = std::move(other.mask);
-                how.ignored = std::move(other.ignored);
-                photo = &turned_over;
-                notes.push_back("photo: turned left to right, as its edges call for");
-            }
         } else {
             notes.push_back("pose: " + result.pose->trouble +
                             "; the scene's own camera was taken instead. What to do: culet "
@@ -208,7 +169,7 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
         }
     }
 
-    const double across = stone_diameter_px(*photo, how.mask);
+    const double across = stone_diameter_px(photo, how.mask);
     const double diameter = std::min(across > 0 ? across : options.largest, options.largest);
     result.scene.camera =
         cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
@@ -225,14 +186,14 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
                 .bands;
     }
     const AlignedPair pair =
-        aligned(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
+        aligned(photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
     const Progress rest = part_of(progress, drawn, 1);
     if (options.calibrate && pair.comparable()) {
-        compare_calibrated(result, pair, *photo, renderer, options, how, start, rest);
+        compare_calibrated(result, pair, photo, renderer, options, how, start, rest);
     } else {
-        result.comparison = scored(pair, *photo, result.render, how, rest);
+        result.comparison = scored(pair, photo, result.render, how, rest);
     }
-    result.comparison.within = within_readings(pair, *photo, result.render);
+    result.comparison.within = within_readings(pair, photo, result.render);
     std::vector<std::string>& all_notes = result.comparison.notes;
     all_notes.insert(all_notes.end(), notes.begin(), notes.end());
     return result;
