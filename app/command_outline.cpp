@@ -8,7 +8,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "compare/photo/photo.h"
@@ -124,9 +123,7 @@ Json contours_json(const std::vector<PlacedOutline>& placed, const Turntable& ta
     return json;
 }
 
-int run_outline(OutlineArguments a) {
-    if (const std::string note = put_in_order_of_numbers(a.photos); !note.empty())
-        say("note: " + note, a.common.quiet);
+int run_outline(const OutlineArguments& a) {
     if ((a.pixel_mm > 0) == (a.width_mm > 0))
         throw InputError(
             "say how large a pixel is: --pixel MM, or --width MM, the least width of "

@@ -8,7 +8,6 @@
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
-#include "stone/text_scan.h"
 
 namespace culet {
 
@@ -70,17 +69,6 @@ void require_kind(const std::filesystem::path& file, const std::vector<FileKind>
     }
     throw InputError(file, fmt::format("is {}, and {} takes {}; {}", words_for(kind), command,
                                        takes, words_of(kind).taken_by));
-}
-
-std::string put_in_order_of_numbers(std::vector<std::string>& pictures) {
-    const bool by_letters = std::is_sorted(pictures.begin(), pictures.end());
-    if (!by_letters || std::is_sorted(pictures.begin(), pictures.end(), precedes_by_number))
-        return {};
-    const std::vector<std::string> given = pictures;
-    std::sort(pictures.begin(), pictures.end(), precedes_by_number);
-    const auto moved = std::mismatch(given.begin(), given.end(), pictures.begin());
-    return fmt::format("the pictures are taken in the order of their numbers: {} before {}",
-                       *moved.second, *moved.first);
 }
 
 bool is_cut_name(const std::string& input) {

@@ -15,10 +15,6 @@ namespace culet {
 void require_kind(const std::filesystem::path& file, const std::vector<FileKind>& taken,
                   const std::string& command, const std::vector<std::string>& overrides = {});
 
-/// Pictures whose order matters, as a shell lists them (turn-1, turn-10, turn-2), are put in the
-/// order of their numbers; pictures in another order stay. What was done, for people; else empty.
-std::string put_in_order_of_numbers(std::vector<std::string>& pictures);
-
 /// A name of a standard cut, where no file is called so.
 bool is_cut_name(const std::string& input);
 

@@ -79,32 +79,6 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-bool precedes_by_number(std::string_view a, std::string_view b) {
-    const auto digits_of = [](std::string_view text) {
-        return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
-    };
-    const auto without_zeros = [](std::string_view digits) {
-        return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
-    };
-    const std::string_view whole_a = a, whole_b = b;
-    while (!a.empty() && !b.empty()) {
-        const std::string_view digits_a = digits_of(a), digits_b = digits_of(b);
-        if (digits_a.empty() || digits_b.empty()) {
-            if (a.front() != b.front()) return a < b;
-            a.remove_prefix(1);
-            b.remove_prefix(1);
-            continue;
-        }
-        const std::string_view number_a = without_zeros(digits_a);
-        const std::string_view number_b = without_zeros(digits_b);
-        if (number_a.size() != number_b.size()) return number_a.size() < number_b.size();
-        if (number_a != number_b) return number_a < number_b;
-        a.remove_prefix(digits_a.size());
-        b.remove_prefix(digits_b.size());
-    }
-    return a.empty() && b.empty() ? whole_a < whole_b : a.empty();
-}
-
 std::string shown(std::string_view word) {
     constexpr int k_longest = 40;
     std::string text;

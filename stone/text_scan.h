@@ -35,9 +35,6 @@ std::string_view trimmed(std::string_view line);
 /// ASCII letters as small ones.
 std::string lower_case(std::string text);
 
-/// True where `a` comes before `b` when runs of digits are compared as numbers: turn-2, turn-10.
-bool precedes_by_number(std::string_view a, std::string_view b);
-
 /// As it may be shown to people: at most 40 characters of UTF-8; control characters, those that
 /// reorder text, and bytes that are no UTF-8 as `?`.
 std::string shown(std::string_view word);

@@ -198,15 +198,6 @@ TEST(ForeignText, WhatPeopleSeeIsWholeCharactersAndNoCommands) {
     EXPECT_EQ(quote.size(), 2 + 3 + 2 * 117u);
 }
 
-TEST(ForeignText, NumbersInNamesCountAsNumbers) {
-    const std::vector<std::string> right{"turn-1.png",  "turn-2.png",   "turn-010.png",
-                                         "turn-11.png", "turn-11b.png", "turn.png"};
-    for (std::size_t i = 0; i < right.size(); ++i) {
-        for (std::size_t k = 0; k < right.size(); ++k)
-            EXPECT_EQ(precedes_by_number(right[i], right[k]), i < k) << right[i] << " " << right[k];
-    }
-}
-
 TEST_F(ForeignTables, WavelengthsComeInTheUnitThatTheirRangeOrHeaderTells) {
     const struct {
         const char *text, *note;  ///< what the note says; empty: there is none
