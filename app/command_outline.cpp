@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/options.h"
 #include "app/terminal.h"
@@ -50,10 +51,14 @@ std::vector<BackLitOutline> traced(const OutlineArguments& a) {
     std::vector<BackLitOutline> outlines;
     const Progress progress = progress_line("outlines", a.common.quiet);
     int width = 0, height = 0;
+    std::set<std::string> told;
     for (std::size_t i = 0; i < a.photos.size(); ++i) {
         if (progress && !progress(double(i) / double(a.photos.size()))) throw Interrupted();
         const std::filesystem::path file = a.photos[i];
         Photo photo = read_photo(file);
+        // Frames of one camera: what holds for all of them is said once.
+        std::erase_if(photo.notes, [&](const auto& note) { return !told.insert(note).second; });
+        say_notes(a.photos[i], photo.notes, a.common.quiet);
         if (i == 0) {
             width = photo.width;
             height = photo.height;

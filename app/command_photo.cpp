@@ -101,6 +101,7 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
     Photo& photo = merged.photo;
     Json white;
     const Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
+    say_notes(a.white, other.notes, a.common.quiet);
     const Photo& with_card = a.white.empty() ? photo : other;
     const std::string where = a.white.empty() ? a.shots[0] : a.white;
     if (a.chart) {

@@ -74,6 +74,7 @@ int run_register(const RegisterArguments& a) {
     require_kind(a.photo, {FileKind::picture}, "culet register", {});
     require_kind(a.scene, {FileKind::scene}, "culet register", a.common.set);
     const Photo photo = read_photo(a.photo);
+    say_notes(a.photo, photo.notes, a.common.quiet);
     const Scene scene = read_scene(a.scene, a.common.set);
     const PoseOptions options = options_of(a, photo);
     for (const std::string& file : {a.out, a.overlay, a.json}) require_writable(file);

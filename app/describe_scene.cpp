@@ -124,9 +124,13 @@ Description describe_image_file(const DescribeOptions& options) {
     object["max"] = high;
     object["mean"] = {sum[0], sum[1], sum[2]};
     object["wavelengths_nm"] = picture.wavelengths_nm;
-    about.lines.push_back(fmt::format(
-        "{}: picture, {} x {} pixels, {}{}", options.file.string(), picture.width, picture.height,
-        read.was_encoded ? "sRGB encoded" : "linear", read.had_alpha ? ", with alpha" : ""));
+    about.notes = read.notes;
+    if (!read.not_photometric.empty())
+        about.notes.push_back(read.not_photometric + ": the picture is not photometric");
+    object["encoding"] = read.encoding;
+    about.lines.push_back(fmt::format("{}: picture, {} x {} pixels, {}{}", options.file.string(),
+                                      picture.width, picture.height, read.encoding,
+                                      read.had_alpha ? ", with alpha" : ""));
     about.lines.push_back(fmt::format("linear values {:.4g} to {:.4g}, mean {:.4g} {:.4g} {:.4g}",
                                       low, high, sum[0], sum[1], sum[2]));
     if (!picture.wavelengths_nm.empty()) {

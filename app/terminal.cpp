@@ -105,4 +105,8 @@ void say(const std::string& line, bool quiet) {
     if (!quiet) fmt::print(stderr, "{}\n", safe_for(stderr, line));
 }
 
+void say_notes(const std::string& picture, const std::vector<std::string>& notes, bool quiet) {
+    for (const std::string& note : notes) say(fmt::format("note: {}: {}", picture, note), quiet);
+}
+
 }  // namespace culet

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "stone/progress.h"
 
@@ -30,5 +31,8 @@ void print_lines(std::string_view text);
 
 /// One line for people, unless `quiet`; foreign text in it is made safe (safe_for).
 void say(const std::string& line, bool quiet);
+
+/// What was noted on reading a picture, a line each.
+void say_notes(const std::string& picture, const std::vector<std::string>& notes, bool quiet);
 
 }  // namespace culet

@@ -35,7 +35,9 @@ FileKind kind_of(const std::filesystem::path& file, const std::vector<std::strin
     const std::string extension = extension_of(file);
     if (extension == "toml") return kind_of_toml(file, overrides);
     if (extension == "csv") return FileKind::table;
-    for (const char* picture : {"exr", "hdr", "png", "jpg", "jpeg", "tif", "tiff"}) {
+    // Formats that are not read are pictures as well: their reader says so.
+    for (const char* picture : {"exr", "hdr", "pfm", "png", "jpg", "jpeg", "tif", "tiff", "heic",
+                                "heif", "avif", "webp", "gif", "bmp", "jxl", "jp2", "psd", "ppm"}) {
         if (extension == picture) return FileKind::picture;
     }
     return FileKind::unknown;

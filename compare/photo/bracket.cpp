@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <set>
 
 #include "compare/photo/exposure_sum.h"
 #include "compare/photo/response.h"
@@ -114,6 +115,10 @@ private:
             const std::size_t shot = order_[k];
             Photo photo = read(shot);
             samples_[shot] = thinned(photo, factor_to(photo, k_pixels_to_measure));
+            for (const std::string& note : photo.notes) {
+                if (told_.insert(note).second)
+                    result_.notes.push_back(fmt::format("{}: {}", shots_[shot].name, note));
+            }
             if (options_.align) align(k, photo, before);
             const double bytes = static_cast<double>(photo.rgb.size()) * sizeof(float);
             if (kept + bytes > k_kept_bytes && shots_.size() > 1) continue;
@@ -156,6 +161,10 @@ private:
     bool eight_bits() const {
         return all_are([](const Photo& p) { return p.encoding.starts_with("8-bit"); });
     }
+    // The values of the files are known from what was read of them.
+    bool eight_bits_srgb() const {
+        return all_are([](const Photo& p) { return p.encoding.starts_with("8-bit sRGB"); });
+    }
 
     void find_curve() {
         const bool jpegs = all_are([](const Photo& p) { return p.encoding == "8-bit sRGB JPEG"; });
@@ -163,6 +172,13 @@ private:
                                                           ? Response::calibrated
                                                           : Response::as_read);
         if (result_.response == Response::as_read) {
+            const bool profiled =
+                !jpegs && all_are([](const Photo& p) { return p.encoding.ends_with("JPEG"); });
+            if (profiled) {
+                result_.notes.push_back(
+                    "the camera's tone curve is taken as that of the files' profile: five or more "
+                    "exposures in sRGB would tell it");
+            }
             if (jpegs) {
                 result_.notes.push_back(
                     "the camera's tone curve is taken as sRGB: five or more exposures would tell "
@@ -170,10 +186,10 @@ private:
             }
             return;
         }
-        if (!eight_bits() || shots_.size() < 3) {
+        if (!eight_bits_srgb() || shots_.size() < 3) {
             throw InputError(
                 "a camera's response is found from at least three (better five) 8-bit "
-                "files of different exposure");
+                "files in sRGB, of different exposure");
         }
         std::vector<double> exposures;
         for (const BracketShot& shot : shots_) exposures.push_back(shot.exposure);
@@ -252,6 +268,7 @@ private:
     std::vector<std::size_t> order_;          // of the shots, from the brightest to the darkest
     std::vector<std::optional<Photo>> kept_;  // a shot, between looking and adding
     std::vector<Photo> samples_;              // a shot: some of its pixels, what is known of it
+    std::set<std::string> told_;              // of the shots' notes, each once
     std::string size_, size_of_;              // of the first that was read, and its name
     Bracket result_;
 };

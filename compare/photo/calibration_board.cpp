@@ -8,6 +8,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
+#include <string>
 
 #include "compare/photo/pixels.h"
 #include "stone/errors.h"
@@ -92,11 +94,16 @@ LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& picture
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<std::vector<int>> ids;
     std::vector<std::size_t> used;
+    std::set<std::string> told;  // of the pictures' notes, each once
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         if (progress &&
             !progress(static_cast<double>(i) / static_cast<double>(pictures.size() + 1)))
             throw Interrupted();
         const Photo photo = read_photo(pictures[i]);
+        for (const std::string& note : photo.notes) {
+            if (told.insert(note).second)
+                result.notes.push_back(fmt::format("{}: {}", pictures[i].string(), note));
+        }
         if (i == 0) {
             result.lens.width = photo.width;
             result.lens.height = photo.height;

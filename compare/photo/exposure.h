@@ -15,7 +15,6 @@ struct ShotData {
     double iso = 0;
     double focal_mm = 0;
     double focal_35mm = 0;  ///< the focal length with the same diagonal view on 36 x 24 mm
-    int orientation = 1;    ///< 1..8 as in the standard
     std::string camera;     ///< make and model
     /// Why the values do not stand for light, as the file itself says ("HDR by the phone", ...);
     /// empty: it does not say so.

@@ -9,7 +9,7 @@
 #include "compare/photo/raw_file.h"
 #include "render/colour/colour.h"
 #include "render/image/image_io.h"
-#include "render/image/picture_header.h"
+#include "render/image/picture_format.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -30,12 +30,12 @@ ShotData shot_data_of(const std::string& bytes, const std::string& format) {
 }
 
 void note_camera(Photo& photo, const std::string& bytes) {
-    const std::string format = picture_header(bytes).format;
+    const std::string format = picture_format(bytes);
     photo.shot = shot_data_of(bytes, format);
     if (!photo.shot.processed.empty()) {
         photo.photometric = false;
         photo.not_photometric = photo.shot.processed;
-    } else if (format == "JPEG") {
+    } else if (format == "JPEG" && photo.photometric) {
         photo.photometric = false;
         photo.not_photometric = "a JPEG, whose tone curve is the camera's own secret";
     }
@@ -74,6 +74,9 @@ Photo read_photo(const std::filesystem::path& file) {
     photo.coverage = std::move(read.picture.coverage);
     photo.saturation = read.white;
     photo.encoding = read.encoding;
+    photo.notes = std::move(read.notes);
+    photo.photometric = read.not_photometric.empty();
+    photo.not_photometric = read.not_photometric;
     photo.bands = bands_of(read.picture);
     for (Picture::Plane& plane : read.picture.planes) {
         if (plane.channel == "saturated") photo.saturated = std::move(plane.values);
@@ -103,7 +106,8 @@ Photo read_photo(const std::filesystem::path& file) {
             fmt::format("{} samples were no finite numbers and count as 0", not_finite));
     }
     if (negative > 0)
-        photo.notes.push_back(fmt::format("{} negative samples count as 0", negative));
+        photo.notes.push_back(fmt::format("{} negative samples{} count as 0", negative,
+                                          read.was_encoded ? " (colours outside of sRGB)" : ""));
     return photo;
 }
 
@@ -112,7 +116,7 @@ ShotData read_shot_data(const std::filesystem::path& file) {
     std::error_code problem;
     if (!std::filesystem::exists(file, problem)) throw InputError(file, "no such file");
     const std::string bytes = first_bytes(file);
-    return shot_data_of(bytes, picture_header(bytes).format);
+    return shot_data_of(bytes, picture_format(bytes));
 }
 
 int bits_of(const Photo& photo) {

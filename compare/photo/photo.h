@@ -26,19 +26,19 @@ struct Photo {
     std::vector<float> bands;
     /// False: the values do not stand for light (a tone-mapped JPEG); shapes and places only.
     bool photometric = true;
-    std::string not_photometric;     ///< why, in a few words; empty when `photometric`
-    ShotData shot;                   ///< what the camera noted (EXIF)
-    std::size_t not_finite = 0;      ///< samples that were NaN or infinite in the file, now 0
-    std::string encoding;            ///< for the record: "8-bit sRGB", "linear EXR", ...
-    std::vector<std::string> notes;  ///< what was repaired on reading, one line each
+    std::string not_photometric;  ///< why, in a few words; empty when `photometric`
+    ShotData shot;                ///< what the camera noted (EXIF)
+    std::size_t not_finite = 0;   ///< samples that were NaN or infinite in the file, now 0
+    std::string encoding;         ///< for the record: "8-bit sRGB", "linear EXR", ...
+    /// What was repaired on reading, assumed, or not followed; one line each.
+    std::vector<std::string> notes;
 };
 
-/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h). Integer files are
-/// taken as sRGB (IEC 61966-2-1) and decoded; float files are taken as linear. JPEGs are turned
-/// upright as their EXIF tag says. Colour profiles are not applied. A JPEG is not photometric:
-/// cameras write them through a tone curve of their own, phones through one that differs from place
-/// to place. Throws InputError for a file that is missing, broken, or of more than
-/// `k_max_photo_pixels`.
+/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM (render/image/image_io.h: what the file says of its numbers
+/// is followed or noted; without a word, integers are sRGB and floats are linear), or a camera's
+/// raw file (raw_file.h). A JPEG is not photometric: cameras write them through a tone curve of
+/// their own, phones through one that differs from place to place. Throws InputError for a file
+/// that is missing, broken, or of more than `k_max_photo_pixels`.
 Photo read_photo(const std::filesystem::path& file);
 
 /// What the camera noted, without the picture. Throws InputError for a file that is missing or, a

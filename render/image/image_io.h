@@ -11,16 +11,21 @@
 namespace culet {
 
 struct ReadPicture {
-    Picture picture;           ///< linear; 8- and 16-bit files are decoded from sRGB
-    bool was_encoded = false;  ///< true: the file held sRGB values (8 or 16 bit)
+    Picture picture;           ///< linear light, by the file's own profile, else decoded from sRGB
+    bool was_encoded = false;  ///< true: the file held whole numbers (8 or 16 bit)
     bool had_alpha = false;    ///< alpha (EXR, PNG) is in picture.coverage
-    std::string encoding;      ///< for the record: "8-bit sRGB", "16-bit sRGB", "linear EXR", ...
+    /// For the record: "8-bit sRGB", "16-bit Adobe RGB (1998)", "linear EXR", ...
+    std::string encoding;
     float white = 0;  ///< linear value at which the file saturates (1 when encoded); 0: none
+    std::vector<std::string> notes;  ///< what the file says that was not followed, or was assumed
+    std::string not_photometric;     ///< why the values do not stand for light; empty: they do
 };
 
-/// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says;
-/// colour profiles are not applied. Throws InputError: missing, a folder, empty, no picture, cut
-/// off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
+/// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. Pictures are turned upright, and their numbers are
+/// taken as the file says: exposure, primaries, transfer curve, ICC profile, inks
+/// (sample_meaning.h), windows (image_exr.h). Throws InputError: missing, a folder, empty, no
+/// picture, cut off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can
+/// hold).
 ReadPicture read_picture(const std::filesystem::path& file);
 
 /// The same of a file's bytes; errors call it `name`.

@@ -86,6 +86,12 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
                    fmt::format("{} is {} x {} pixels; a lat-long map is twice as wide as high",
                                path.filename().string(), map->width, map->height));
     }
+    for (const std::string& note : read.notes)
+        notes.push_back(fmt::format("{}: {}", path.filename().string(), note));
+    if (!read.not_photometric.empty()) {
+        notes.push_back(fmt::format("{}: {}: the map is not photometric", path.filename().string(),
+                                    read.not_photometric));
+    }
     if (read.was_encoded) {
         notes.push_back(fmt::format(
             "{}: lights brighter than white are missing in a picture of 8 or 16 bits; an EXR or "

@@ -133,12 +133,13 @@ TEST_F(PictureFormats, SizesOfHostileHeadersAreRefusedBeforeThereIsRoomForThem) 
     std::string jpeg = bytes_of(two_halves(), ".jpg");
     const std::size_t frame = jpeg.find("\xff\xc0");
     ASSERT_NE(frame, std::string::npos);
-    jpeg.replace(frame + 5, 4, "\xff\xff\xff\xff");
-    EXPECT_NE(refusal("huge.jpg", jpeg).find("65535 x 65535"), std::string::npos);
-    // A TIFF with one directory of two LONG entries, width and height 2^30.
-    std::string tiff("II*\0\x08\0\0\0\x02\0", 10);
+    jpeg.replace(frame + 5, 4, "\x7f\x7f\x7f\x7f");
+    EXPECT_NE(refusal("huge.jpg", jpeg).find("32639 x 32639"), std::string::npos);
+    // A TIFF with one directory of three LONG entries: width and height 2^30, the place of a strip.
+    std::string tiff("II*\0\x08\0\0\0\x03\0", 10);
     tiff += std::string("\0\1\4\0\1\0\0\0\0\0\0\x40", 12);
     tiff += std::string("\1\1\4\0\1\0\0\0\0\0\0\x40", 12);
+    tiff += std::string("\x11\1\4\0\1\0\0\0\x08\0\0\0", 12);
     EXPECT_NE(refusal("huge.tiff", tiff + std::string(4, '\0')).find("1073741824"),
               std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "render/image/codecs/codecs.h"
+#include "render/image/image_io.h"
 #include "tests/render/codec_pictures.h"
 
 namespace {
@@ -44,6 +45,17 @@ double difference_of(const DecodedPixels& a, const DecodedPixels& b) {
                : 1;
 }
 
+// Of 8 bits with alpha OpenCV gives what libtiff shows: colours times alpha, rounded.
+DecodedPixels as_shown(DecodedPixels pixels) {
+    auto* const bytes = std::get_if<std::vector<std::uint8_t>>(&pixels.samples);
+    if (pixels.channels != 4 || bytes == nullptr) return pixels;
+    for (std::size_t i = 0; i < bytes->size(); ++i) {
+        std::uint8_t& v = (*bytes)[i];
+        if (i % 4 < 3) v = static_cast<std::uint8_t>((v * (*bytes)[i / 4 * 4 + 3] + 127) / 255);
+    }
+    return pixels;
+}
+
 // OpenCV refuses some arrangements that are none of its own: uncompressed tiles, colours of 16 bits
 // in separate planes. It reads the same samples packed in whole pixels.
 TEST(TiffCodec, ReadsEveryArrangement) {
@@ -71,7 +83,8 @@ TEST(TiffCodec, ReadsEveryArrangement) {
                     kind.tiles = tiles;
                     kind.planes = planes;
                     EXPECT_EQ(
-                        difference(decode_tiff(written_tiff(45, 37, kind, 15), "a.tiff"), theirs),
+                        difference(as_shown(decode_tiff(written_tiff(45, 37, kind, 15), "a.tiff")),
+                                   theirs),
                         0)
                         << kind.bits << " bits, " << kind.samples << " samples, tiles " << tiles
                         << ", planes " << planes << ", compression " << packing;
@@ -103,7 +116,10 @@ TEST(TiffCodec, ReadsPackedFloats) {
               0);
     const cv::Mat image(9, 11, CV_32FC3, cv::Scalar(0.25, 0.5, 0.75));
     const std::string logarithms = encoded_by_opencv(image, ".tiff");
-    EXPECT_LT(difference(decode_tiff(logarithms, "a.tiff"), decoded_by_opencv(logarithms)), 1e-5);
+    // Stored as X, Y, Z: the matrix of IEC 61966-2-1 is published with four digits.
+    const Picture read = picture_of_bytes(logarithms, "a.tiff").picture;
+    EXPECT_LT(difference({read.width, read.height, 3, read.rgb, {}}, decoded_by_opencv(logarithms)),
+              5e-4);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// The picture formats' codecs: bytes of a file to samples, and back. What a sample means (sRGB,
-// linear light) is the business of image_io.
+// The picture formats' codecs: bytes of a file to samples and what the file says of them, and back.
+// What follows from that is the business of sample_meaning.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,22 +11,22 @@
 #include <variant>
 #include <vector>
 
+#include "render/image/sample_meaning.h"
+
 namespace culet {
 
 struct DecodedPixels {
     int width = 0, height = 0;
-    int channels = 0;  ///< 1: grey; 3: R, G, B; 4: R, G, B, A
+    int channels = 0;  ///< 1: grey; 3: R, G, B; 4: R, G, B, A, or C, M, Y, K (meaning.inks)
     /// Rows from the top, without gaps: of 8 bits, of 16 bits, or floats.
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> samples;
+    SampleMeaning meaning;
 };
 
-/// Each throws InputError naming `file`: cut off, damaged, unusual, absurd size. None writes to
-/// stderr.
+/// Each turns its picture upright as the file's orientation says, and throws InputError naming
+/// `file`: cut off, damaged, unusual, absurd size. None writes to stderr.
 DecodedPixels decode_png(const std::string& bytes, const std::filesystem::path& file);
-/// Turned upright as its EXIF tag says.
 DecodedPixels decode_jpeg(const std::string& bytes, const std::filesystem::path& file);
-/// Turned upright as its orientation tag says. 8 bits a sample with alpha: colours multiplied by
-/// it.
 DecodedPixels decode_tiff(const std::string& bytes, const std::filesystem::path& file);
 DecodedPixels decode_hdr(const std::string& bytes, const std::filesystem::path& file);
 DecodedPixels decode_pfm(const std::string& bytes, const std::filesystem::path& file);

@@ -72,8 +72,12 @@ void check_size(std::uint64_t width, std::uint64_t height, std::size_t bytes, co
 
 DecodedPixels turned_upright(DecodedPixels stored, int orientation) {
     if (orientation < 2 || orientation > 8) return stored;
-    DecodedPixels result{stored.width, stored.height, stored.channels, {}};
-    if (orientation >= 5) std::swap(result.width, result.height);
+    DecodedPixels result{
+        stored.width, stored.height, stored.channels, {}, std::move(stored.meaning)};
+    if (orientation >= 5) {
+        std::swap(result.width, result.height);
+        result.meaning.pixel_aspect = 1 / result.meaning.pixel_aspect;
+    }
     const auto width = static_cast<std::size_t>(result.width),
                height = static_cast<std::size_t>(result.height);
     std::visit(

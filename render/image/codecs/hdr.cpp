@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 #include "render/image/codecs/codecs.h"
@@ -47,6 +48,18 @@ public:
         return result;
     }
 
+    // A row of any kind: packed by parts, or pixels among which the older run-length code stands.
+    void row(std::vector<Rgbe>& row) {
+        const bool packed = may_be_packed(row.size()) && bytes_.size() >= 4 && bytes_[0] == 2 &&
+                            bytes_[1] == 2 && (bytes_[2] & 0x80) == 0;
+        if (!packed) return unpack_old_row(row);
+        const Rgbe mark = pixel();
+        if (mark[2] * 256u + mark[3] != row.size())
+            throw InputError(file_, "is an HDR with a damaged row");
+        unpack_row(row);
+    }
+
+private:
     // The four parts of a row one after the other, each in runs: over 128, so many times less 128
     // the next byte; else so many bytes.
     void unpack_row(std::vector<Rgbe>& row) {
@@ -65,7 +78,26 @@ public:
         }
     }
 
-private:
+    // 1, 1, 1, n: the pixel before, n times more; each such mark behind another counts 256 times as
+    // much.
+    void unpack_old_row(std::vector<Rgbe>& row) {
+        unsigned shift = 0;
+        for (std::size_t x = 0; x < row.size();) {
+            const Rgbe next = pixel();
+            if (next[0] != 1 || next[1] != 1 || next[2] != 1) {
+                row[x++] = next;
+                shift = 0;
+                continue;
+            }
+            const std::size_t length = shift < 32 ? std::size_t{next[3]} << shift : 0;
+            if (x == 0 || length > row.size() - x)
+                throw InputError(file_, "is an HDR with a damaged row");
+            std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), length, row[x - 1]);
+            x += length;
+            shift += 8;
+        }
+    }
+
     std::string_view bytes_;
     const std::filesystem::path& file_;
 };
@@ -114,38 +146,130 @@ void pack_values(const std::vector<std::uint8_t>& values, std::string& bytes) {
     }
 }
 
+struct HdrHeader {
+    SampleMeaning meaning;
+    std::size_t line = 0, lines = 0;  ///< pixels a row as stored, rows
+    int orientation = 1;              ///< as EXIF counts
+};
+
+// The numbers behind the name of a line; at least `count`.
+std::vector<double> numbers_in(std::string_view text, std::size_t count, std::size_t line,
+                               const std::filesystem::path& file) {
+    std::vector<double> numbers;
+    const std::string copy(text.substr(0, 256));
+    const char* at = copy.c_str() + copy.find('=') + 1;
+    for (char* end = nullptr;; at = end) {
+        const double value = std::strtod(at, &end);
+        if (end == at) break;
+        numbers.push_back(value);
+    }
+    if (numbers.size() < count)
+        throw InputError(file, fmt::format("line {} of its header lacks numbers", line));
+    return numbers;
+}
+
+// EXPOSURE, COLORCORR and PIXASPECT stand as often as a program has changed the picture: all of
+// them multiply (filefmts). Lines that begin with a blank tell of the pictures it was made from.
+void read_hdr_line(std::string_view line, std::size_t number, HdrHeader& header, bool& format,
+                   const std::filesystem::path& file) {
+    const auto numbers = [&](std::size_t count) { return numbers_in(line, count, number, file); };
+    const auto positive = [&](std::size_t count) {
+        std::vector<double> values = numbers(count);
+        for (const double v : values) {
+            if (!std::isfinite(v) || !(v > 0))
+                throw InputError(
+                    file, fmt::format("line {} of its header: {} is not positive", number, v));
+        }
+        return values;
+    };
+    SampleMeaning& meaning = header.meaning;
+    if (line.starts_with("FORMAT=")) {
+        format = true;
+        if (line == "FORMAT=32-bit_rle_xyze") {
+            meaning.primaries = k_xyz_primaries;
+        } else if (line != "FORMAT=32-bit_rle_rgbe") {
+            throw InputError(file, fmt::format("is an unusual HDR: line {} of its header names a "
+                                               "format that is neither 32-bit_rle_rgbe nor "
+                                               "32-bit_rle_xyze: save it again with another "
+                                               "program",
+                                               number));
+        }
+    } else if (line.starts_with("EXPOSURE=")) {
+        const double exposure = positive(1)[0];
+        for (float& factor : meaning.factor) factor = float(double(factor) / exposure);
+    } else if (line.starts_with("COLORCORR=")) {
+        const std::vector<double> by = positive(3);
+        for (std::size_t c = 0; c < 3; ++c)
+            meaning.factor[c] = float(double(meaning.factor[c]) / by[c]);
+    } else if (line.starts_with("PIXASPECT=")) {
+        meaning.pixel_aspect /= positive(1)[0];  // Radiance counts height over width
+    } else if (line.starts_with("GAMMA=")) {
+        meaning.exponent = positive(1)[0];
+    } else if (line.starts_with("PRIMARIES=")) {
+        const std::vector<double> xy = numbers(8);
+        // Photoshop writes zeros for primaries that it does not know.
+        if (std::all_of(xy.begin(), xy.end(), [](double v) { return v == 0; })) return;
+        if (meaning.primaries == k_xyz_primaries) return;
+        for (std::size_t i = 0; i < 8; ++i) meaning.primaries[i / 2][i % 2] = xy[i];
+    }
+}
+
+// `-Y rows +X columns`: two axes with the sense in which they run, the slower one first; +Y is up.
+// The eight orders are those of EXIF's orientations.
+void read_hdr_size(std::string_view line, HdrHeader& header, const std::filesystem::path& file) {
+    const std::string text(line.substr(0, 128));
+    std::array<char, 4> order{};
+    unsigned long lines = 0, length = 0;
+    constexpr std::array<std::string_view, 8> k_orders{"-Y+X", "-Y-X", "+Y-X", "+Y+X",
+                                                       "+X-Y", "-X-Y", "-X+Y", "+X+Y"};
+    const int found = std::sscanf(text.c_str(), "%c%c %lu %c%c %lu", &order[0], &order[1], &lines,
+                                  &order[2], &order[3], &length);
+    const auto known =
+        std::find(k_orders.begin(), k_orders.end(), std::string_view(order.data(), order.size()));
+    if (found != 6 || known == k_orders.end()) {
+        throw InputError(file,
+                         "is an unusual HDR: behind its header stands no size such as -Y 512 +X "
+                         "1024: save it again with another program");
+    }
+    header.orientation = static_cast<int>(known - k_orders.begin()) + 1;
+    header.lines = lines;
+    header.line = length;
+}
+
+HdrHeader read_hdr_header(HdrBytes& input, const std::filesystem::path& file) {
+    HdrHeader header;
+    bool format = false;
+    std::size_t number = 0;
+    for (;;) {
+        std::string_view line = input.line();
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        ++number;
+        if (line.empty()) break;
+        read_hdr_line(line, number, header, format, file);
+    }
+    read_hdr_size(input.line(), header, file);
+    if (!format) header.meaning.notes.push_back("it names no FORMAT and is taken as RGBE");
+    return header;
+}
+
 }  // namespace
 
 DecodedPixels decode_hdr(const std::string& bytes, const std::filesystem::path& file) {
     HdrBytes input(bytes, file);
-    bool format = false;
-    for (std::string_view line = input.line(); !line.empty(); line = input.line())
-        format = format || line == "FORMAT=32-bit_rle_rgbe";
-    const std::string size(input.line().substr(0, 128));
-    unsigned long rows = 0, columns = 0;
-    if (!format || std::sscanf(size.c_str(), "-Y %lu +X %lu", &rows, &columns) != 2) {
-        throw InputError(file,
-                         "is an unusual HDR (expected RGBE in rows from the top): save it again "
-                         "with another program");
-    }
-    check_size(columns, rows, bytes.size(), "HDR", file);
+    HdrHeader header = read_hdr_header(input, file);
+    const bool by_columns = header.orientation >= 5;
+    check_size(header.line, header.lines, bytes.size(), "HDR", file);
     std::vector<float> samples;
-    samples.reserve(3 * rows * columns);
-    std::vector<Rgbe> row(columns);
-    for (bool packed = may_be_packed(columns); samples.size() < 3 * rows * columns;) {
-        const Rgbe first = input.pixel();
-        // The first row tells how all are stored.
-        packed = packed && first[0] == 2 && first[1] == 2 && first[2] < 128;
-        if (!packed) {
-            add_pixel(first, samples);
-        } else if (first[2] * 256u + first[3] != columns) {
-            throw InputError(file, "is an HDR with a damaged row");
-        } else {
-            input.unpack_row(row);
-            for (const Rgbe& pixel : row) add_pixel(pixel, samples);
-        }
+    samples.reserve(3 * header.lines * header.line);
+    std::vector<Rgbe> row(header.line);
+    for (std::size_t y = 0; y < header.lines; ++y) {
+        input.row(row);
+        for (const Rgbe& pixel : row) add_pixel(pixel, samples);
     }
-    return {static_cast<int>(columns), static_cast<int>(rows), 3, std::move(samples)};
+    if (by_columns) header.meaning.pixel_aspect = 1 / header.meaning.pixel_aspect;
+    return turned_upright({static_cast<int>(header.line), static_cast<int>(header.lines), 3,
+                           std::move(samples), std::move(header.meaning)},
+                          header.orientation);
 }
 
 std::string encode_hdr(int width, int height, std::span<const float> rgb) {

@@ -7,12 +7,16 @@
 #include <jpeglib.h>
 // After it.
 #include <jerror.h>
+#include <libexif/exif-tag.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "render/image/codecs/codecs.h"
+#include "render/image/codecs/exif.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -66,7 +70,8 @@ bool read_jpeg_head(JpegInput& input, const std::string& bytes) {
     jpeg_create_decompress(&input.info);
     input.info.client_data = &input;
     jpeg_mem_src(&input.info, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-    jpeg_save_markers(&input.info, JPEG_APP0 + 1, 0xffff);
+    jpeg_save_markers(&input.info, JPEG_APP0 + 1, 0xffff);  // EXIF
+    jpeg_save_markers(&input.info, JPEG_APP0 + 2, 0xffff);  // ICC
     jpeg_read_header(&input.info, TRUE);
     return true;
 }
@@ -94,50 +99,58 @@ InputError jpeg_refusal(const JpegInput& input, const std::filesystem::path& fil
                         input.complaint.data())};
 }
 
-// EXIF 2.3, 4.6.4: tag 274, a SHORT of the first directory; 1 where there is none.
-int exif_orientation(std::string_view exif) {
-    using namespace std::string_view_literals;
-    const bool big_endian = exif.starts_with("MM\0*"sv);
-    if (!big_endian && !exif.starts_with("II*\0"sv)) return 1;
-    const auto number = [&](std::size_t at, std::size_t count) {
-        std::size_t value = 0;
-        if (at > exif.size() || count > exif.size() - at) return value;
-        for (std::size_t i = 0; i < count; ++i) {
-            value = value << 8 |
-                    static_cast<unsigned char>(exif[at + (big_endian ? i : count - 1 - i)]);
-        }
-        return value;
-    };
-    const std::size_t directory = number(4, 4), entries = number(directory, 2);
-    for (std::size_t i = 0; i < entries; ++i) {
-        const std::size_t entry = directory + 2 + 12 * i;
-        if (number(entry, 2) == 274) return static_cast<int>(number(entry + 8, 2));
-    }
-    return 1;
+std::string_view data_in(const jpeg_marker_struct& marker) {
+    return {reinterpret_cast<const char*>(marker.data), marker.data_length};
 }
 
-int jpeg_orientation(const jpeg_decompress_struct& info) {
+std::string_view exif_block(const jpeg_decompress_struct& info) {
     using namespace std::string_view_literals;
     for (const jpeg_marker_struct* marker = info.marker_list; marker != nullptr;
          marker = marker->next) {
-        const std::string_view data(reinterpret_cast<const char*>(marker->data),
-                                    marker->data_length);
-        if (data.starts_with("Exif\0\0"sv)) return exif_orientation(data.substr(6));
+        if (data_in(*marker).starts_with("Exif\0\0"sv)) return data_in(*marker);
     }
-    return 1;
+    return {};
 }
 
-// As Adobe's programs store them: the complements of the inks.
-std::vector<std::uint8_t> rgb_of_inks(const std::vector<std::uint8_t>& cmyk) {
-    std::vector<std::uint8_t> rgb(cmyk.size() / 4 * 3);
-    for (std::size_t i = 0; i < cmyk.size() / 4; ++i) {
-        const int black = cmyk[4 * i + 3];
-        for (std::size_t c = 0; c < 3; ++c) {
-            const int ink = cmyk[4 * i + c];
-            rgb[3 * i + c] = static_cast<std::uint8_t>(black - ((255 - ink) * black >> 8));
-        }
+// ICC.1:2010, annex B.4: parts of a profile, each with its number and their count.
+std::string icc_profile(const jpeg_decompress_struct& info, std::vector<std::string>& notes) {
+    using namespace std::string_view_literals;
+    constexpr std::size_t k_head = 14;
+    std::map<unsigned char, std::string_view> parts;
+    std::size_t count = 0;
+    for (const jpeg_marker_struct* marker = info.marker_list; marker != nullptr;
+         marker = marker->next) {
+        const std::string_view data = data_in(*marker);
+        if (!data.starts_with("ICC_PROFILE\0"sv) || data.size() < k_head) continue;
+        count = static_cast<unsigned char>(data[13]);
+        parts[static_cast<unsigned char>(data[12])] = data.substr(k_head);
     }
-    return rgb;
+    std::string profile;
+    for (const auto& [number, part] : parts) profile += part;
+    if (parts.size() == count) return profile;
+    notes.emplace_back("a part of its ICC profile is missing: its colours are taken as sRGB");
+    return {};
+}
+
+// Without a profile EXIF may name Adobe RGB, or say that the colours are none of its own list.
+SampleMeaning meaning_of_jpeg(const jpeg_decompress_struct& info, const ExifFields& exif) {
+    constexpr int k_uncalibrated = 0xffff, k_adobe = 2;
+    SampleMeaning meaning;
+    meaning.profile = icc_profile(info, meaning.notes);
+    const double space = exif.number(EXIF_TAG_COLOR_SPACE);
+    if (exif.adobe_rgb() || space == k_adobe) {
+        meaning.colours = "Adobe RGB (1998)";
+        meaning.primaries = k_adobe_rgb_primaries;
+        meaning.exponent = k_adobe_rgb_exponent;
+    } else if (space == k_uncalibrated && meaning.profile.empty()) {
+        meaning.notes.emplace_back(
+            "its EXIF says that its colours are not those of sRGB, and no profile which they are: "
+            "they are taken as sRGB");
+    }
+    if (info.saw_JFIF_marker && info.density_unit == 0 && info.X_density > 0)
+        meaning.pixel_aspect = static_cast<double>(info.Y_density) / info.X_density;
+    meaning.inks = info.num_components == 4;
+    return meaning;
 }
 
 }  // namespace
@@ -151,20 +164,28 @@ DecodedPixels decode_jpeg(const std::string& bytes, const std::filesystem::path&
     input.info.client_data = &input;
     if (!read_jpeg_head(input, bytes)) throw jpeg_refusal(input, file);
     const int components = input.info.num_components;
-    const int orientation = jpeg_orientation(input.info);  // gone with the last row
     check_size(input.info.image_width, input.info.image_height, bytes.size(), "JPEG", file);
     if (components != 1 && components != 3 && components != 4) {
         throw InputError(file,
                          fmt::format("has {} channels; expected grey, RGB or CMYK", components));
     }
+    // The markers are gone with the last row.
+    const ExifFields exif(exif_block(input.info));
+    DecodedPixels result;
+    result.meaning = meaning_of_jpeg(input.info, exif);
     const std::size_t width = input.info.image_width, height = input.info.image_height,
                       row = width * static_cast<std::size_t>(components);
     std::vector<std::uint8_t> samples(row * height);
     if (!read_jpeg_rows(input, samples.data(), row)) throw jpeg_refusal(input, file);
-    if (components == 4) samples = rgb_of_inks(samples);
-    return turned_upright({static_cast<int>(width), static_cast<int>(height),
-                           components == 1 ? 1 : 3, std::move(samples)},
-                          orientation);
+    // Adobe's programs, which sign their files, store the complements of inks.
+    if (components == 4 && input.info.saw_Adobe_marker) {
+        for (std::uint8_t& v : samples) v = static_cast<std::uint8_t>(255 - v);
+    }
+    result.width = static_cast<int>(width);
+    result.height = static_cast<int>(height);
+    result.channels = components;
+    result.samples = std::move(samples);
+    return turned_upright(std::move(result), exif.orientation());
 }
 
 }  // namespace culet

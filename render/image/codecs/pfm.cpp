@@ -11,7 +11,8 @@
 #include "stone/errors.h"
 
 // Portable float maps (P. Debevec): `PF` (R, G, B) or `Pf` (grey), columns and rows, a scale that
-// is negative where numbers are little endian; then rows from the bottom.
+// is negative where numbers are little endian and by which values are multiplied; then rows from
+// the bottom.
 
 namespace culet {
 
@@ -51,22 +52,31 @@ DecodedPixels decode_pfm(const std::string& bytes, const std::filesystem::path& 
     }
     const std::size_t channels = kind == "PF" ? 3 : 1;
     const std::size_t row = columns * channels, row_bytes = row * sizeof(float);
+    // Lines may end in CR LF, of which one blank is taken.
+    if (rest.starts_with('\n') && rest.size() == rows * row_bytes + 1) rest.remove_prefix(1);
     if (rest.size() / row_bytes < rows) throw InputError(file, "is a PFM that is cut off");
     std::vector<float> samples(row * rows);
     for (std::size_t y = 0; y < rows; ++y)
         std::memcpy(samples.data() + (rows - 1 - y) * row, rest.data() + y * row_bytes, row_bytes);
     const bool swapped = (scale < 0) != (std::endian::native == std::endian::little);
-    const float unit = 1 / std::abs(scale);
     for (float& sample : samples) {
         if (swapped) {
             auto raw = std::bit_cast<std::array<char, sizeof(float)>>(sample);
             std::reverse(raw.begin(), raw.end());
             sample = std::bit_cast<float>(raw);
         }
-        if (unit != 1) sample *= unit;
     }
-    return {static_cast<int>(columns), static_cast<int>(rows), static_cast<int>(channels),
-            std::move(samples)};
+    DecodedPixels result{static_cast<int>(columns),
+                         static_cast<int>(rows),
+                         static_cast<int>(channels),
+                         std::move(samples),
+                         {}};
+    result.meaning.factor.fill(std::abs(scale));
+    if (std::abs(scale) != 1) {
+        result.meaning.notes.push_back(fmt::format(
+            "its values are multiplied by its scale, {:g}, as its format says", std::abs(scale)));
+    }
+    return result;
 }
 
 std::string encode_pfm(int width, int height, std::span<const float> values) {

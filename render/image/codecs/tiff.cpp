@@ -1,101 +1,20 @@
 #include <fmt/format.h>
+#include <half.h>
 #include <tiffio.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdarg>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "render/image/codecs/codecs.h"
+#include "render/image/codecs/tiff_memory.h"
 #include "stone/errors.h"
 
 namespace culet {
 
 namespace {
-
-constexpr tmsize_t k_most_tiff_memory = tmsize_t{1} << 31;  // in one piece, by the library
-
-// A file in memory, and the first complaint of the library about it.
-struct TiffInput {
-    const std::string* bytes = nullptr;
-    std::uint64_t at = 0;
-    std::array<char, 160> complaint{};
-};
-
-tmsize_t give_tiff_bytes(thandle_t handle, void* to, tmsize_t count) {
-    auto* input = static_cast<TiffInput*>(handle);
-    if (count <= 0 || input->at >= input->bytes->size()) return 0;
-    const std::size_t given = std::min(static_cast<std::size_t>(count),
-                                       input->bytes->size() - static_cast<std::size_t>(input->at));
-    std::memcpy(to, input->bytes->data() + input->at, given);
-    input->at += given;
-    return static_cast<tmsize_t>(given);
-}
-
-tmsize_t take_no_tiff_bytes(thandle_t, void*, tmsize_t) {
-    return 0;
-}
-
-toff_t seek_tiff(thandle_t handle, toff_t offset, int from) {
-    auto* input = static_cast<TiffInput*>(handle);
-    const toff_t start = from == SEEK_SET   ? 0
-                         : from == SEEK_CUR ? input->at
-                                            : static_cast<toff_t>(input->bytes->size());
-    return input->at = start + offset;
-}
-
-int close_tiff(thandle_t) {
-    return 0;
-}
-
-toff_t tiff_size(thandle_t handle) {
-    return static_cast<TiffInput*>(handle)->bytes->size();
-}
-
-// The file as it lies in memory, which the library only reads. Without it libtiff 4.5 refuses
-// uncompressed tiles whose bytes are no multiple of 1024 (it compares them with its buffer's size).
-int map_tiff(thandle_t handle, void** base, toff_t* size) {
-    const auto* input = static_cast<TiffInput*>(handle);
-    *base = const_cast<char*>(input->bytes->data());
-    *size = input->bytes->size();
-    return 1;
-}
-
-void unmap_tiff(thandle_t, void*, toff_t) {}
-
-int keep_tiff_complaint(TIFF*, void* kept, const char*, const char* format, va_list values) {
-    auto* input = static_cast<TiffInput*>(kept);
-    if (input->complaint[0] == '\0')
-        std::vsnprintf(input->complaint.data(), input->complaint.size(), format, values);
-    return 1;
-}
-
-int ignore_tiff_warning(TIFF*, void*, const char*, const char*, va_list) {
-    return 1;
-}
-
-using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
-
-OpenTiff opened_tiff(TiffInput& input) {
-    TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-    check(options != nullptr, "libtiff starts");
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options, k_most_tiff_memory);
-    TIFFOpenOptionsSetErrorHandlerExtR(options, keep_tiff_complaint, &input);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, ignore_tiff_warning, &input);
-    TIFF* tiff = TIFFClientOpenExt("TIFF", "r", &input, give_tiff_bytes, take_no_tiff_bytes,
-                                   seek_tiff, close_tiff, tiff_size, map_tiff, unmap_tiff, options);
-    TIFFOpenOptionsFree(options);
-    return {tiff, TIFFClose};
-}
-
-InputError tiff_refusal(const TiffInput& input, const std::filesystem::path& file) {
-    const std::string what = input.complaint.data();
-    return {file, fmt::format("is a broken or unusual TIFF{}: save it again with another program",
-                              what.empty() ? "" : " (" + what + ")")};
-}
 
 struct TiffLayout {
     std::uint32_t width = 0, height = 0;
@@ -104,7 +23,8 @@ struct TiffLayout {
     std::uint16_t format = SAMPLEFORMAT_UINT;
     std::uint16_t colours = PHOTOMETRIC_RGB;
     std::uint16_t orientation = ORIENTATION_TOPLEFT;
-    bool planes = false;  ///< each channel by itself
+    std::optional<std::uint16_t> further;  ///< what the last sample is (EXTRASAMPLE_...)
+    bool planes = false;                   ///< each channel by itself
     bool tiles = false;
     std::uint32_t block_width = 0, block_height = 0;  ///< of a tile, or a strip of rows
 };
@@ -119,6 +39,9 @@ TiffLayout tiff_layout(TIFF* tiff) {
     TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &layout.orientation);
     if (TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &layout.colours) == 0 && layout.samples < 3)
         layout.colours = PHOTOMETRIC_MINISBLACK;
+    std::uint16_t further = 0, *kinds = nullptr;
+    if (TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &further, &kinds) == 1 && further > 0)
+        layout.further = kinds[further - 1];
     std::uint16_t planes = PLANARCONFIG_CONTIG;
     TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &planes);
     layout.planes = planes == PLANARCONFIG_SEPARATE;
@@ -180,8 +103,8 @@ bool read_tiff_blocks(TIFF* tiff, const TiffLayout& layout, std::size_t channels
     return true;
 }
 
-// What the library itself makes of palettes, inks, luminance with colour differences and fewer
-// bits: 8 bits of R, G, B, A, as it is stored.
+// What the library itself makes of palettes, luminance with colour differences and fewer bits: R,
+// G, B of 8 bits, as it is stored.
 bool read_tiff_colours(TIFF* tiff, const TiffLayout& layout, std::size_t channels,
                        std::vector<std::uint8_t>& samples) {
     std::vector<std::uint32_t> raster(std::size_t{layout.width} * layout.height);
@@ -191,38 +114,90 @@ bool read_tiff_colours(TIFF* tiff, const TiffLayout& layout, std::size_t channel
     }
     auto* to = samples.data();
     for (const std::uint32_t pixel : raster) {
-        const std::array<std::uint32_t, 4> rgba{TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel),
-                                                TIFFGetA(pixel)};
-        for (std::size_t c = 0; c < channels; ++c) *to++ = static_cast<std::uint8_t>(rgba[c]);
+        const std::array<std::uint32_t, 3> rgb{TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel)};
+        for (std::size_t c = 0; c < channels; ++c) *to++ = static_cast<std::uint8_t>(rgb[c]);
     }
     return true;
 }
 
-// CIE XYZ to linear sRGB (IEC 61966-2-1).
-void make_rgb_of_xyz(std::vector<float>& samples) {
-    for (std::size_t i = 0; i + 2 < samples.size(); i += 3) {
-        const float x = samples[i], y = samples[i + 1], z = samples[i + 2];
-        samples[i] = 3.240479f * x - 1.53715f * y - 0.498535f * z;
-        samples[i + 1] = -0.969256f * x + 1.875991f * y + 0.041556f * z;
-        samples[i + 2] = 0.055648f * x - 0.204043f * y + 1.057311f * z;
-    }
+// Of grey with alpha, both as four channels.
+template <class Sample>
+std::vector<Sample> with_grey_thrice(const std::vector<Sample>& pairs) {
+    std::vector<Sample> samples;
+    samples.reserve(2 * pairs.size());
+    for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
+        samples.insert(samples.end(), {pairs[i], pairs[i], pairs[i], pairs[i + 1]});
+    return samples;
 }
 
 template <class Stored, class Kept>
-std::vector<Kept> tiff_samples(TIFF* tiff, const TiffInput& input, const TiffLayout& layout,
-                               std::size_t channels, const std::filesystem::path& file) {
+void take_tiff_samples(TIFF* tiff, const TiffInput& input, const TiffLayout& layout,
+                       bool by_library, const std::filesystem::path& file, DecodedPixels& result) {
+    const auto channels = static_cast<std::size_t>(result.channels);
     std::vector<Stored> stored(std::size_t{layout.width} * layout.height * channels);
     bool whole = false;
-    if constexpr (std::is_same_v<Stored, std::uint8_t>)
-        whole = read_tiff_colours(tiff, layout, channels, stored);
-    else
-        whole = read_tiff_blocks(tiff, layout, channels, stored);
-    if (!whole) throw tiff_refusal(input, file);
-    if constexpr (std::is_same_v<Stored, Kept>) {
-        return stored;
+    if constexpr (std::is_same_v<Stored, std::uint8_t>) {
+        whole = by_library ? read_tiff_colours(tiff, layout, channels, stored)
+                           : read_tiff_blocks(tiff, layout, channels, stored);
     } else {
-        return {stored.begin(), stored.end()};
+        whole = read_tiff_blocks(tiff, layout, channels, stored);
     }
+    if (!whole) throw tiff_refusal(input, file);
+    if constexpr (std::is_integral_v<Stored>) {
+        if (layout.colours == PHOTOMETRIC_MINISWHITE && !by_library) {
+            for (std::size_t i = 0; i < stored.size(); i += channels)
+                stored[i] = static_cast<Stored>(std::numeric_limits<Stored>::max() - stored[i]);
+        }
+    }
+    std::vector<Kept> kept;
+    if constexpr (std::is_same_v<Stored, Kept>)
+        kept = std::move(stored);
+    else
+        kept.assign(stored.begin(), stored.end());
+    if (channels == 2) {
+        kept = with_grey_thrice(kept);
+        result.channels = 4;
+    }
+    result.samples = std::move(kept);
+}
+
+// Tags 34675 (ICC), 318 and 319 (white and primaries), 301 (transfer function), 282 and 283 (pixels
+// a length); TIFF 6.0.
+SampleMeaning meaning_of_tiff(TIFF* tiff, const TiffLayout& layout, std::size_t channels) {
+    SampleMeaning meaning;
+    std::uint32_t bytes = 0;
+    void* profile = nullptr;
+    float* white = nullptr;
+    float* primaries = nullptr;
+    if (TIFFGetField(tiff, TIFFTAG_ICCPROFILE, &bytes, &profile) == 1)
+        meaning.profile.assign(static_cast<const char*>(profile), bytes);
+    if (layout.colours == PHOTOMETRIC_LOGLUV) {
+        meaning.primaries = k_xyz_primaries;
+    } else if (TIFFGetField(tiff, TIFFTAG_PRIMARYCHROMATICITIES, &primaries) == 1) {
+        for (std::size_t i = 0; i < 6; ++i)
+            meaning.primaries[i / 2][i % 2] = static_cast<double>(primaries[i]);
+        if (TIFFGetField(tiff, TIFFTAG_WHITEPOINT, &white) == 1)
+            meaning.primaries[3] = {static_cast<double>(white[0]), static_cast<double>(white[1])};
+    }
+    std::uint16_t* curve = nullptr;
+    if (meaning.profile.empty() &&
+        TIFFGetField(tiff, TIFFTAG_TRANSFERFUNCTION, &curve, &curve, &curve) == 1) {
+        meaning.not_photometric = "its TransferFunction tag is not followed";
+    }
+    float across = 0, down = 0;
+    if (TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &across) == 1 &&
+        TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &down) == 1 && across > 0)
+        meaning.pixel_aspect = static_cast<double>(down) / static_cast<double>(across);
+    meaning.inks = layout.colours == PHOTOMETRIC_SEPARATED;
+    if (!meaning.inks && (channels == 2 || channels == 4)) {
+        meaning.multiplied = layout.further == EXTRASAMPLE_ASSOCALPHA;
+        if (layout.further.value_or(EXTRASAMPLE_UNSPECIFIED) == EXTRASAMPLE_UNSPECIFIED)
+            meaning.notes.emplace_back(
+                "it does not say what its last channel is: it is taken as alpha");
+    }
+    if (TIFFLastDirectory(tiff) == 0)
+        meaning.notes.emplace_back("it holds several pictures: the first is read");
+    return meaning;
 }
 
 // A header's tiles must not take more than its picture does.
@@ -231,6 +206,21 @@ void check_tiles(const TiffLayout& layout, const TiffInput& input,
     const double block = static_cast<double>(layout.block_width) * layout.block_height;
     const double picture = static_cast<double>(layout.width) * layout.height;
     if (block == 0 || block > 4 * picture + 1024.0 * 1024) throw tiff_refusal(input, file);
+}
+
+// Channels to be read: grey 1, or 2 with alpha; colours 3, or 4 with alpha; inks 4.
+std::size_t tiff_channels(const TiffLayout& layout, const std::filesystem::path& file) {
+    const bool inks = layout.colours == PHOTOMETRIC_SEPARATED;
+    const std::size_t least = is_grey(layout) || layout.colours == PHOTOMETRIC_PALETTE ? 1
+                              : inks                                                   ? 4
+                                                                                       : 3;
+    const std::size_t most = inks ? 4 : least + 1;
+    if (layout.samples < least || layout.samples > most) {
+        throw InputError(file, fmt::format("has {} channels; expected grey, RGB or CMYK, of the "
+                                           "first two with or without alpha",
+                                           layout.samples));
+    }
+    return layout.colours == PHOTOMETRIC_PALETTE ? 3 : layout.samples;
 }
 
 }  // namespace
@@ -246,43 +236,43 @@ DecodedPixels decode_tiff(const std::string& bytes, const std::filesystem::path&
     }
     check_size(layout.width, layout.height, bytes.size(), "TIFF", file);
     check_tiles(layout, input, file);
-    if (layout.samples < 1 || layout.samples > 4) {
-        throw InputError(
-            file, fmt::format("has {} channels; expected grey, RGB or RGBA", layout.samples));
-    }
+    const std::size_t channels = tiff_channels(layout, file);
     const bool whole_numbers =
         layout.format == SAMPLEFORMAT_UINT || layout.format == SAMPLEFORMAT_VOID;
     const bool floats = layout.format == SAMPLEFORMAT_IEEEFP;
-    const bool plain = layout.colours <= PHOTOMETRIC_RGB || is_logarithmic(layout);
-    const bool small = whole_numbers && (layout.bits <= 8 || !plain);
-    const bool coloured_alpha = layout.samples == 4 && layout.colours == PHOTOMETRIC_RGB;
-    // Of inks, four are no alpha.
-    const std::size_t channels = is_grey(layout) ? 1 : coloured_alpha ? 4 : 3;
-    DecodedPixels result{static_cast<int>(layout.width),
-                         static_cast<int>(layout.height),
-                         static_cast<int>(channels),
-                         {}};
-    const auto read = [&]<class Stored, class Kept>(Stored, Kept) {
-        return tiff_samples<Stored, Kept>(tiff.get(), input, layout, channels, file);
+    const bool inks = layout.colours == PHOTOMETRIC_SEPARATED;
+    const bool plain = layout.colours <= PHOTOMETRIC_RGB || inks || is_logarithmic(layout);
+    const bool by_library = whole_numbers && (!plain || layout.bits < 8);
+    DecodedPixels result{
+        static_cast<int>(layout.width),
+        static_cast<int>(layout.height),
+        static_cast<int>(by_library && channels % 2 == 0 ? channels - 1 : channels),
+        {},
+        meaning_of_tiff(tiff.get(), layout, channels)};
+    const auto take = [&]<class Stored, class Kept>(Stored, Kept) {
+        take_tiff_samples<Stored, Kept>(tiff.get(), input, layout, by_library, file, result);
     };
-    if (!small && layout.samples < channels) throw tiff_refusal(input, file);
-    if (small) {
-        result.samples = read(std::uint8_t{}, std::uint8_t{});
+    const bool inverted = floats && layout.colours == PHOTOMETRIC_MINISWHITE;
+    if (by_library || (whole_numbers && layout.bits == 8)) {
+        take(std::uint8_t{}, std::uint8_t{});
     } else if (whole_numbers && layout.bits == 16) {
-        auto samples = read(std::uint16_t{}, std::uint16_t{});
-        if (layout.colours == PHOTOMETRIC_MINISWHITE) {
-            for (std::uint16_t& v : samples) v = static_cast<std::uint16_t>(65535 - v);
-        }
-        result.samples = std::move(samples);
-    } else if (plain && floats && layout.bits == 32) {
-        auto samples = read(float{}, float{});
-        if (layout.colours == PHOTOMETRIC_LOGLUV) make_rgb_of_xyz(samples);
-        result.samples = std::move(samples);
-    } else if (plain && floats && layout.bits == 64) {
-        result.samples = read(double{}, float{});
+        take(std::uint16_t{}, std::uint16_t{});
+    } else if (plain && floats && !inverted && layout.bits == 16) {
+        take(Imath::half{}, float{});
+    } else if (plain && floats && !inverted && layout.bits == 32) {
+        take(float{}, float{});
+    } else if (plain && floats && !inverted && layout.bits == 64) {
+        take(double{}, float{});
     } else {
-        throw InputError(file,
-                         "has a pixel type that is not read here; expected 8 bit, 16 bit or float");
+        throw InputError(
+            file, fmt::format("has samples of {} bits, {}{}, which are not read here: save it with "
+                              "8 or 16 bits, or as floats",
+                              layout.bits,
+                              floats                              ? "floats"
+                              : layout.format == SAMPLEFORMAT_INT ? "whole numbers with a sign"
+                              : whole_numbers                     ? "whole numbers"
+                                                                  : "of no real numbers",
+                              inverted ? " where 0 is white" : ""));
     }
     return turned_upright(std::move(result), layout.orientation);
 }
