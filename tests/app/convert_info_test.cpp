@@ -43,6 +43,24 @@ TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
     }
 }
 
+// A float map of scale 2, which multiplies: a note of whichever command reads it.
+TEST_F(ConvertInfo, NotesOfAPictureAreSaidOnce) {
+    const float light[3]{0.25f, 0.5f, 1};
+    const std::string map =
+        write("map.pfm", "PF\n1 1\n-2\n" + std::string(reinterpret_cast<const char*>(light), 12));
+    const ProgramRun info = run_culet({"info", map});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_NE(info.out.find("linear PFM"), std::string::npos) << info.out;
+    const ProgramRun photo = run_culet({"photo", map, "-o", file("map.exr")});
+    EXPECT_EQ(photo.exit_code, 0) << photo.err;
+    for (const std::string& said : {info.out, photo.err}) {
+        const std::size_t note = said.find("multiplied by its scale, 2");
+        EXPECT_NE(note, std::string::npos) << said;
+        EXPECT_EQ(said.find("multiplied by its scale", note + 1), std::string::npos) << said;
+    }
+    EXPECT_EQ(run_culet({"info", file("map.exr")}).out.find("note:"), std::string::npos);
+}
+
 TEST_F(ConvertInfo, MessagesGoToStderrAndResultsToStdout) {
     const ProgramRun run = run_culet({"convert", k_design, file("a.obj")});
     EXPECT_EQ(run.exit_code, 0);

@@ -186,6 +186,13 @@ TEST_F(SceneStones, EnvironmentsOfEveryKind) {
     write_picture(map(8, 4, 1.0f), folder_ / "map.png");
     const Scene encoded = read("stone = \"stone.toml\"\n[light]\nenvironment = \"map.png\"\n");
     EXPECT_EQ(encoded.notes.size(), 1u) << "a picture of 8 bits holds no bright lights";
+
+    // Radiance's filefmts: pixels have been multiplied by EXPOSURE; 128 with exponent 129 is 1.
+    write("map.hdr", "#?RADIANCE\nEXPOSURE=4\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x81");
+    const Scene exposed = read("stone = \"stone.toml\"\n[light]\nenvironment = \"map.hdr\"\n");
+    EXPECT_EQ(exposed.lights.environment->rgb[0], 0.25f);
+    ASSERT_EQ(exposed.notes.size(), 1u);
+    EXPECT_EQ(exposed.notes[0].find("map.hdr: it names no FORMAT"), 0u);
 }
 
 // Expectation: a quarter about z takes x to y, and near lights go round the stone's middle.

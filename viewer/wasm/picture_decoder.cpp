@@ -1,18 +1,19 @@
-// Pictures of light for a page: PFM here, HDR, JPEG and PNG by stb_image, EXR by tinyexr. The
-// program's own readers need libraries that are not to be had for WebAssembly.
+// Pictures of light for a page: PFM and HDR by the program's own readers, JPEG and PNG by
+// stb_image, EXR by tinyexr. The others of the program's readers need libraries that are not to be
+// had for WebAssembly.
 
 #include <array>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
 
 #include "render/colour/colour.h"
+#include "render/image/codecs/codecs.h"
 #include "render/image/image_io.h"
+#include "render/image/picture_format.h"
 #include "stone/errors.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
-#define STBI_ONLY_HDR
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
@@ -45,30 +46,7 @@ void require_size(const std::filesystem::path& name, double width, double height
         throw InputError(name, "has too many pixels for a page: make it 8192 wide or less");
 }
 
-Picture pfm(const std::string& bytes, const std::filesystem::path& name) {
-    std::istringstream head(bytes.substr(0, 100));
-    std::string kind;
-    double width = 0, height = 0, scale = 0;
-    head >> kind >> width >> height >> scale;
-    require_size(name, width, height);
-    Picture picture;
-    picture.width = static_cast<int>(width);
-    picture.height = static_cast<int>(height);
-    picture.rgb.resize(3 * picture.pixels());
-    const std::size_t start = static_cast<std::size_t>(head.tellg()) + 1,
-                      row = 3 * sizeof(float) * static_cast<std::size_t>(picture.width);
-    if (!head || kind != "PF" || !(scale < 0) ||
-        bytes.size() < start + row * static_cast<std::size_t>(picture.height))
-        throw InputError(name, "is a broken PFM, or of a kind that a page does not read");
-    for (int y = 0; y < picture.height; ++y) {
-        std::memcpy(picture.rgb.data() + row / sizeof(float) * static_cast<std::size_t>(y),
-                    bytes.data() + start + row * static_cast<std::size_t>(picture.height - 1 - y),
-                    row);
-    }
-    return picture;
-}
-
-Picture exr(const std::string& bytes, const std::filesystem::path& name) {
+ReadPicture exr(const std::string& bytes, const std::filesystem::path& name) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     EXRVersion version;
     EXRHeader header;
@@ -80,10 +58,30 @@ Picture exr(const std::string& bytes, const std::filesystem::path& name) {
         throw InputError(name, "is an EXR of a kind that a page does not read: save it as HDR");
     const double wide = double(header.data_window.max_x) - header.data_window.min_x + 1,
                  high = double(header.data_window.max_y) - header.data_window.min_y + 1;
+    const EXRBox2i &data_window = header.data_window, &shown = header.display_window;
+    const bool whole = data_window.min_x == shown.min_x && data_window.min_y == shown.min_y &&
+                       data_window.max_x == shown.max_x && data_window.max_y == shown.max_y;
+    Primaries primaries = k_srgb_primaries;
+    for (int i = 0; i < header.num_custom_attributes; ++i) {
+        const EXRAttribute& attribute = header.custom_attributes[i];
+        std::array<float, 8> xy{};
+        if (std::string(attribute.name) != "chromaticities" || attribute.size != int{sizeof xy})
+            continue;
+        std::memcpy(xy.data(), attribute.value, sizeof xy);
+        for (std::size_t k = 0; k < xy.size(); ++k)
+            primaries[k / 2][k % 2] = static_cast<double>(xy[k]);
+    }
     FreeEXRHeader(&header);
+    if (!whole) {
+        throw InputError(name,
+                         "holds a part of its picture (data window), which a page does not read: "
+                         "save it whole");
+    }
     require_size(name, wide, high);
     float* rgba = nullptr;
-    Picture picture;
+    ReadPicture read;
+    read.encoding = "linear EXR";
+    Picture& picture = read.picture;
     if (LoadEXRFromMemory(&rgba, &picture.width, &picture.height, data, bytes.size(), &complaint) !=
         TINYEXR_SUCCESS)
         throw InputError(name, "is an EXR of a kind that a page does not read: save it as HDR");
@@ -92,23 +90,23 @@ Picture exr(const std::string& bytes, const std::filesystem::path& name) {
         for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = rgba[4 * i + c];
     }
     std::free(rgba);
-    return picture;
+    turn_to_srgb(primaries, picture.rgb, read.notes);
+    return read;
+}
+
+ReadPicture checked(ReadPicture read, const std::filesystem::path& name) {
+    require_size(name, read.picture.width, read.picture.height);
+    return read;
 }
 
 }  // namespace
 
 ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::path& name) {
+    const std::string format = picture_format(bytes);
+    if (format == "PFM") return checked(linear_picture(decode_pfm(bytes, name), format), name);
+    if (format == "HDR") return checked(linear_picture(decode_hdr(bytes, name), format), name);
+    if (format == "EXR") return exr(bytes, name);
     ReadPicture read;
-    if (bytes.starts_with("PF")) {
-        read.picture = pfm(bytes, name);
-        read.encoding = "linear PFM";
-        return read;
-    }
-    if (bytes.starts_with("\x76\x2f\x31\x01")) {
-        read.picture = exr(bytes, name);
-        read.encoding = "linear EXR";
-        return read;
-    }
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
@@ -116,7 +114,11 @@ ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::pa
         throw InputError(name, "is no panorama that a page reads: HDR, EXR, PFM, JPEG and PNG are");
     }
     require_size(name, width, height);
-    read.was_encoded = stbi_is_hdr_from_memory(data, size) == 0;
+    read.was_encoded = true;
+    for (const char* mark : {"ICC_PROFILE", "iCCP", "cICP"}) {
+        if (bytes.substr(0, 65536).find(mark) != std::string::npos)
+            read.notes.emplace_back("a page follows no colour profile: it is taken as sRGB");
+    }
     Picture& picture = read.picture;
     const auto take = [&](auto* values, const auto& linear) {
         if (values == nullptr)
@@ -127,12 +129,6 @@ ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::pa
         for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = linear(values[i]);
         stbi_image_free(values);
     };
-    if (!read.was_encoded) {
-        read.encoding = "linear HDR";
-        take(stbi_loadf_from_memory(data, size, &width, &height, &channels, 3),
-             [](float v) { return v; });
-        return read;
-    }
     read.white = 1;
     const bool sixteen = stbi_is_16_bit_from_memory(data, size) != 0;
     read.encoding = sixteen ? "16-bit sRGB" : "8-bit sRGB";

@@ -1,6 +1,7 @@
 // What the engine leaves to the program: files, and what needs libraries that a page does without.
 
 #include "render/engine/engine.h"
+#include "render/image/colour_profile.h"
 #include "render/image/glare.h"
 #include "render/image/image_io.h"
 #include "render/reference/light_field.h"
@@ -50,6 +51,13 @@ void smooth_normals(TriangleMesh&, double) {
 ReadPicture read_picture(const std::filesystem::path& file) {
     refuse(file);
 }
+
+ColourProfile::ColourProfile(const std::string&, std::size_t channels)
+    : channels_(channels), trouble_("a page follows no ICC profile") {}
+bool ColourProfile::is_srgb() const {
+    return false;
+}
+void ColourProfile::linear(const float*, std::size_t, float*) const {}
 
 // A scene may name any; the page draws by beams.
 std::vector<std::string> engine_names() {

@@ -43,7 +43,7 @@ DecodedPixels decode_pfm(const std::string& bytes, const std::filesystem::path& 
     const std::string_view kind = next_word(rest);
     const auto columns = number_of<std::uint32_t>(next_word(rest)),
                rows = number_of<std::uint32_t>(next_word(rest));
-    const auto scale = number_of<float>(next_word(rest));
+    const double scale = number_of<double>(next_word(rest));
     check_size(columns, rows, bytes.size(), "PFM", file);
     if ((kind != "PF" && kind != "Pf") || scale == 0 || !std::isfinite(scale)) {
         throw InputError(file,
@@ -60,18 +60,15 @@ DecodedPixels decode_pfm(const std::string& bytes, const std::filesystem::path& 
         std::memcpy(samples.data() + (rows - 1 - y) * row, rest.data() + y * row_bytes, row_bytes);
     const bool swapped = (scale < 0) != (std::endian::native == std::endian::little);
     for (float& sample : samples) {
-        if (swapped) {
-            auto raw = std::bit_cast<std::array<char, sizeof(float)>>(sample);
-            std::reverse(raw.begin(), raw.end());
-            sample = std::bit_cast<float>(raw);
-        }
+        auto* const raw = reinterpret_cast<char*>(&sample);
+        if (swapped) std::reverse(raw, raw + sizeof sample);
     }
     DecodedPixels result{static_cast<int>(columns),
                          static_cast<int>(rows),
                          static_cast<int>(channels),
                          std::move(samples),
                          {}};
-    result.meaning.factor.fill(std::abs(scale));
+    result.meaning.factor.fill(static_cast<float>(std::abs(scale)));
     if (std::abs(scale) != 1) {
         result.meaning.notes.push_back(fmt::format(
             "its values are multiplied by its scale, {:g}, as its format says", std::abs(scale)));
