@@ -4,8 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numeric>
 #include <set>
 
+#include "stone/checks.h"
+#include "stone/drawn_symmetry.h"
 #include "stone/stone.h"
 #include "stone/units.h"
 
@@ -18,6 +21,8 @@ constexpr double k_level_deg = 7;
 constexpr double k_girdle_deg = 80;
 // Designs give angles to 0.01 degrees.
 constexpr double k_same_angle_deg = 0.02;
+// Distances, to five decimals of the width and what meets miss by.
+constexpr double k_same_distance = k_largest_miss;
 
 bool touches(const Facet& facet, const std::set<int>& corners) {
     return std::any_of(facet.corners.begin(), facet.corners.end(),
@@ -53,23 +58,6 @@ double tilt(const Solid& solid, int facet, const Vec3& up) {
     return inclination(solid.facets[facet].plane.normal, up);
 }
 
-// In the order of inclination, split where it jumps.
-std::vector<std::vector<int>> by_angle(const Solid& solid, const Vec3& up,
-                                       std::vector<int> facets) {
-    std::stable_sort(facets.begin(), facets.end(),
-                     [&](int a, int b) { return tilt(solid, a, up) < tilt(solid, b, up); });
-    std::vector<std::vector<int>> groups;
-    for (const int f : facets) {
-        const bool alike =
-            !groups.empty() &&
-            tilt(solid, f, up) - tilt(solid, groups.back().back(), up) < radians(k_same_angle_deg);
-        if (!alike) groups.emplace_back();
-        groups.back().push_back(f);
-    }
-    for (std::vector<int>& group : groups) std::sort(group.begin(), group.end());
-    return groups;
-}
-
 // `prefix*` or `prefix.*` when it matches these facets and no others.
 std::string pattern_of(const Solid& solid, const std::string& name,
                        const std::vector<int>& facets) {
@@ -86,81 +74,7 @@ std::string pattern_of(const Solid& solid, const std::string& name,
     return {};
 }
 
-// G of GNE: what stands before the side that a facet looks to; empty where no side is named.
-std::string before_side(const std::string& name) {
-    for (const std::string_view side : {"NE", "NW", "SE", "SW", "N", "E", "S", "W"}) {
-        if (name.size() > side.size() && name.ends_with(side)) {
-            return name.substr(0, name.size() - side.size());
-        }
-    }
-    return {};
-}
-
-// A of A.1; empty for any other name.
-std::string repeated_name(const std::string& name) {
-    const std::size_t digits = name.find_last_not_of("0123456789") + 1;
-    const bool numbered = digits > 1 && digits < name.size() && name[digits - 1] == '.';
-    return numbered ? name.substr(0, digits - 1) : std::string();
-}
-
-bool matches(std::string_view pattern, std::string_view name) {
-    std::size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
-    while (n < name.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            resume = n;
-        } else if (p < pattern.size() && pattern[p] == name[n]) {
-            ++p;
-            ++n;
-        } else if (star != std::string_view::npos) {
-            p = star + 1;
-            n = ++resume;
-        } else {
-            return false;
-        }
-    }
-    while (p < pattern.size() && pattern[p] == '*') ++p;
-    return p == pattern.size();
-}
-
 }  // namespace
-
-bool name_matches(std::string_view pattern, std::string_view name) {
-    if (matches(pattern, name)) return true;
-    return pattern.ends_with(".*") && matches(pattern.substr(0, pattern.size() - 2), name);
-}
-
-std::vector<std::string> tier_names_of(const Solid& solid) {
-    std::set<std::string> repeated;
-    std::map<std::string, int> sides;
-    for (const Facet& facet : solid.facets) {
-        repeated.insert(repeated_name(facet.name));
-        if (const std::string tier = before_side(facet.name); !tier.empty()) ++sides[tier];
-    }
-    std::vector<std::string> names;
-    for (const Facet& facet : solid.facets) {
-        const std::string& name = facet.name;
-        const std::string base = repeated_name(name);
-        if (!base.empty() || repeated.contains(name)) {
-            names.push_back(base.empty() ? name : base);
-            continue;
-        }
-        const std::size_t digits = name.find_last_not_of("0123456789") + 1;
-        if (digits > 0 && digits < name.size()) {
-            names.push_back(digits == 1 && name[0] == 'f' ? std::string() : name.substr(0, digits));
-            continue;
-        }
-        // C1NE, P2Ea: a tier's number before the letters of the side; GNE: no number.
-        const std::size_t letters = name.find_last_of("0123456789") + 1;
-        const auto side = sides.find(before_side(name));
-        if (letters > 0) {
-            names.push_back(name.substr(0, letters));
-        } else {
-            names.push_back(side != sides.end() && side->second > 2 ? side->first : name);
-        }
-    }
-    return names;
-}
 
 int table_facet(const Solid& solid, const Vec3& up) {
     int best = -1;
@@ -214,35 +128,116 @@ std::vector<int> main_facets(const Solid& solid, const Vec3& up, bool crown) {
     return mains;
 }
 
-std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up) {
-    const int table = table_facet(solid, up);
-    const std::vector<std::string> names = tier_names_of(solid);
-    std::map<std::pair<StonePart, std::string>, std::vector<int>> families;
-    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const StonePart part = part_of(solid, static_cast<int>(f), table, up);
-        families[{part, names[f]}].push_back(static_cast<int>(f));
+namespace {
+
+class TierFinder {
+public:
+    TierFinder(const Solid& solid, const Vec3& up)
+        : solid_(solid), up_(up), table_(table_facet(solid, up)), names_(tier_names_of(solid, up)) {
+        drawn_ = drawn_symmetry(solid, up, table_);
+        middle_ = std::accumulate(solid.vertices.begin(), solid.vertices.end(), Vec3(0)) /
+                  static_cast<double>(std::max<std::size_t>(1, solid.vertices.size()));
+        distance_limit_ = k_same_distance * diameter(solid);
+        for (const std::string& name : names_) ++named_[name];
     }
-    std::vector<FacetTier> tiers;
-    for (const auto& [key, facets] : families) {
-        std::vector<std::vector<int>> groups = by_angle(solid, up, facets);
-        // A hand-made mesh's angles are all different: a name is a tier there.
-        const bool designed =
-            key.second.empty() || std::all_of(groups.begin(), groups.end(),
-                                              [](const auto& group) { return group.size() > 1; });
-        if (!designed) groups = {facets};
-        for (std::vector<int>& group : groups) {
-            FacetTier tier;
-            tier.part = key.first;
-            tier.name = key.second;
-            tier.pattern = pattern_of(solid, tier.name, group);
-            for (const int f : group) tier.inclination += tilt(solid, f, up);
-            tier.inclination /= static_cast<double>(group.size());
-            tier.facets = std::move(group);
-            tiers.push_back(std::move(tier));
+
+    StonePart part(int facet) const { return part_of(solid_, facet, table_, up_); }
+    double variance(int facet) const {
+        return std::pow(drawn_.tilt_sigma(solid_, facet, up_), 2) +
+               std::pow(radians(k_same_angle_deg), 2) / 12;
+    }
+    std::string name(const std::vector<int>& facets) const {
+        const std::string& first = names_[static_cast<std::size_t>(facets.front())];
+        const bool common = std::all_of(facets.begin(), facets.end(), [&](int f) {
+            return names_[static_cast<std::size_t>(f)] == first;
+        });
+        return common ? first : std::string();
+    }
+    // Each sorted, in the order of their first facets.
+    std::vector<std::vector<int>> tiers() const {
+        std::vector<int> root(solid_.facets.size());
+        std::iota(root.begin(), root.end(), 0);
+        const auto join = [&](int a, int b) {
+            const int from = root[static_cast<std::size_t>(a)],
+                      to = root[static_cast<std::size_t>(b)];
+            std::replace(root.begin(), root.end(), std::max(from, to), std::min(from, to));
+        };
+        for (const FacetOrbit& orbit : orbits_of(drawn_.group, solid_.facets.size())) {
+            for (const int f : orbit.facets) {
+                for (const int other : orbit.facets) {
+                    if (other < f && may_belong(f, other)) join(f, other);
+                }
+            }
         }
+        for (int f = 0; f < static_cast<int>(root.size()); ++f) {
+            for (int other = 0; other < f; ++other) {
+                if (are_cut_alike(f, other)) join(f, other);
+            }
+        }
+        std::map<int, std::vector<int>> by_root;
+        for (int f = 0; f < static_cast<int>(root.size()); ++f) {
+            by_root[root[static_cast<std::size_t>(f)]].push_back(f);
+        }
+        std::vector<std::vector<int>> all;
+        for (auto& [first, facets] : by_root) all.push_back(std::move(facets));
+        return all;
     }
-    std::sort(tiers.begin(), tiers.end(),
-              [](const FacetTier& a, const FacetTier& b) { return a.facets[0] < b.facets[0]; });
+
+private:
+    // Names of several facets each tell tiers apart.
+    bool may_belong(int a, int b) const {
+        const std::string& one = names_[static_cast<std::size_t>(a)];
+        const std::string& other = names_[static_cast<std::size_t>(b)];
+        const auto tells = [&](const std::string& name) {
+            return !name.empty() && named_.at(name) > 1;
+        };
+        return part(a) == part(b) && (one == other || !tells(one) || !tells(other));
+    }
+    // In one setting of the machine but for the index; a name stands for the same distance.
+    bool are_cut_alike(int a, int b) const {
+        if (std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) > radians(k_same_angle_deg) ||
+            !may_belong(a, b)) {
+            return false;
+        }
+        const std::string& one = names_[static_cast<std::size_t>(a)];
+        if (!one.empty() && one == names_[static_cast<std::size_t>(b)]) return true;
+        const Plane& p = solid_.facets[static_cast<std::size_t>(a)].plane;
+        const Plane& q = solid_.facets[static_cast<std::size_t>(b)].plane;
+        const double from_middle =
+            p.offset - q.offset - glm::dot(p.normal, middle_) + glm::dot(q.normal, middle_);
+        return std::abs(p.offset - q.offset) < distance_limit_ ||
+               std::abs(from_middle) < distance_limit_;
+    }
+
+    const Solid& solid_;
+    const Vec3& up_;
+    int table_;
+    std::vector<std::string> names_;
+    std::map<std::string, int> named_;
+    DrawnSymmetry drawn_;
+    Vec3 middle_;
+    double distance_limit_ = 0;
+};
+
+}  // namespace
+
+std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up) {
+    const TierFinder finder(solid, up);
+    std::vector<FacetTier> tiers;
+    for (std::vector<int>& facets : finder.tiers()) {
+        FacetTier tier;
+        tier.part = finder.part(facets.front());
+        tier.name = finder.name(facets);
+        tier.pattern = pattern_of(solid, tier.name, facets);
+        const double count = static_cast<double>(facets.size());
+        for (const int f : facets) {
+            tier.inclination += tilt(solid, f, up) / count;
+            tier.scatter += finder.variance(f) / count;
+        }
+        tier.scatter = std::sqrt(tier.scatter);
+        tier.facets = std::move(facets);
+        tiers.push_back(std::move(tier));
+    }
     return tiers;
 }
 

@@ -22,13 +22,16 @@ int table_facet(const Solid& solid, const Vec3& up);
 /// (pavilion); where none does, those of the tier with the largest area. In the solid's order.
 std::vector<int> main_facets(const Solid& solid, const Vec3& up, bool crown);
 
-/// Facets that belong together: of one part, of one name (see `tier_name`), and, where the design
-/// sets several angles under one name, of one angle.
+/// Facets of one part that belong together by the drawing itself: the symmetry about up that the
+/// drawing has takes them into each other (drawn_symmetry.h), or they have the same angle (to 0.02
+/// degrees, as designs are written) and distance, or name. Names alone make no tier; they part one
+/// where they differ (see `tier_names_of`).
 struct FacetTier {
     StonePart part = StonePart::crown;
-    std::string name;  ///< see `tier_name`; empty: the facets have none
+    std::string name;  ///< see `tier_names_of`; empty: they have none in common
     std::vector<int> facets;
     double inclination = 0;  ///< mean, radians, 0 level .. pi/2 upright
+    double scatter = 0;      ///< by how much the drawing is off an inclination, one sigma, radians
     std::string pattern;     ///< that matches these facets and no others (`C*`, `A.*`); or empty
 };
 
@@ -36,9 +39,9 @@ struct FacetTier {
 std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
 
 /// What each facet's name has in common with those of its tier: `C` of C1; `A` of A.1, and of A
-/// where there is an A.1; `C1` of C1NE and `G` of GNE; nothing of f12, which says only that the
-/// facet has no name.
-std::vector<std::string> tier_names_of(const Solid& solid);
+/// where there is an A.1; `C1` of C1NE and `G` of GNE; nothing of f12, and of what facets above the
+/// girdle and below it have in common: an exporter's numbers.
+std::vector<std::string> tier_names_of(const Solid& solid, const Vec3& up);
 
 /// `*` stands for any run of characters. `A.*` means the tier A of a cut design: A itself too,
 /// besides A.1, A.2, ...

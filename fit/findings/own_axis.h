@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/findings/findings.h"
-#include "fit/model/axis_groups.h"
+#include "stone/axis_groups.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fit/findings/findings.h"
-#include "fit/model/axis_groups.h"
+#include "stone/axis_groups.h"
 #include "fit/model/linear.h"
 
 namespace culet {

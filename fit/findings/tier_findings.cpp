@@ -23,6 +23,7 @@ struct Read {
     int facet = -1;
     double value = 0;  ///< inclination
     double off = 0;    ///< from the design, or from nothing
+    double drawn = 0;  ///< inclination in the mesh
     double weight = 0;
 };
 
@@ -102,8 +103,9 @@ std::vector<Read> reads_of(const NamedTier& tier, const Stone& stone,
     std::vector<Read> reads;
     for (const auto& [facet, mean] : by_facet) {
         const Vec3& n = stone.solid.facets[std::size_t(facet)].plane.normal;
-        const double design = is_design ? inclination(n, up) : 0;
-        reads.push_back({facet, mean.value, mean.value - design, mean.weight});
+        const double drawn = inclination(n, up);
+        reads.push_back({facet, mean.value, mean.value - (is_design ? drawn : 0), drawn,
+                         mean.weight});
     }
     return reads;
 }
@@ -118,14 +120,30 @@ std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
                        odd.off > 0 ? "steeper" : "flatter", tier.words);
 }
 
-void find_odd(const Stone& stone, std::vector<Read> reads, NamedTierFinding& finding) {
+// Whether the drawing itself has the difference that was read: more than it scatters by, and nearer
+// to what was read than to none.
+bool is_drawn_so(const std::vector<Read>& reads, const Split& split, double scatter) {
+    constexpr double k_surely = 2;
+    Mean few, rest, few_read, rest_read;
+    for (std::size_t i = 0; i < reads.size(); ++i) {
+        const bool odd = i >= split.from && i < split.to;
+        (odd ? few : rest).add(reads[i].drawn, 1);
+        (odd ? few_read : rest_read).add(reads[i].value, 1);
+    }
+    const double drawn = few.value - rest.value, read = few_read.value - rest_read.value;
+    return std::abs(drawn) > k_surely * scatter * std::hypot(few.sigma(), rest.sigma()) &&
+           std::abs(read - drawn) < std::abs(drawn);
+}
+
+void find_odd(const Stone& stone, std::vector<Read> reads, double scatter,
+              NamedTierFinding& finding) {
     std::sort(reads.begin(), reads.end(),
               [](const Read& a, const Read& b) { return a.off < b.off; });
     // Less than half may stand out, or nobody knows from what.
     std::size_t left = (reads.size() - 1) / 2;
     while (left > 0 && reads.size() >= k_fewest) {
         const Split split = best_split(reads, left);
-        if (!(split.p < k_level)) break;
+        if (!(split.p < k_level) || is_drawn_so(reads, split, scatter)) break;
         OddFacets odd;
         std::vector<int> facets;
         for (std::size_t i = split.from; i < split.to; ++i) facets.push_back(reads[i].facet);
@@ -167,7 +185,7 @@ std::vector<NamedTierFinding> tier_findings(const Stone& stone,
             std::minmax_element(reads.begin(), reads.end(),
                                 [](const Read& a, const Read& b) { return a.value < b.value; });
         finding.spread = most->value - least->value;
-        find_odd(stone, reads, finding);
+        find_odd(stone, reads, tier.scatter, finding);
         for (const OddFacets& odd : finding.odd) finding.what.push_back(sentence_of(finding, odd));
         findings.push_back(std::move(finding));
     }

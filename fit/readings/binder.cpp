@@ -36,7 +36,7 @@ Binder::Binder(const Stone& stone, const std::vector<WrittenReading>& all)
     for (std::size_t i = 0; i < stone.solid.facets.size(); ++i) {
         facet_of_name_.emplace(stone.solid.facets[i].name, static_cast<int>(i));
     }
-    tier_of_ = tier_names_of(stone.solid);
+    tier_of_ = tier_names_of(stone.solid, stone_up());
 }
 
 std::vector<Reading> Binder::bind(const WrittenReading& written, const std::string& id) {

@@ -101,6 +101,7 @@ void Binder::note_first_of_tier(const std::string& name) const {
     if (kind_word(written_->kind)->kind != ReadingKind::inclination) return;
     std::size_t facets = 0;
     for (const std::string& tier : tier_of_) facets += tier == name ? 1 : 0;
+    if (facets == 0) return;  // an exporter's group
     for (const WrittenReading& w : all_) {
         if (w.skipped) continue;
         for (const std::string& other : w.of) {

@@ -1,11 +1,13 @@
 #include "fit/readings/named_tiers.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <array>
 #include <map>
 #include <utility>
 
 #include "stone/tiers.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -33,29 +35,21 @@ std::string words_of(const std::string& name, StonePart part, const std::string&
 }  // namespace
 
 std::vector<NamedTier> named_tiers(const Solid& solid, const Vec3& up) {
-    const int table = table_facet(solid, up);
-    const std::vector<std::string> names = tier_names_of(solid);
-    std::map<std::pair<StonePart, std::string>, std::vector<int>> families;
-    for (int f = 0; f < int(solid.facets.size()); ++f) {
-        if (names[std::size_t(f)].empty()) continue;
-        families[{part_of(solid, f, table, up), names[std::size_t(f)]}].push_back(f);
-    }
+    std::vector<FacetTier> all = tiers_of(solid, up);
+    std::map<std::pair<StonePart, std::string>, int> count;
+    for (const FacetTier& tier : all) ++count[{tier.part, tier.name}];
     std::vector<NamedTier> tiers;
-    const auto put = [&](const std::string& name, StonePart part, std::vector<int> facets) {
-        if (facets.size() < 2) return;
-        const std::string pattern = name.empty()
-                                        ? solid.facets[std::size_t(facets.front())].name + ".." +
-                                              solid.facets[std::size_t(facets.back())].name
-                                        : name + "*";
-        tiers.push_back({pattern, words_of(name, part, pattern), std::move(facets)});
-    };
-    for (auto& [key, facets] : families) put(key.second, key.first, std::move(facets));
-    for (FacetTier& tier : tiers_of(solid, up)) {
-        if (tier.name.empty()) put("", tier.part, std::move(tier.facets));
+    for (FacetTier& tier : all) {
+        if (tier.facets.size() < 2) continue;
+        const bool alone = !tier.name.empty() && count[{tier.part, tier.name}] == 1;
+        const std::string name = alone ? tier.name + "*"
+                                       : solid.facets[std::size_t(tier.facets.front())].name +
+                                             ".." +
+                                             solid.facets[std::size_t(tier.facets.back())].name;
+        std::string words = words_of(tier.name, tier.part, name);
+        if (!alone) words += fmt::format(" of {:.1f} degrees", degrees(tier.inclination));
+        tiers.push_back({name, std::move(words), std::move(tier.facets), tier.scatter});
     }
-    std::sort(tiers.begin(), tiers.end(), [](const NamedTier& a, const NamedTier& b) {
-        return a.facets.front() < b.facets.front();
-    });
     return tiers;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Tiers as the readings of a stone are told by: all facets of one side and one name, also where a
-// design gives them several angles (an oval's mains); without names, those of one angle.
+// Tiers (stone/tiers.h) as the readings of a stone are told by.
 
 #include <string>
 #include <vector>
@@ -10,9 +9,11 @@
 namespace culet {
 
 struct NamedTier {
-    std::string name;         ///< `C*` where the tier has a name; else its first and last facet
-    std::string words;        ///< in the trade's words, plural: `crown mains`, `facets of tier A*`
+    std::string name;         ///< `C*` where a name has this tier alone; else its first and last facet
+    std::string words;        ///< in the trade's words, plural: `crown mains`, `facets of tier A*`;
+                              ///< with the angle where a name has several: `stars of 24.7 degrees`
     std::vector<int> facets;  ///< of the solid, in its order; two or more
+    double scatter = 0;       ///< as of FacetTier
 };
 
 /// A facet is in one tier at most. `up` is a unit vector.

@@ -1,4 +1,4 @@
-#include "fit/model/axis_groups.h"
+#include "stone/axis_groups.h"
 
 #include <fmt/format.h>
 
