@@ -80,6 +80,7 @@ void fill_in_statistics(const Diagnosis& diagnosis, FitResult& result) {
     result.statistics.chi2 = diagnosis.chi2;
     result.statistics.dof = diagnosis.dof;
     result.statistics.chi2_p = chi2_tail(diagnosis.chi2, diagnosis.dof);
+    result.statistics.chi2_low_p = chi2_lower_tail(diagnosis.chi2, diagnosis.dof);
     result.statistics.chi2_limit = chi2_quantile(significance, diagnosis.dof);
     result.statistics.suspect_limit = diagnosis.suspect_limit;
     result.findings.undetermined = diagnosis.undetermined;

@@ -35,6 +35,18 @@ namespace {
 FitResult solved(const Problem& given, std::span<const Hypothesis> hypotheses,
                  const Progress& progress);
 
+// By the same measure: chi-square with what was given, and with what was changed.
+void say_what_changed(const std::string& what, const FitResult& given, FitResult& result) {
+    if (what.empty()) return;
+    const double before = given.statistics.chi2, after = result.statistics.chi2;
+    const std::string note =
+        fmt::format("as everything was given, chi-square is {:.1f}; with this change ({}) {:.1f}",
+                    before, what, after);
+    result.log.changed.push_back({what, result.message, before, after});
+    result.log.notes.push_back(note);
+    result.message += "; " + note;
+}
+
 // The result under the first hypothesis that explains what the first attempt does not; each is
 // tried with those after it in the list.
 std::optional<FitResult> explained(const Problem& given, const Attempt& first,
@@ -46,7 +58,10 @@ std::optional<FitResult> explained(const Problem& given, const Attempt& first,
             changed->options.allow_topology = false;
             FitResult again = solved(*changed, hypotheses.subspan(h + 1), progress);
             Verdict verdict = hypotheses[h].judged(given, first, *changed, std::move(again));
-            if (verdict.explained) return std::move(verdict.explained);
+            if (verdict.explained) {
+                say_what_changed(hypotheses[h].what, first.result, *verdict.explained);
+                return std::move(verdict.explained);
+            }
             changed = std::move(verdict.next);
         }
     }
@@ -57,10 +72,17 @@ FitResult with_changed_topology(const Problem& problem, FitResult result,
                                 const Progress& progress) {
     FitOptions plain = problem.options;
     plain.allow_topology = false;
-    return fit_with_changes(problem.stone, problem.readings, problem.options, std::move(result),
-                            [&](const Stone& changed, const std::vector<Reading>& moved) {
-                                return fit_stone(changed, moved, plain, progress);
-                            });
+    const double before = result.statistics.chi2;
+    FitResult fitted =
+        fit_with_changes(problem.stone, problem.readings, problem.options, std::move(result),
+                         [&](const Stone& changed, const std::vector<Reading>& moved) {
+                             return fit_stone(changed, moved, plain, progress);
+                         });
+    if (!fitted.log.changes.empty()) {
+        fitted.log.changed.push_back(
+            {"topology", fitted.log.changes.front(), before, fitted.statistics.chi2});
+    }
+    return fitted;
 }
 
 FitResult solved(const Problem& given, std::span<const Hypothesis> hypotheses,

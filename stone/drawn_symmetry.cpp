@@ -97,9 +97,9 @@ Misfit bends_of(const Solid& solid) {
     Misfit bends;
     for (const Facet& facet : solid.facets) {
         for (const int c : facet.corners) {
-            bends.squares += std::pow(glm::dot(facet.plane.normal, solid.vertices[std::size_t(c)]) -
-                                          facet.plane.offset,
-                                      2);
+            bends.squares += std::pow(
+                glm::dot(facet.plane.normal, solid.vertices[std::size_t(c)]) - facet.plane.offset,
+                2);
         }
         bends.freedom += double(facet.corners.size()) - 3;
     }
@@ -191,8 +191,8 @@ DrawnSymmetry drawn_symmetry(const Solid& solid, const Vec3& up, int table) {
     const Search search(solid, up);
     drawn.group = group_of(solid, up, table, search);
     const Misfit own = search.misfit(drawn.group);
-    drawn.scatter = std::hypot(own.freedom > 0 ? std::sqrt(own.variance()) : search.bend(),
-                               search.digits());
+    drawn.scatter =
+        std::hypot(own.freedom > 0 ? std::sqrt(own.variance()) : search.bend(), search.digits());
     return drawn;
 }
 

@@ -10,9 +10,10 @@
 namespace culet {
 
 struct DrawnSymmetry {
-    AxisGroup group;     ///< trivial where the drawing has none, or is not closed
-    double scatter = 0;  ///< of a corner beside where the symmetric form has it, each coordinate, in
-                         ///< the solid's unit; at least what the last digit of designs leaves open
+    AxisGroup group;  ///< trivial where the drawing has none, or is not closed
+    double scatter =
+        0;  ///< of a corner beside where the symmetric form has it, each coordinate, in
+            ///< the solid's unit; at least what the last digit of designs leaves open
 
     /// Standard deviation of a facet's drawn inclination about that of its orbit, radians: of a
     /// plane through corners that are off by `scatter`.

@@ -54,7 +54,8 @@ double drawn_table(const Stone& stone, const Reading& r, double turn) {
 
 std::vector<Length> lengths_of(const Stone& stone, const std::vector<Reading>& readings) {
     const double turn = azimuth_turn(
-        readings, [&](int facet) { return stone.solid.facets[std::size_t(facet)].plane.normal; });
+        readings, [&](int facet) { return stone.solid.facets[std::size_t(facet)].plane.normal; },
+        stone.azimuth_from_mesh);
     std::vector<Length> lengths;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         const Reading& r = readings[i];

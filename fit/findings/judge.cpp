@@ -229,6 +229,22 @@ std::optional<Verdict> undetermined(const FitResult& result) {
                         : "next, " + bench_words(result.findings.help[0]))};
 }
 
+// Readings that agree better than their sigmas allow: the lower tail of chi-square.
+std::string too_good(const FitResult& result) {
+    const FitStatistics& statistics = result.statistics;
+    const double level = result.log.options.significance;
+    if (!(statistics.dof > 0) || !(statistics.chi2_low_p < level)) return {};
+    constexpr double k_exactly = 1e6;
+    const double times = std::sqrt(statistics.dof / std::max(statistics.chi2, 1e-300));
+    return fmt::format(
+        "the readings agree {} (a chi-square of {:.3g} or less, where {:.0f} is expected, comes by "
+        "chance less often than once in {:.0f} times): the sigmas are too large, or values were "
+        "copied or computed",
+        times < k_exactly ? fmt::format("{:.2g} times better than their sigmas allow", times)
+                          : "exactly, as their sigmas do not allow",
+        statistics.chi2, statistics.dof, 1 / level);
+}
+
 // The gravest first: what comes later means nothing where an earlier one holds.
 Verdict verdict_on(const System& system, const Finished& finished, const Diagnosis& diagnosis,
                    const FitResult& result) {
@@ -250,6 +266,11 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     const Verdict verdict = verdict_on(system, finished, diagnosis, result);
     result.status = verdict.status;
     result.message = verdict.message;
+    if (result.status != FitStatus::not_converged) {
+        if (std::string note = too_good(result); !note.empty()) {
+            result.log.notes.push_back(std::move(note));
+        }
+    }
     if (!result.findings.vanishing_edges.empty() && verdict.status != FitStatus::not_converged) {
         result.message += fmt::format("; the readings want edge {} to have no length",
                                       names(result.findings.vanishing_edges));

@@ -101,7 +101,9 @@ struct SolidChecks {
 
 /// How well the readings agree, all together.
 struct FitStatistics {
+    /// Beside a prior of the readings alone, one value for several facets counting once.
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
+    double chi2_low_p = 1;  ///< chance of a chi-square as small
     double suspect_limit = 0;  ///< of |normalized|
     int rank_defect = 0;       ///< parameters of the shape that nothing fixes
     MeetReport meets;
@@ -132,6 +134,12 @@ struct FitFindings {
     std::optional<SymmetryReport> symmetry;  ///< when it was looked for
 };
 
+/// What was changed of the problem as it was given, since the fit is better so by the same measure.
+struct ProblemChange {
+    std::string what, why;
+    double before = 0, after = 0;  ///< chi-square as given, and as changed
+};
+
 /// How the result came about.
 struct FitLog {
     FitOptions options;  ///< as asked for; the prior as it was used
@@ -140,6 +148,7 @@ struct FitLog {
     /// What was done to the mesh before it could be fitted: turned round, scaled, ...
     std::vector<std::string> notes;
     std::vector<std::string> changes;  ///< of the topology, in their order
+    std::vector<ProblemChange> changed;
     int iterations = 0;
     double seconds = 0;
 };

@@ -104,8 +104,8 @@ std::vector<Read> reads_of(const NamedTier& tier, const Stone& stone,
     for (const auto& [facet, mean] : by_facet) {
         const Vec3& n = stone.solid.facets[std::size_t(facet)].plane.normal;
         const double drawn = inclination(n, up);
-        reads.push_back({facet, mean.value, mean.value - (is_design ? drawn : 0), drawn,
-                         mean.weight});
+        reads.push_back(
+            {facet, mean.value, mean.value - (is_design ? drawn : 0), drawn, mean.weight});
     }
     return reads;
 }
@@ -120,9 +120,10 @@ std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
                        odd.off > 0 ? "steeper" : "flatter", tier.words);
 }
 
-// Whether the drawing itself has the difference that was read: more than it scatters by, and nearer
-// to what was read than to none.
-bool is_drawn_so(const std::vector<Read>& reads, const Split& split, double scatter) {
+// Whether the drawing tells that these were meant to be like the others: it has not itself the
+// difference that was read (more than it scatters by, and nearer to that than to none); and it is
+// drawn finely enough to show such a difference, or a name confirms the tier.
+bool were_meant_alike(const std::vector<Read>& reads, const Split& split, const NamedTier& tier) {
     constexpr double k_surely = 2;
     Mean few, rest, few_read, rest_read;
     for (std::size_t i = 0; i < reads.size(); ++i) {
@@ -131,11 +132,12 @@ bool is_drawn_so(const std::vector<Read>& reads, const Split& split, double scat
         (odd ? few_read : rest_read).add(reads[i].value, 1);
     }
     const double drawn = few.value - rest.value, read = few_read.value - rest_read.value;
-    return std::abs(drawn) > k_surely * scatter * std::hypot(few.sigma(), rest.sigma()) &&
-           std::abs(read - drawn) < std::abs(drawn);
+    const double limit = k_surely * tier.scatter * std::hypot(few.sigma(), rest.sigma());
+    if (std::abs(drawn) > limit && std::abs(read - drawn) < std::abs(drawn)) return false;
+    return tier.named || std::abs(read - drawn) > limit;
 }
 
-void find_odd(const Stone& stone, std::vector<Read> reads, double scatter,
+void find_odd(const Stone& stone, std::vector<Read> reads, const NamedTier& tier,
               NamedTierFinding& finding) {
     std::sort(reads.begin(), reads.end(),
               [](const Read& a, const Read& b) { return a.off < b.off; });
@@ -143,7 +145,7 @@ void find_odd(const Stone& stone, std::vector<Read> reads, double scatter,
     std::size_t left = (reads.size() - 1) / 2;
     while (left > 0 && reads.size() >= k_fewest) {
         const Split split = best_split(reads, left);
-        if (!(split.p < k_level) || is_drawn_so(reads, split, scatter)) break;
+        if (!(split.p < k_level) || !were_meant_alike(reads, split, tier)) break;
         OddFacets odd;
         std::vector<int> facets;
         for (std::size_t i = split.from; i < split.to; ++i) facets.push_back(reads[i].facet);
@@ -185,7 +187,7 @@ std::vector<NamedTierFinding> tier_findings(const Stone& stone,
             std::minmax_element(reads.begin(), reads.end(),
                                 [](const Read& a, const Read& b) { return a.value < b.value; });
         finding.spread = most->value - least->value;
-        find_odd(stone, reads, tier.scatter, finding);
+        find_odd(stone, reads, tier, finding);
         for (const OddFacets& odd : finding.odd) finding.what.push_back(sentence_of(finding, odd));
         findings.push_back(std::move(finding));
     }

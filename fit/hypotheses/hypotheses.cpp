@@ -4,6 +4,7 @@
 
 #include "fit/hypotheses/angle_blunders.h"
 #include "fit/hypotheses/leave_one_out.h"
+#include "fit/hypotheses/mirrored_mesh.h"
 #include "fit/hypotheses/turned_azimuths.h"
 
 namespace culet {
@@ -29,13 +30,15 @@ Verdict take_with_prior(const Problem&, const Attempt&, const Problem&, FitResul
 
 constexpr Hypothesis k_hypotheses[] = {
     // The readings leave parts of the stone open.
-    {with_prior, take_with_prior},
+    {"", with_prior, take_with_prior},
+    // The mesh is the mirror image of the stone.
+    {"mesh mirrored", mesh_mirrored, judge_mirrored_mesh},
     // All azimuths count from another mark.
-    {azimuths_turned_back, judge_turned_azimuths},
+    {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},
     // Angles far off the mesh are wrong.
-    {without_far_angles, judge_far_angles},
+    {"readings left out", without_far_angles, judge_far_angles},
     // The first suspect is wrong.
-    {without_first_suspect, judge_first_suspect},
+    {"reading left out", without_first_suspect, judge_first_suspect},
 };
 
 }  // namespace

@@ -16,6 +16,8 @@ struct Verdict {
 };
 
 struct Hypothesis {
+    /// What is changed, for the report's list `changed`; empty: nothing that was given.
+    const char* what;
     /// The problem as it would be; nothing where the hypothesis does not apply.
     std::optional<Problem> (*changed)(const Problem& given, const Attempt& first);
     Verdict (*judged)(const Problem& given, const Attempt& first, const Problem& changed,

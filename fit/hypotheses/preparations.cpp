@@ -6,7 +6,6 @@
 #include "fit/findings/first_check.h"
 #include "fit/findings/fitted_parts.h"
 #include "fit/hypotheses/unread_size.h"
-#include "fit/mesh/repair.h"
 #include "fit/readings/level_facets.h"
 
 namespace culet {
@@ -50,21 +49,8 @@ std::optional<PutBack> take_size_of_mesh(Problem& problem) {
     return [size = problem.readings.back()](FitResult& result) { take_back_size(size, result); };
 }
 
-std::optional<PutBack> mirror_mesh(Problem& problem) {
-    std::optional<Stone> mirrored = mirrored_to_azimuths(problem.stone, problem.readings);
-    if (!mirrored) return std::nullopt;
-    problem.stone = std::move(*mirrored);
-    problem.mirrored = true;
-    return [](FitResult& result) {
-        const std::string note =
-            "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored";
-        result.log.notes.insert(result.log.notes.begin(), note);
-        result.message += "; " + note;
-    };
-}
-
 constexpr Preparation k_preparations[] = {leave_doubted_out, leave_level_azimuths_out,
-                                          take_size_of_mesh, mirror_mesh};
+                                          take_size_of_mesh};
 
 }  // namespace
 

@@ -11,10 +11,23 @@ std::string other_turn(const System& system) {
     constexpr double k_noticed_deg = 5;
     const double turn = degrees(std::remainder(system.mesh_turn(), 2 * std::numbers::pi));
     if (!system.stone().azimuth_from_mesh || std::abs(turn) < k_noticed_deg) return {};
+    double as_drawn = 0, turned_back = 0, count = 0;
+    for (const Reading& r : system.readings()) {
+        if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
+        const Vec3& n = system.mesh_shape().normals[std::size_t(r.facets[0])];
+        const double off = r.value - std::atan2(n.y, n.x);
+        const auto square = [](double angle) {
+            return std::pow(degrees(std::remainder(angle, 2 * std::numbers::pi)), 2);
+        };
+        turned_back += square(off);
+        as_drawn += square(off + system.mesh_turn());
+        ++count;
+    }
     return fmt::format(
-        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back; check "
+        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back (they "
+        "are {:.1f} degrees off it as drawn, root mean square, and {:.1f} turned back); check "
         "where azimuths, those of widths too, are counted from",
-        -turn);
+        -turn, std::sqrt(as_drawn / count), std::sqrt(turned_back / count));
 }
 
 std::string other_size(const System& system) {

@@ -147,7 +147,9 @@ void System::bring_upright() {
     for (Facet& facet : solid_.facets) facet.plane = plane_of(facet);
 
     // Where the readings' azimuths begin on the mesh: the mean direction of their differences.
-    turn_ = azimuth_turn(readings_, [&](int facet) { return solid_.facets[facet].plane.normal; });
+    turn_ = azimuth_turn(
+        readings_, [&](int facet) { return solid_.facets[facet].plane.normal; },
+        stone_.azimuth_from_mesh);
     const glm::dmat3 turn = turn_about_z(turn_);
     for (Vec3& v : solid_.vertices) v = turn * v;
     mesh_shape_.points = solid_.vertices;

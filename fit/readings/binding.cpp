@@ -7,6 +7,7 @@
 #include <set>
 
 #include "fit/readings/binder.h"
+#include "fit/readings/copied_rows.h"
 #include "fit/readings/level_facets.h"
 #include "fit/readings/reading_sizes.h"
 #include "stone/errors.h"
@@ -26,7 +27,9 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
     for (const WrittenReading& w : written) given.insert(w.id);
     std::map<std::string, const WrittenReading*> owner;
     std::vector<Reading> readings;
+    const std::vector<bool> copies = copied_rows(written);
     for (std::size_t i = 0; i < written.size(); ++i) {
+        if (copies[i]) continue;
         if (written[i].outlines) continue;  // of planes, not of names: fit_input
         std::string id = written[i].id;
         if (id.empty()) {
@@ -48,6 +51,14 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
     refuse_other_units(readings, stone);
     if (notes != nullptr) {
         for (std::string& note : binder.notes()) notes->push_back(std::move(note));
+        const auto copied = std::count(copies.begin(), copies.end(), true);
+        if (copied > 0) {
+            const auto first = std::find(copies.begin(), copies.end(), true) - copies.begin();
+            notes->push_back(fmt::format(
+                "{} row{} another to the last digit (the first is line {}), more often than what "
+                "is read anew does: they are copies, and count once",
+                copied, copied == 1 ? " repeats" : "s repeat", written[std::size_t(first)].line));
+        }
         if (skipped > 0) {
             const auto first =
                 std::find_if(written.begin(), written.end(),

@@ -42,13 +42,14 @@ std::vector<NamedTier> named_tiers(const Solid& solid, const Vec3& up) {
     for (FacetTier& tier : all) {
         if (tier.facets.size() < 2) continue;
         const bool alone = !tier.name.empty() && count[{tier.part, tier.name}] == 1;
-        const std::string name = alone ? tier.name + "*"
-                                       : solid.facets[std::size_t(tier.facets.front())].name +
-                                             ".." +
-                                             solid.facets[std::size_t(tier.facets.back())].name;
+        const std::string name = alone
+                                     ? tier.name + "*"
+                                     : solid.facets[std::size_t(tier.facets.front())].name + ".." +
+                                           solid.facets[std::size_t(tier.facets.back())].name;
         std::string words = words_of(tier.name, tier.part, name);
         if (!alone) words += fmt::format(" of {:.1f} degrees", degrees(tier.inclination));
-        tiers.push_back({name, std::move(words), std::move(tier.facets), tier.scatter});
+        tiers.push_back(
+            {name, std::move(words), std::move(tier.facets), tier.scatter, !tier.name.empty()});
     }
     return tiers;
 }

@@ -9,11 +9,12 @@
 namespace culet {
 
 struct NamedTier {
-    std::string name;         ///< `C*` where a name has this tier alone; else its first and last facet
-    std::string words;        ///< in the trade's words, plural: `crown mains`, `facets of tier A*`;
-                              ///< with the angle where a name has several: `stars of 24.7 degrees`
+    std::string name;   ///< `C*` where a name has this tier alone; else its first and last facet
+    std::string words;  ///< in the trade's words, plural: `crown mains`, `facets of tier A*`;
+                        ///< with the angle where a name has several: `stars of 24.7 degrees`
     std::vector<int> facets;  ///< of the solid, in its order; two or more
     double scatter = 0;       ///< as of FacetTier
+    bool named = false;       ///< a name in common confirms it
 };
 
 /// A facet is in one tier at most. `up` is a unit vector.

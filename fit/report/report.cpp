@@ -215,6 +215,7 @@ std::string fit_report(const FitResult& result) {
     report["dof"] = json_number(result.statistics.dof);
     report["chi2_limit"] = json_number(result.statistics.chi2_limit);
     report["chi2_p"] = json_number(result.statistics.chi2_p);
+    report["chi2_low_p"] = json_number(result.statistics.chi2_low_p);
     report["azimuth_zero"] = degrees(result.azimuth_zero);
     report["iterations"] = result.log.iterations;
     report["seconds"] = result.log.seconds;

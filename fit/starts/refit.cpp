@@ -85,7 +85,7 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     if (!system.stone().azimuth_from_mesh) {
         turn = turn_about_z(azimuth_turn(
                    system.readings(),
-                   [&](int facet) { return turn * planes[std::size_t(facet)].normal; })) *
+                   [&](int facet) { return turn * planes[std::size_t(facet)].normal; }, false)) *
                turn;
     }
     for (std::size_t f = 0; f < planes.size(); ++f) {

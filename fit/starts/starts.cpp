@@ -225,8 +225,8 @@ Shape Starts::upright(Shape shape) const {
         }
         shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     }
-    const double angle =
-        azimuth_turn(system_.readings(), [&](int facet) { return shape.normals[facet]; });
+    const double angle = azimuth_turn(
+        system_.readings(), [&](int facet) { return shape.normals[facet]; }, false);
     if (angle != 0) {
         Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
         turn.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),

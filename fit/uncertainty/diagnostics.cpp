@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 
 #include "fit/model/facet_functions.h"
 #include "fit/model/linear.h"
@@ -91,6 +93,31 @@ void sum_up(const Linearised& linear, const std::vector<Observation>& observatio
             diagnosis.group_squares[std::size_t(e.group)] += miss * miss;
             diagnosis.group_redundancy[std::size_t(e.group)] += redundancy[i];
         }
+    }
+}
+
+// Beside a prior, whose terms are no readings: of the readings alone. One value that was read for
+// several facets is one observation, whose share in each of them is alike.
+void count_readings_alone(const System& system, const Linearised& linear,
+                          const std::vector<Observation>& observations,
+                          const std::vector<double>& redundancy, int binding,
+                          Diagnosis& diagnosis) {
+    diagnosis.chi2 = 0;
+    diagnosis.dof = binding;
+    std::map<std::pair<std::string, long>, std::vector<double>> rows;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+        const Observation& o = observations[i];
+        if (o.reading < 0) continue;
+        const Reading& r = system.readings()[std::size_t(o.reading)];
+        diagnosis.chi2 += std::pow(o.residual(linear), 2);
+        if (r.line > 0 && !is_relation(r.kind)) {
+            rows[{r.file.string(), r.line}].push_back(redundancy[i]);
+        } else {
+            diagnosis.dof += redundancy[i];
+        }
+    }
+    for (const auto& [row, all] : rows) {
+        diagnosis.dof += std::accumulate(all.begin(), all.end(), 0.0) / double(all.size());
     }
 }
 
@@ -204,6 +231,9 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     const std::vector<double> redundancy = redundancies_of(observations, *covariance);
     sum_up(linear, observations, redundancy, options.binding, diagnosis);
     if (!options.full) return diagnosis;
+    if (system.has_prior()) {
+        count_readings_alone(system, linear, observations, redundancy, options.binding, diagnosis);
+    }
     diagnosis.covariance = covariance;
     diagnosis.suspect_limit = two_sided_normal_quantile(
         options.significance / std::max<double>(1, double(observations.size())));

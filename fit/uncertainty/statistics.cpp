@@ -1,5 +1,6 @@
 #include "fit/uncertainty/statistics.h"
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
@@ -20,6 +21,11 @@ double chi2_tail(double chi2, double dof) {
     if (!(dof > 0) || !(chi2 > 0)) return 1;
     if (std::isinf(chi2)) return 0;
     return boost::math::cdf(complement(ChiSquared(dof), chi2));
+}
+
+double chi2_lower_tail(double chi2, double dof) {
+    if (!(dof > 0) || std::isinf(chi2)) return 1;
+    return boost::math::cdf(ChiSquared(dof), std::max(0.0, chi2));
 }
 
 double chi2_quantile(double level, double dof) {

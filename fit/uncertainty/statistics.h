@@ -6,6 +6,9 @@ namespace culet {
 /// P(X > chi2) for chi-square with (possibly fractional) degrees of freedom; 1 for dof <= 0.
 double chi2_tail(double chi2, double dof);
 
+/// P(X < chi2); 1 for dof <= 0.
+double chi2_lower_tail(double chi2, double dof);
+
 /// The chi2 whose tail is `level`; 0 for dof <= 0.
 double chi2_quantile(double level, double dof);
 

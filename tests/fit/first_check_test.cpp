@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fit/findings/tier_findings.h"
 #include "stone/cuts/cuts.h"
+#include "stone/tiers.h"
 #include "tests/fit/cutters.h"
 #include "tests/says.h"
 
@@ -151,6 +153,40 @@ TEST_F(FirstCheck, TwoSteepMainsAreToldInOneSentence) {
 
 TEST_F(FirstCheck, MainsThatAreAlikeGiveNoSentence) {
     EXPECT_TRUE(tier_findings(stone_, mains(33.8), {}, true)[0].odd.empty());
+}
+
+// An oval whose facets an exporter numbered, read as it was drawn: angles of many sizes, and none
+// of them stands out.
+TEST(FirstCheckOfNumberedFacets, FindsNothingInAStoneReadAsDrawn) {
+    Stone stone;
+    stone.solid = make_cut("oval");
+    std::vector<WrittenReading> rows;
+    for (std::size_t f = 0; f < stone.solid.facets.size(); ++f) {
+        Facet& facet = stone.solid.facets[f];
+        facet.name = "F" + std::to_string(f);
+        rows.push_back(row("inclination", {facet.name},
+                           degrees(inclination(facet.plane.normal, {0, 0, 1})), 0.1, long(f) + 2));
+    }
+    stone.up_facet = stone.solid.facets[std::size_t(table_facet(stone.solid, {0, 0, 1}))].name;
+    const std::vector<Reading> readings = bind_readings(rows, stone);
+    EXPECT_TRUE(first_check(stone, readings, false).empty());
+    for (const NamedTierFinding& tier : tier_findings(stone, readings, {}, false)) {
+        EXPECT_TRUE(tier.odd.empty()) << tier.what[0];
+    }
+}
+
+// What the drawing has itself is no news of the stone.
+TEST_F(FirstCheck, AMainThatIsDrawnSteeperIsNotSaidToStandOut) {
+    std::vector<Reading> readings = mains(33.8);
+    readings[2].value += radians(1.0);
+    EXPECT_FALSE(tier_findings(stone_, readings, {}, false)[0].odd.empty());
+    Facet& c3 = stone_.solid.facets[std::size_t(find_facet(stone_.solid, "C3"))];
+    const double tilt = radians(33.8 + 1.0), turn = azimuth(c3.plane.normal);
+    c3.plane.normal = {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
+                       std::cos(tilt)};
+    for (const NamedTierFinding& tier : tier_findings(stone_, readings, {}, false)) {
+        EXPECT_TRUE(tier.odd.empty()) << tier.what[0];
+    }
 }
 
 }  // namespace

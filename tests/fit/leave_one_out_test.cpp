@@ -96,5 +96,28 @@ TEST_F(GrossReadings, AzimuthsThatCountFromElsewhereThanTheMeshAreSaidToBe) {
     EXPECT_THAT(result.log.notes, ::testing::Contains(HasSubstr("turned by -90 degrees")));
 }
 
+// Azimuths counted the other way round, which no step cut drawn as it is has: the mirror image is
+// taken since it suits the readings better, and both figures are said.
+TEST_F(GrossReadings, AzimuthsOfTheMirrorImageAreSaidToBe) {
+    truth_.stone.azimuth_from_mesh = true;
+    for (const Facet& f : truth_.stone.solid.facets) {
+        if (f.name == "T") continue;
+        WrittenReading r;
+        r.kind = "azimuth";
+        r.of = {f.name};
+        r.value = -degrees(azimuth(f.plane.normal));
+        r.sigma = 0.1;
+        readings_.push_back(r);
+    }
+    std::erase_if(readings_, [](const WrittenReading& r) { return r.kind == "width"; });
+    const FitResult result = fitted();
+    EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
+    EXPECT_THAT(result.message, HasSubstr("mirror image"));
+    ASSERT_EQ(result.log.changed.size(), 1u);
+    EXPECT_EQ(result.log.changed[0].what, "mesh mirrored");
+    EXPECT_LT(result.log.changed[0].after, result.statistics.chi2_limit);
+    EXPECT_GT(result.log.changed[0].before, result.log.changed[0].after + 25);
+}
+
 }  // namespace
 }  // namespace culet

@@ -29,6 +29,14 @@ TEST(Chi2Quantile, MatchesTheTable) {
     EXPECT_NEAR(chi2_quantile(0.05, 1), 3.8415, 1e-4);
 }
 
+// Closed form, also where it is next to nothing.
+TEST(Chi2LowerTail, TwoDegreesOfFreedomIsExponential) {
+    for (const double x : {1e-12, 0.1, 1.0, 5.0}) {
+        EXPECT_NEAR(chi2_lower_tail(x, 2) / -std::expm1(-0.5 * x), 1, 1e-11) << x;
+    }
+    EXPECT_EQ(chi2_lower_tail(0, 0), 1);
+}
+
 TEST(Chi2Tail, NoDegreesOfFreedomNeverFail) {
     EXPECT_EQ(chi2_tail(100, 0), 1);
     EXPECT_EQ(chi2_tail(0, 5), 1);

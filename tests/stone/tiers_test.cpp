@@ -6,11 +6,14 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
+#include <random>
+#include <set>
 
 #include "stone/caliper.h"
 #include "stone/cuts/cuts.h"
 #include "stone/cutting_list.h"
 #include "stone/gemcad_io.h"
+#include "stone/half_spaces.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
 #include "stone/written_number.h"
@@ -111,24 +114,83 @@ TEST(Tiers, OfStandardCutsAreTheTrades) {
     EXPECT_EQ(main_facets(step, k_up, true).size(), 8u);
 }
 
-// An oval's stars are cut to two angles, which are tiers of their own; a hand-made mesh's are all
-// different, and the name alone says what belongs together.
-TEST(Tiers, OfOneNameAreToldApartByAngleOnlyInADesign) {
-    Solid solid = make_cut("oval");
-    const auto count = [&](const char* name) {
-        std::size_t tiers = 0;
-        for (const FacetTier& tier : tiers_of(solid, k_up)) tiers += tier.name == name ? 1 : 0;
-        return tiers;
-    };
-    EXPECT_EQ(count("S"), 2u);
-    double off = 0;
-    for (Facet& facet : solid.facets) {
-        if (facet.name[0] != 'S') continue;
-        off += 0.01;
-        facet.plane.normal.z *= 1 + off;
-        facet.plane.normal = glm::normalize(facet.plane.normal);
+std::set<std::vector<int>> facets_of(const std::vector<FacetTier>& tiers) {
+    std::set<std::vector<int>> all;
+    for (const FacetTier& tier : tiers) all.insert(tier.facets);
+    return all;
+}
+
+void number_the_facets(Solid& solid) {
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        solid.facets[f].name = "F" + std::to_string(f);
     }
-    EXPECT_EQ(count("S"), 1u);
+}
+
+// As drawn by hand: each corner off by `off` at random, each coordinate.
+Solid drawn_by_hand(Solid solid, double off, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0, off);
+    for (Vec3& v : solid.vertices) v += Vec3{normal(random), normal(random), normal(random)};
+    for (Facet& facet : solid.facets) {
+        std::vector<Vec3> loop;
+        for (const int c : facet.corners) loop.push_back(solid.vertices[std::size_t(c)]);
+        facet.plane = plane_through(loop);
+    }
+    return solid;
+}
+
+// An oval's stars are cut to two angles: two tiers of four, by the name they have in common.
+TEST(Tiers, OfOneNameAreToldApartByTheDrawing) {
+    for (const double off : {0.0, 0.01}) {
+        const Solid solid = drawn_by_hand(make_cut("oval"), off, 1);
+        std::vector<std::size_t> sizes;
+        for (const FacetTier& tier : tiers_of(solid, k_up)) {
+            if (tier.name == "S") sizes.push_back(tier.facets.size());
+        }
+        EXPECT_EQ(sizes, (std::vector<std::size_t>{4, 4})) << off;
+    }
+}
+
+// The same sets of facets whatever an exporter calls them, and drawn by hand: 2 % of 6.5 mm.
+TEST(Tiers, AreTheFormsWhateverTheFacetsAreCalled) {
+    const Solid cut = make_cut("round-brilliant");
+    const auto tiers = facets_of(tiers_of(cut, k_up));
+    for (const double off : {0.0, 0.13}) {
+        Solid solid = drawn_by_hand(cut, off, 2);
+        EXPECT_EQ(facets_of(tiers_of(solid, k_up)), tiers) << off;
+        number_the_facets(solid);
+        EXPECT_EQ(facets_of(tiers_of(solid, k_up)), tiers) << off;
+        for (const FacetTier& tier : tiers_of(solid, k_up)) EXPECT_EQ(tier.name, "");
+    }
+}
+
+// One name for facets of no symmetry and no common angle makes no tier; two names part one.
+TEST(Tiers, AreNotMadeOfNamesButPartedByThem) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> even(0, 1);
+    std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.3}}};
+    for (int i = 0; i < 12; ++i) {
+        const double tilt = radians(20 + 60 * even(random)), turn = radians(30.0 * i);
+        const double side = i % 2 == 0 ? 1 : -1;
+        planes.push_back({"C" + std::to_string(i),
+                          {{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
+                            side * std::cos(tilt)},
+                           1}});
+    }
+    for (const FacetTier& tier : tiers_of(intersect_half_spaces(planes).solid, k_up)) {
+        EXPECT_EQ(tier.facets.size(), 1u) << tier.name;
+    }
+    Solid cut = make_cut("round-brilliant");
+    int upper = 0;
+    for (Facet& facet : cut.facets) {
+        if (facet.name[0] != 'U') continue;
+        facet.name = (upper % 2 == 0 ? "A" : "B") + std::to_string(upper / 2);
+        ++upper;
+    }
+    std::map<std::string, std::size_t> sizes;
+    for (const FacetTier& tier : tiers_of(cut, k_up)) sizes[tier.pattern] = tier.facets.size();
+    EXPECT_EQ(sizes["A*"], 8u);
+    EXPECT_EQ(sizes["B*"], 8u);
 }
 
 // A regular 16-gon: 6.5 from corner to corner, 6.5 cos(180 / 16) from flat to flat, perimeter / pi

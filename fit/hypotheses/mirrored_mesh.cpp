@@ -1,0 +1,46 @@
+#include "fit/hypotheses/mirrored_mesh.h"
+
+#include "fit/mesh/repair.h"
+
+namespace culet {
+
+namespace {
+
+// What it costs in chi-square to take the mesh for its mirror image: five sigmas.
+constexpr double k_price = 25;
+
+}  // namespace
+
+std::optional<Problem> mesh_mirrored(const Problem& given, const Attempt& first) {
+    const FitStatus status = first.result.status;
+    if (given.mirrored ||
+        (status != FitStatus::contradictory && status != FitStatus::not_converged)) {
+        return std::nullopt;
+    }
+    std::optional<Stone> mirrored = mirrored_to_azimuths(given.stone, given.readings);
+    if (!mirrored) return std::nullopt;
+    Problem changed = given;
+    changed.stone = std::move(*mirrored);
+    changed.mirrored = true;
+    return changed;
+}
+
+Verdict judge_mirrored_mesh(const Problem& given, const Attempt& first, const Problem&,
+                            FitResult again) {
+    if (again.status == FitStatus::not_converged ||
+        !(again.statistics.chi2 + k_price < first.result.statistics.chi2)) {
+        return {};
+    }
+    const std::string note =
+        "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored";
+    again.log.notes.insert(again.log.notes.begin(), note);
+    again.message += "; " + note;
+    // Azimuths that were said to count as the mesh's do.
+    if (given.stone.azimuth_from_mesh && again.status == FitStatus::converged) {
+        again.status = FitStatus::contradictory;
+        again.message = note;
+    }
+    return {std::move(again), std::nullopt};
+}
+
+}  // namespace culet
