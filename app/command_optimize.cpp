@@ -11,6 +11,8 @@
 #include "app/grade_input.h"
 #include "app/options.h"
 #include "app/terminal.h"
+#include "render/grade/grade_figures.h"
+#include "stone/drawn_symmetry.h"
 #include "stone/errors.h"
 #include "stone/gemcad_io.h"
 #include "stone/output_file.h"
@@ -130,11 +132,40 @@ void print_result(const Optimized& result, const OptimizeCommand& command) {
     print_lines(text);
 }
 
-CutSheet sheet_of(const OptimizeOptions& options, const std::string& name) {
-    CutSheet sheet;
+// What the design says of itself; of any other stone its name, and the symmetry that it has.
+CutSheet sheet_of(const OptimizeOptions& options, const GradeInput& input) {
+    CutSheet sheet = input.sheet.value_or(CutSheet());
+    if (!input.sheet) {
+        constexpr Vec3 up{0, 0, 1};
+        const Solid& solid = input.stone.solid;
+        const AxisGroup group = drawn_symmetry(solid, up, table_facet(solid, up)).group;
+        sheet.symmetry = group.order;
+        sheet.mirror = group.mirrors;
+        sheet.headings.push_back(input.name);
+    }
     sheet.refractive_index = options.merit.index.n;
-    sheet.headings.push_back(name + ", angles by culet optimize");
     return sheet;
+}
+
+// What a buyer may ask for and the objective did not.
+void print_losses(const Optimized& result, const OptimizeOptions& options) {
+    GradeOptions grade;
+    grade.head = options.merit.head;
+    grade.threads = options.merit.threads;
+    const std::vector<GradeFigure>
+        before = figures_of(grade_stone(result.start, options.merit.index, grade)),
+        now = figures_of(grade_stone(result.better, options.merit.index, grade));
+    // Below this, in points, nobody sees it.
+    constexpr double k_seen = 0.05;
+    for (const GradeFigure& was : before) {
+        if (!was.percent && was.name != "weighted_light_return") continue;
+        for (const GradeFigure& is : now) {
+            const double scale = was.percent ? 1 : 100;
+            if (is.name == was.name && scale * (was.value - is.value) > k_seen)
+                print_lines(fmt::format("  worse than before: {} {:.2f} -> {:.2f} %\n", was.words,
+                                        scale * was.value, scale * is.value));
+        }
+    }
 }
 
 int run_optimize(OptimizeCommand command) {
@@ -157,17 +188,28 @@ int run_optimize(OptimizeCommand command) {
     } catch (const InputError& error) {
         throw InputError(input.file, error.what());
     }
-    const CutSheet sheet = sheet_of(options, input.name);
-    write_gemcad_asc(result.better, sheet, command.out);
-    if (!command.json.empty()) write_text(command.json, json_of(result, options, command));
+    CutSheet sheet = sheet_of(options, input);
+    const fs::path before = fs::path(command.page) / "before.asc";
     if (!command.page.empty()) {
-        const fs::path before = fs::path(command.page) / "before.asc";
         fs::create_directories(command.page);
         write_gemcad_asc(result.start, sheet, before);
+    }
+    sheet.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
+    write_gemcad_asc(result.better, sheet, command.out);
+    if (!command.json.empty()) write_text(command.json, json_of(result, options, command));
+    if (command.json != "-") {
+        print_result(result, command);
+        if (result.found && !result.interrupted) print_losses(result, options);
+    }
+    if (result.interrupted) {
+        say(fmt::format("interrupted after {} of about {} cuts: {} is the best until then",
+                        result.evaluations, options.evaluations, command.out),
+            command.common.quiet);
+        return exit_interrupted;
+    }
+    if (!command.page.empty())
         write_grade_page({before.string(), command.out}, command.choices, command.page,
                          command.common, json_of(result, options, command));
-    }
-    if (command.json != "-") print_result(result, command);
     if (!input.trusted)
         say(fmt::format("{}: the fit should not be trusted, nor should these angles: {}",
                         input.file, input.notes.back()),

@@ -110,6 +110,7 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         input.notes = std::move(solid.notes);
         if (solid.sheet && solid.sheet->refractive_index && *solid.sheet->refractive_index > 1)
             input.index = solid.sheet->refractive_index;
+        input.sheet = std::move(solid.sheet);
         inputs.push_back(std::move(input));
     }
     for (GradeInput& input : inputs) {

@@ -40,6 +40,7 @@ public:
 
     void two_factors() {
         std::vector<double> factors{1, 1};
+        by_two_factors_ = at_start_;
         run(NLOPT_LN_NELDERMEAD, factors, 1 / k_most_factor, k_most_factor, k_factor_step,
             share(k_two_factors), [&](const std::vector<double>& x) { return scaled(x); });
         by_two_factors_ = best_merit_;
@@ -48,9 +49,12 @@ public:
     void all_tiers(const std::vector<double>& from, double step_deg, int most) {
         std::vector<double> x = from;
         run(NLOPT_LN_SBPLX, x, -degrees(options_.limits.range), degrees(options_.limits.range),
-            step_deg, most, [](const std::vector<double>& deg) {
-                std::vector<double> steeper;
-                for (const double one : deg) steeper.push_back(radians(one));
+            step_deg, most, [&](const std::vector<double>& deg) {
+                std::vector<double> steeper(design_.tiers().size());
+                for (std::size_t s = 0; s < deg.size(); ++s) {
+                    for (const int tier : design_.tied_tiers()[s])
+                        steeper[static_cast<std::size_t>(tier)] = radians(deg[s]);
+                }
                 return steeper;
             });
     }
@@ -60,11 +64,14 @@ public:
     }
     int left() const { return std::max(10, options_.evaluations - evaluations_); }
     int evaluations() const { return evaluations_; }
+    // Of each set of tied tiers.
     std::vector<double> best_deg() const {
+        const double range = degrees(options_.limits.range);
         std::vector<double> deg;
-        for (const double one : best_)
-            deg.push_back(std::clamp(degrees(one), -degrees(options_.limits.range),
-                                     degrees(options_.limits.range)));
+        for (const std::vector<int>& tiers : design_.tied_tiers()) {
+            const double one = best_[static_cast<std::size_t>(tiers.front())];
+            deg.push_back(std::clamp(degrees(one), -range, range));
+        }
         return deg;
     }
     const std::vector<double>& best() const { return best_; }
@@ -198,12 +205,16 @@ Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
                        const Progress& progress) {
     const TierDesign design(solid);
     Search search(design, solid, options, progress);
-    search.two_factors();
-    const std::vector<double> none(design.tiers().size(), 0);
-    search.all_tiers(none, k_first_step, search.share(k_own_start));
-    search.all_tiers(search.best_deg(), k_first_step, search.share(k_first_rest));
-    search.all_tiers(search.best_deg(), k_second_step, search.left());
     Optimized result;
+    try {
+        search.two_factors();
+        const std::vector<double> none(design.tied_tiers().size(), 0);
+        search.all_tiers(none, k_first_step, search.share(k_own_start));
+        search.all_tiers(search.best_deg(), k_first_step, search.share(k_first_rest));
+        search.all_tiers(search.best_deg(), k_second_step, search.left());
+    } catch (const Interrupted&) {
+        result.interrupted = true;
+    }
     result.start = design.start();
     result.at_start = search.at_start();
     result.at_better = search.best_merit();

@@ -49,10 +49,11 @@ struct Optimized {
     int evaluations = 0;
     bool found = false;  ///< whether anything better was
     bool gained = true;  ///< of a recut: whether the wanted gain was reached
+    bool interrupted = false;  ///< by `progress`: the best until then
 };
 
 /// `solid`: closed and convex, table up; throws InputError for others and where no angle can
-/// change; Interrupted. The result does not depend on the number of threads.
+/// change. Every facet stays, and so does the symmetry about +z that the drawing has. The result does not depend on the number of threads.
 Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
                        const Progress& progress = {});
 

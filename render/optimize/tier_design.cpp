@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <set>
 
 #include "stone/dense_algebra.h"
+#include "stone/drawn_symmetry.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -24,6 +26,9 @@ constexpr double k_angle_weight = 60;
 // Meets that tie angles to each other are dependent equations: singular values this small, of the
 // largest, are theirs. Meets of real designs miss by up to 3e-4.
 constexpr double k_dependent = 1e-7;
+// Of the diameter: 0.04 mm of a stone of 8 mm, which a loupe shows. Ten times what readers of designs
+// take for a meet that misses (CutReading::meet_tolerance).
+constexpr double k_least_edge = 0.005;
 
 // A facet's angle from the horizontal keeps its side: of the pavilion the normal looks down.
 Vec3 tilted(const Vec3& normal, double angle) {
@@ -75,25 +80,64 @@ TierDesign::TierDesign(const Solid& solid) : solid_(solid), size_(diameter(solid
         for (const int f : tier.facets) {
             angle_is_free_[static_cast<std::size_t>(f)] = slopes;
             offset_is_free_[static_cast<std::size_t>(f)] = tier.part != StonePart::girdle;
-            if (slopes) order_.push_back(f);
         }
         if (slopes) tiers_.push_back(std::move(tier));
     }
     if (tiers_.empty()) throw InputError("has no facets of crown or pavilion to change");
-    const auto next_to_girdle = [&](int f) {
-        const Facet& facet = solid.facets[static_cast<std::size_t>(f)];
-        double least = size_;
-        for (const int c : facet.corners) {
-            const double z = solid.vertices[static_cast<std::size_t>(c)].z;
-            least = std::min(least, facet.plane.normal.z > 0 ? z : -z);
-        }
-        return least;
-    };
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](int a, int b) { return next_to_girdle(a) < next_to_girdle(b); });
+    std::vector<std::vector<int>> orbits;
+    for (const FacetOrbit& orbit :
+         orbits_of(drawn_symmetry(solid, k_up, table_facet(solid, k_up)).group, count))
+        orbits.push_back(orbit.facets);
+    tie_tiers(orbits);
+    put_in_order(std::move(orbits));
     const std::optional<Solid> start = with(std::vector<double>(tiers_.size(), 0));
     if (!start) throw InputError("its facets miss their meets by too much to change their angles");
     start_ = *start;
+}
+
+void TierDesign::tie_tiers(const std::vector<std::vector<int>>& orbits) {
+    std::vector<int> orbit_of(solid_.facets.size());
+    for (std::size_t o = 0; o < orbits.size(); ++o) {
+        for (const int f : orbits[o]) orbit_of[std::size_t(f)] = static_cast<int>(o);
+    }
+    std::vector<std::set<int>> reached;  // orbits of each set
+    for (std::size_t t = 0; t < tiers_.size(); ++t) {
+        std::vector<int> together{static_cast<int>(t)};
+        std::set<int> own;
+        for (const int f : tiers_[t].facets) own.insert(orbit_of[std::size_t(f)]);
+        for (std::size_t s = reached.size(); s-- > 0;) {
+            if (std::none_of(own.begin(), own.end(),
+                             [&](int orbit) { return reached[s].contains(orbit); }))
+                continue;
+            own.insert(reached[s].begin(), reached[s].end());
+            together.insert(together.begin(), tied_[s].begin(), tied_[s].end());
+            reached.erase(reached.begin() + std::ptrdiff_t(s));
+            tied_.erase(tied_.begin() + std::ptrdiff_t(s));
+        }
+        reached.push_back(std::move(own));
+        tied_.push_back(std::move(together));
+    }
+}
+
+void TierDesign::put_in_order(std::vector<std::vector<int>> orbits) {
+    const auto next_to_girdle = [&](const std::vector<int>& orbit) {
+        double least = size_;
+        for (const int f : orbit) {
+            const Facet& facet = solid_.facets[static_cast<std::size_t>(f)];
+            for (const int c : facet.corners) {
+                const double z = solid_.vertices[static_cast<std::size_t>(c)].z;
+                least = std::min(least, facet.plane.normal.z > 0 ? z : -z);
+            }
+        }
+        return least;
+    };
+    for (std::vector<int>& orbit : orbits) {
+        std::erase_if(orbit, [&](int f) { return !angle_is_free_[std::size_t(f)]; });
+        if (!orbit.empty()) order_.push_back(std::move(orbit));
+    }
+    std::stable_sort(order_.begin(), order_.end(), [&](const auto& a, const auto& b) {
+        return next_to_girdle(a) < next_to_girdle(b);
+    });
 }
 
 TierDesign::Planes TierDesign::wanted(const std::vector<double>& steeper) const {
@@ -117,19 +161,22 @@ TierDesign::Planes TierDesign::wanted(const std::vector<double>& steeper) const 
         if (of > 0) at.z = sum / of;
         return at;
     };
-    for (const int f : order_) {
-        const Facet& facet = solid_.facets[static_cast<std::size_t>(f)];
-        Plane& plane = planes.of[static_cast<std::size_t>(f)];
-        const double side = facet.plane.normal.z > 0 ? 1 : -1;
-        plane.normal = tilted(plane.normal, angle_of(plane.normal) + turn[std::size_t(f)]);
-        int pivot = facet.corners.front();
-        for (const int c : facet.corners) {
-            if (side * solid_.vertices[std::size_t(c)].z <
-                side * solid_.vertices[std::size_t(pivot)].z)
-                pivot = c;
+    for (const std::vector<int>& orbit : order_) {
+        for (const int f : orbit) {
+            const Facet& facet = solid_.facets[static_cast<std::size_t>(f)];
+            Plane& plane = planes.of[static_cast<std::size_t>(f)];
+            const double side = facet.plane.normal.z > 0 ? 1 : -1;
+            plane.normal = tilted(plane.normal, angle_of(plane.normal) + turn[std::size_t(f)]);
+            int pivot = facet.corners.front();
+            for (const int c : facet.corners) {
+                if (side * solid_.vertices[std::size_t(c)].z <
+                    side * solid_.vertices[std::size_t(pivot)].z)
+                    pivot = c;
+            }
+            plane.offset = glm::dot(plane.normal, moved(pivot));
         }
-        plane.offset = glm::dot(plane.normal, moved(pivot));
-        done[static_cast<std::size_t>(f)] = true;
+        // Together, so that none of them follows another.
+        for (const int f : orbit) done[static_cast<std::size_t>(f)] = true;
     }
     for (std::size_t f = 0; f < planes.of.size(); ++f) {
         if (angle_is_free_[f] || !offset_is_free_[f]) continue;
@@ -211,7 +258,8 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
         const Eigen::Vector3d corner = PivotedQr(normals).solve_one(offsets);
         result.vertices[v] = {corner.x(), corner.y(), corner.z()};
     }
-    // Convex, with the same neighbours: nothing above a plane, every outline still turns left.
+    // Convex, with the same neighbours: nothing above a plane, every outline still turns left, and
+    // no edge comes near to nothing.
     for (const Facet& facet : result.facets) {
         for (const Vec3& corner : result.vertices) {
             if (!(height_above(facet.plane, corner) <= k_not_above * size_)) return std::nullopt;
@@ -222,6 +270,11 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
                        &b = result.vertices[std::size_t(facet.corners[(i + 1) % n])],
                        &c = result.vertices[std::size_t(facet.corners[(i + 2) % n])];
             if (!(glm::dot(glm::cross(b - a, c - b), facet.plane.normal) > 0)) return std::nullopt;
+            const double was = glm::length(solid_.vertices[std::size_t(facet.corners[i])] -
+                                           solid_.vertices[std::size_t(facet.corners[(i + 1) % n])]);
+            // Rounding must not tell a design's own edge from itself.
+            if (glm::length(b - a) < std::min((1 - 1e-9) * was, k_least_edge * size_))
+                return std::nullopt;
         }
     }
     return result;

@@ -6,6 +6,7 @@
 // their angle. Wanted angles come first: each facet turns about its corners next to the girdle, the
 // table follows the facets around it. Then the nearest angles and offsets are found at which all
 // meets hold: Gauss-Newton on the meets' misses, each step the smallest that takes them away.
+// What the design's symmetry about +z takes into each other changes alike (stone/drawn_symmetry.h).
 
 #include <optional>
 #include <vector>
@@ -26,12 +27,16 @@ public:
 
     /// Those that may change: crown and pavilion, in the solid's order.
     const std::vector<FacetTier>& tiers() const { return tiers_; }
+    /// Of `tiers`, those that the design's symmetry takes into each other: each set has one angle to
+    /// choose. Every tier is in one set.
+    const std::vector<std::vector<int>>& tied_tiers() const { return tied_; }
     /// The design itself, its meets closed.
     const Solid& start() const { return start_; }
 
     /// `steeper`: by tier, radians added to the angle from the horizontal. Nothing where the meets
-    /// cannot be kept, or facets would appear, vanish or change their neighbours. The girdle stays;
-    /// corners lie at their meets. Angles may differ from those wanted where meets tie them.
+    /// cannot be kept, or facets would appear, vanish or change their neighbours: every edge keeps
+    /// its length, or 0.5 % of the diameter where it was longer. The girdle stays; corners lie at
+    /// their meets. Angles may differ from those wanted where meets tie them.
     std::optional<Solid> with(const std::vector<double>& steeper) const;
 
 private:
@@ -40,10 +45,15 @@ private:
     std::optional<Planes> closed(Planes planes) const;
     std::optional<Solid> solid_of(const Planes& planes) const;
 
+    void tie_tiers(const std::vector<std::vector<int>>& orbits);
+    void put_in_order(std::vector<std::vector<int>> orbits);
+
     std::vector<FacetTier> tiers_;
+    std::vector<std::vector<int>> tied_;
     Solid solid_, start_;
     std::vector<std::vector<int>> facets_at_;  ///< by corner
-    std::vector<int> order_;                   ///< sloping facets, those next to the girdle first
+    /// Orbits of sloping facets, those next to the girdle first.
+    std::vector<std::vector<int>> order_;
     std::vector<bool> angle_is_free_, offset_is_free_;
     double size_ = 1;
 };

@@ -45,6 +45,31 @@ TEST_F(OptimizeCommand, WritesADesignThatGradesAsItSays) {
     EXPECT_NEAR(mean, merit, 1e-6);
 }
 
+// What a design says of itself is its author's.
+TEST_F(OptimizeCommand, KeepsTheDesignsWords) {
+    const ProgramRun first = run_culet({"convert", file("round.obj"), file("round.asc")});
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    std::string design = text("round.asc");
+    const std::size_t fold = design.find("\ny ");
+    ASSERT_NE(fold, std::string::npos);
+    design.replace(fold, design.find('\n', fold + 1) - fold, "\ny 8 y");
+    design.insert(design.find("\na "), "\nH Old Faithful\nH by A. Cutter");
+    write("round.asc", design + "F Cut the girdle first\n");
+    const ProgramRun run = run_culet({"optimize", file("round.asc"), "--index", "1.62",
+                                      "--evaluations", "40", "-o", file("better.asc")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string better = text("better.asc");
+    for (const char* kept : {"\ny 8 y\n", "\nH Old Faithful\nH by A. Cutter\n",
+                             "\nF Cut the girdle first\nF Angles by culet optimize"})
+        EXPECT_THAT(better, HasSubstr(kept));
+    const auto tiers = [](const std::string& words) {
+        std::size_t count = 0;
+        for (std::size_t at = words.find("\na "); at != std::string::npos; at = words.find("\na ", at + 1)) ++count;
+        return count;
+    };
+    EXPECT_EQ(tiers(better), tiers(design));
+}
+
 TEST_F(OptimizeCommand, RefusesInOneLine) {
     const auto refused = [&](std::vector<std::string> words, const char* why) {
         words.insert(words.begin(), {"optimize", file("round.obj")});

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "stone/cuts/cuts.h"
+#include "stone/drawn_symmetry.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -130,6 +131,56 @@ TEST(Optimize, IsAtLeastItsStartAndTheSearchWithTwoFactors) {
         sum += view.whole[static_cast<std::size_t>(LightModel::cos)];
     // Sums of the same terms in another order.
     EXPECT_NEAR(result.at_better.total, 100 * sum / 7, 1e-9);
+}
+
+// Left and right lower halves under two names, as designs have them (P3, P21): one angle by the
+// symmetry of the drawing, eightfold with mirrors.
+Solid brilliant_of_two_names() {
+    Solid solid = make_cut("round-brilliant");
+    int number = 0;
+    for (Facet& facet : solid.facets) {
+        if (facet.name.starts_with("L")) facet.name = (++number % 2 == 0 ? "A." : "B.") + facet.name.substr(1);
+    }
+    return solid;
+}
+
+TEST(Optimize, KeepsSymmetryAndEveryFacet) {
+    const Solid start = brilliant_of_two_names();
+    const TierDesign design(start);
+    EXPECT_EQ(design.tiers().size(), design.tied_tiers().size() + 1);
+    OptimizeOptions options = quick(1.54);
+    options.evaluations = 120;
+    const Optimized result = optimize_cut(start, options);
+    ASSERT_TRUE(result.found);
+    const DrawnSymmetry kept = drawn_symmetry(result.better, {0, 0, 1}, table_facet(start, {0, 0, 1}));
+    EXPECT_EQ(kept.group.name(), "C8v");
+    for (const FacetOrbit& orbit : orbits_of(kept.group, start.facets.size())) {
+        for (const int f : orbit.facets) {
+            // Meets are closed to rounding of numbers of the stone's size.
+            EXPECT_NEAR(result.better.facets[std::size_t(f)].plane.normal.z,
+                        result.better.facets[std::size_t(orbit.facets[0])].plane.normal.z, 1e-11);
+        }
+    }
+    // As a design it reads back whole: nothing is so small that a reader takes it for a near miss.
+    const double least = 0.005 * diameter(start);
+    for (const Facet& facet : result.better.facets) {
+        for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+            const auto a = std::size_t(facet.corners[i]),
+                       b = std::size_t(facet.corners[(i + 1) % facet.corners.size()]);
+            const double was = glm::length(start.vertices[a] - start.vertices[b]);
+            EXPECT_GE(glm::length(result.better.vertices[a] - result.better.vertices[b]),
+                      std::min(was, least) * (1 - 1e-6));
+        }
+    }
+}
+
+TEST(Optimize, GivesTheBestSoFarWhereItIsStopped) {
+    int calls = 0;
+    const Optimized result =
+        optimize_cut(make_cut("round-brilliant"), quick(1.54), [&](double) { return ++calls < 15; });
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_EQ(result.evaluations, 15);
+    EXPECT_GE(result.at_better.total, result.at_start.total);
 }
 
 TEST(Optimize, IsTheSameOnAnyNumberOfThreads) {
