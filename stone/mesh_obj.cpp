@@ -78,9 +78,9 @@ private:
     }
 
     void read(std::string_view line) {
-        // Keywords of one letter only; `g` may stand alone.
-        if (line.empty()) return;
-        if (line.size() == 1 ? line != "g" : line[1] != ' ' && line[1] != '\t') return;
+        // Keywords of one letter only (vn, vt, ... are passed over); `g` may stand alone.
+        if (line.empty() || (line.size() == 1 && line != "g")) return;
+        if (line.size() > 1 && trimmed(line.substr(1)).size() + 1 == line.size()) return;
         if (line[0] == 'v') {
             read_vertex(words_of(line));
         } else if (line[0] == 'f') {
