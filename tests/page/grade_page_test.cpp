@@ -35,8 +35,8 @@ GradeDesign design(const std::string& name) {
 
 TEST(GradePage, ShowsFiguresWithTheirSigmasCostsAndNotes) {
     const std::string page = grade_page({{design("Mine")}, "0.2", "culet grade mine.asc", {}});
-    EXPECT_THAT(page, HasSubstr("70.12 ± 0.46 %"));
-    EXPECT_THAT(page, HasSubstr("60.00 %"));
+    EXPECT_THAT(page, HasSubstr("70.12 ± 0.46\u00a0%"));
+    EXPECT_THAT(page, HasSubstr("60.00\u00a0%"));
     EXPECT_THAT(page, testing::AllOf(HasSubstr("8 of 8 hearts"), HasSubstr("7 of 8 arrows")));
     EXPECT_THAT(page, HasSubstr("P3&lt;b&gt;"));
     EXPECT_THAT(page, Not(HasSubstr("P3<b>\"")));
