@@ -304,7 +304,7 @@ class PageTest(PageActions, unittest.TestCase):
 
     def test_names_are_text_and_never_html(self):
         document = made_up_document(2, two=True)
-        evil = "<img src=x onerror=\"document.title='hit'\"></script><b>"
+        evil = "<img src=x onerror=\"document.title='hit'\"></script><b>" + "\u05e9\u05dd " + 140 * "W"
         document["items"][0]["name"] = evil
         for stone in document["items"][0]["stones"]:
             stone["name"] = evil
@@ -314,6 +314,8 @@ class PageTest(PageActions, unittest.TestCase):
         self.click("[data-name=names]")
         self.assertNotEqual(self.browser.run("return document.title"), "hit")
         self.assertEqual(self.browser.run("return document.querySelectorAll('main b, main img:not(#still):not(.thumb img)').length"), 0)
+        self.browser.resize(390, 844)
+        self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
 
     def test_dead_worker_is_started_again(self):
         self.open()
