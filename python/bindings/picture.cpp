@@ -130,7 +130,15 @@ void bind_picture(py::module_& module) {
     module.def("save_picture", save_picture, py::arg("arrays"), py::arg("file"),
                py::arg("exposure"));
     module.def(
-        "read_picture", [](const fs::path& file) { return arrays_of(read_picture(file).picture); },
+        "read_picture",
+        [](const fs::path& file) {
+            ReadPicture read = read_picture(file);
+            py::dict arrays = arrays_of(read.picture);
+            if (!read.not_photometric.empty())
+                read.notes.push_back(read.not_photometric + ": the picture is not photometric");
+            arrays["notes"] = read.notes;
+            return arrays;
+        },
         py::arg("file"));
 }
 

@@ -41,7 +41,8 @@ std::string description_of(cmsHPROFILE profile) {
 
 }  // namespace
 
-ColourProfile::ColourProfile(const std::string& bytes, std::size_t channels) : channels_(channels) {
+ColourProfile::ColourProfile(const std::string& bytes, std::size_t channels)
+    : channels_(channels), of_profile_(channels) {
     const OpenProfile profile(
         cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
     if (profile == nullptr) {
@@ -49,19 +50,19 @@ ColourProfile::ColourProfile(const std::string& bytes, std::size_t channels) : c
         return;
     }
     name_ = description_of(profile.get());
-    const bool fits = cmsChannelsOf(cmsGetColorSpace(profile.get())) == channels &&
-                      cmsGetColorSpace(profile.get()) == (channels == 1   ? cmsSigGrayData
-                                                          : channels == 3 ? cmsSigRgbData
-                                                                          : cmsSigCmykData);
-    if (!fits) {
+    const cmsColorSpaceSignature space = cmsGetColorSpace(profile.get());
+    if (channels == 1 && space == cmsSigRgbData) of_profile_ = 3;
+    if (space != (of_profile_ == 1   ? cmsSigGrayData
+                  : of_profile_ == 3 ? cmsSigRgbData
+                                     : cmsSigCmykData)) {
         trouble_ = fmt::format("its ICC profile \"{}\" is one for other channels", name_);
         return;
     }
     const OpenProfile linear = linear_srgb_profile();
     transform_.reset(cmsCreateTransform(profile.get(),
-                                        channels == 1   ? TYPE_GRAY_FLT
-                                        : channels == 3 ? TYPE_RGB_FLT
-                                                        : TYPE_CMYK_FLT,
+                                        of_profile_ == 1   ? TYPE_GRAY_FLT
+                                        : of_profile_ == 3 ? TYPE_RGB_FLT
+                                                           : TYPE_CMYK_FLT,
                                         linear.get(), TYPE_RGB_FLT, INTENT_RELATIVE_COLORIMETRIC,
                                         cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE),
                      [](void* transform) {
@@ -95,12 +96,14 @@ bool ColourProfile::is_srgb() const {
 }
 
 void ColourProfile::linear(const float* samples, std::size_t pixels, float* rgb) const {
-    std::vector<float> per_cent;
+    std::vector<float> meant;
     if (channels_ == 4) {  // the library counts inks in per cent
-        per_cent.assign(samples, samples + 4 * pixels);
-        for (float& v : per_cent) v *= 100;
-        samples = per_cent.data();
+        meant.assign(samples, samples + 4 * pixels);
+        for (float& v : meant) v *= 100;
     }
+    for (std::size_t p = 0; p < pixels && of_profile_ != channels_; ++p)
+        meant.insert(meant.end(), 3, samples[p]);
+    if (!meant.empty()) samples = meant.data();
     cmsDoTransform(transform_.get(), samples, rgb, static_cast<cmsUInt32Number>(pixels));
 }
 

@@ -12,7 +12,8 @@ namespace culet {
 /// the library reads them.
 class ColourProfile {
 public:
-    /// Of 1 (grey), 3 (R, G, B) or 4 (C, M, Y, K) channels.
+    /// Of 1 (grey), 3 (R, G, B) or 4 (C, M, Y, K) channels. Grey with a profile of R, G, B is that
+    /// with three equal samples.
     ColourProfile(const std::string& bytes, std::size_t channels);
 
     /// Why it cannot be followed; empty: it can.
@@ -23,7 +24,7 @@ public:
     void linear(const float* samples, std::size_t pixels, float* rgb) const;
 
 private:
-    std::size_t channels_;
+    std::size_t channels_, of_profile_;
     std::string trouble_, name_;
     std::shared_ptr<void> transform_;
 };

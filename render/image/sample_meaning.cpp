@@ -212,7 +212,7 @@ ReadPicture linear_picture(DecodedPixels pixels, const std::string& format) {
     read.had_alpha = channels == 4 && !meaning.inks;
     read.was_encoded = !std::holds_alternative<std::vector<float>>(pixels.samples);
     read.white = read.was_encoded ? 1.0f : 0.0f;
-    const std::size_t colours = read.had_alpha ? 3 : channels;
+    const std::size_t colours = meaning.grey ? 1 : read.had_alpha ? 3 : channels;
     const auto profile = profile_for(meaning, colours, read.was_encoded);
     std::visit(
         [&](auto& samples) {

@@ -22,6 +22,7 @@ struct SampleMeaning {
     double exponent = 0;  ///< light = value^exponent; 0: sRGB's curve, of floats the value itself
     std::array<float, 3> factor{1, 1, 1};  ///< of the light of R, G, B, before the primaries
     Primaries primaries = k_srgb_primaries;
+    bool grey = false;        ///< of R, G, B, A: R, G, B are three times one grey
     bool inks = false;        ///< four channels are cyan, magenta, yellow, black; 0: no ink
     bool multiplied = false;  ///< whole numbers: colours are multiplied by alpha
     double pixel_aspect = 1;  ///< width over height of a pixel

@@ -246,10 +246,16 @@ TEST_F(ForeignTiff, ProfilesAreFollowed) {
         EXPECT_THAT(read.notes, ElementsAre(HasSubstr("profile")));
         EXPECT_THAT(read.not_photometric, HasSubstr("profile"));
     }
-    EXPECT_THAT(
-        read(tiff(Words{1}, PHOTOMETRIC_MINISBLACK, SAMPLEFORMAT_UINT, profile(linear_profile())))
-            .not_photometric,
-        HasSubstr("other channels"));
+    EXPECT_THAT(read(tiff(Bytes{1, 2, 3, 4}, PHOTOMETRIC_SEPARATED, SAMPLEFORMAT_UINT,
+                          profile(linear_profile())))
+                    .not_photometric,
+                HasSubstr("other channels"));
+    // Grey is R = G = B.
+    const double grey = 30000 / 65535.0;
+    expect_near(pixel(read(tiff(Words{30000}, PHOTOMETRIC_MINISBLACK, SAMPLEFORMAT_UINT,
+                                profile(linear_profile()))),
+                      0, 0),
+                {grey, grey, grey}, 1e-3);
 }
 
 TEST_F(ForeignTiff, SamplesOfEveryKind) {

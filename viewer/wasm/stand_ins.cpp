@@ -53,7 +53,7 @@ ReadPicture read_picture(const std::filesystem::path& file) {
 }
 
 ColourProfile::ColourProfile(const std::string&, std::size_t channels)
-    : channels_(channels), trouble_("a page follows no ICC profile") {}
+    : channels_(channels), of_profile_(channels), trouble_("a page follows no ICC profile") {}
 bool ColourProfile::is_srgb() const {
     return false;
 }

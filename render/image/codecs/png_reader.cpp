@@ -205,6 +205,7 @@ DecodedPixels decode_png(const std::string& bytes, const std::filesystem::path& 
     const std::size_t width = png_get_image_width(input.png, input.info),
                       height = png_get_image_height(input.png, input.info);
     check_size(width, height, bytes.size(), "PNG", file);
+    const bool grey = (png_get_color_type(input.png, input.info) & PNG_COLOR_MASK_COLOR) == 0;
     if (!prepare_png_rows(input)) throw png_refusal(input, file);
     const std::size_t channels = png_get_channels(input.png, input.info);
     DecodedPixels result{static_cast<int>(width),
@@ -212,6 +213,7 @@ DecodedPixels decode_png(const std::string& bytes, const std::filesystem::path& 
                          static_cast<int>(channels),
                          {},
                          meaning_of_png(input, file)};
+    result.meaning.grey = channels == 4 && grey;
     if (png_get_bit_depth(input.png, input.info) == 16)
         result.samples = png_samples<std::uint16_t>(input, width * channels, height, file);
     else

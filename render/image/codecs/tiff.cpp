@@ -157,6 +157,7 @@ void take_tiff_samples(TIFF* tiff, const TiffInput& input, const TiffLayout& lay
     if (channels == 2) {
         kept = with_grey_thrice(kept);
         result.channels = 4;
+        result.meaning.grey = true;
     }
     result.samples = std::move(kept);
 }
