@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/colour/colour.h"
-#include "render/image/sample_meaning.h"
+#include "render/colour/primaries.h"
 
 namespace culet {
 

@@ -20,7 +20,7 @@
 
 #include "render/image/exr_channels.h"
 #include "render/image/exr_file.h"
-#include "render/image/sample_meaning.h"
+#include "render/image/linear_picture.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -6,8 +6,8 @@
 
 #include "render/image/codecs/codecs.h"
 #include "render/image/image_exr.h"
+#include "render/image/linear_picture.h"
 #include "render/image/picture_format.h"
-#include "render/image/sample_meaning.h"
 #include "render/image/shown_bytes.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"

@@ -23,7 +23,7 @@ struct ReadPicture {
 
 /// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. Pictures are turned upright, and their numbers are
 /// taken as the file says: exposure, primaries, transfer curve, ICC profile, inks
-/// (sample_meaning.h), windows (image_exr.h). Throws InputError: missing, a folder, empty, no
+/// (linear_picture.h), windows (image_exr.h). Throws InputError: missing, a folder, empty, no
 /// picture, cut off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can
 /// hold).
 ReadPicture read_picture(const std::filesystem::path& file);

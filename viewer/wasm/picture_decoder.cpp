@@ -9,6 +9,7 @@
 #include "render/colour/colour.h"
 #include "render/image/codecs/codecs.h"
 #include "render/image/image_io.h"
+#include "render/image/linear_picture.h"
 #include "render/image/picture_format.h"
 #include "stone/errors.h"
 

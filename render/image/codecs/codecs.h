@@ -1,6 +1,6 @@
 #pragma once
 // The picture formats' codecs: bytes of a file to samples and what the file says of them, and back.
-// What follows from that is the business of sample_meaning.h.
+// What follows from that is the business of linear_picture.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/image/sample_meaning.h"
+#include "render/image/codecs/sample_meaning.h"
 
 namespace culet {
 

@@ -1,17 +1,14 @@
 #pragma once
-// What the values of a picture file mean, as the file itself says it. The codecs gather it; here it
-// is followed, for every format, or said.
+// What the values of a picture file mean, as the file itself says it. The codecs gather it; it is
+// followed, or said, in one place for every format: linear_picture.h.
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "render/image/primaries.h"
+#include "render/colour/primaries.h"
 
 namespace culet {
-
-struct DecodedPixels;
-struct ReadPicture;
 
 /// Of Adobe RGB (1998), 4.3.4.2.
 inline constexpr double k_adobe_rgb_exponent = 2.19921875;
@@ -29,11 +26,5 @@ struct SampleMeaning {
     std::vector<std::string> notes;
     std::string not_photometric;  ///< why values do not stand for light; empty: they do
 };
-
-/// A note when pixels are not square.
-void note_pixel_aspect(double aspect, std::vector<std::string>& notes);
-
-/// Linear light of samples. A profile that does not fit them is named in a note.
-ReadPicture linear_picture(DecodedPixels pixels, const std::string& format);
 
 }  // namespace culet

@@ -1,4 +1,4 @@
-#include "render/image/primaries.h"
+#include "render/colour/primaries.h"
 
 #include <cmath>
 #include <glm/mat3x3.hpp>

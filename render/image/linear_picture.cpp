@@ -1,4 +1,4 @@
-#include "render/image/sample_meaning.h"
+#include "render/image/linear_picture.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,7 @@
 #include <variant>
 
 #include "render/colour/colour.h"
-#include "render/image/codecs/codecs.h"
 #include "render/image/colour_profile.h"
-#include "render/image/image_io.h"
 
 namespace culet {
 
