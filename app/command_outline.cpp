@@ -143,13 +143,13 @@ int run_outline(const OutlineArguments& a) {
     write_text(a.out, json.dump() + "\n");
     std::size_t points = 0;
     for (const BackLitOutline& outline : outlines) points += outline.points.size();
-    say(fmt::format("{} outlines, {} points; the stone is {:.3f} to {:.3f} mm wide",
-                    outlines.size(), points, scale * widths.least, scale * widths.largest),
-        a.common.quiet);
     if (!table.trouble.empty()) {
         say(fmt::format("not to be used: {}. {}.", table.trouble, table.remedy), a.common.quiet);
         return exit_untrusted;
     }
+    say(fmt::format("{} outlines, {} points; the stone is {:.3f} to {:.3f} mm wide",
+                    outlines.size(), points, scale * widths.least, scale * widths.largest),
+        a.common.quiet);
     say(fmt::format("axis {:.2f} px from the middle (+- {:.2f}), turned {:.3f} degrees in the "
                     "picture (+- {:.3f}), camera {:.3f} degrees above the table (+- {:.3f}); "
                     "outlines agree within {:.2f} px",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/matrix.hpp>
 #include <numbers>
 #include <numeric>
 
@@ -28,6 +29,9 @@ constexpr double k_loss_px = 1;
 constexpr double k_doubtful_px = 1;
 // Where an angle of the camera is not known to this, outlines tell less of a facet than its name.
 constexpr double k_unknown = radians(1);
+// Of the normal equations' determinant, as part of the product of the diagonal: below this,
+// rounding.
+constexpr double k_singular = 1e-12;
 
 using Hull = std::vector<glm::dvec2>;
 
@@ -184,17 +188,22 @@ int solve(Problem& problem) {
 }
 
 void take_sigmas(Problem& problem, Turntable& table) {
-    ceres::Covariance covariance({});
-    const std::vector<const double*> block{problem.table.data()};
-    if (!covariance.Compute(block, &problem.ceres)) {
-        table.sigma_axis_px = table.sigma_roll = table.sigma_elevation = HUGE_VAL;
-        return;
+    ceres::CRSMatrix slopes;
+    problem.ceres.Evaluate({}, nullptr, nullptr, nullptr, &slopes);
+    glm::dmat3 normal(0);
+    for (std::size_t row = 0; row + 1 < slopes.rows.size(); ++row) {
+        for (int a = slopes.rows[row]; a < slopes.rows[row + 1]; ++a) {
+            for (int b = slopes.rows[row]; b < slopes.rows[row + 1]; ++b)
+                normal[slopes.cols[std::size_t(a)]][slopes.cols[std::size_t(b)]] +=
+                    slopes.values[std::size_t(a)] * slopes.values[std::size_t(b)];
+        }
     }
-    std::array<double, 9> values;
-    covariance.GetCovarianceBlock(problem.table.data(), problem.table.data(), values.data());
-    table.sigma_axis_px = table.residual_px * std::sqrt(values[0]);
-    table.sigma_roll = table.residual_px * std::sqrt(values[4]);
-    table.sigma_elevation = table.residual_px * std::sqrt(values[8]);
+    const double squares = normal[0][0] * normal[1][1] * normal[2][2];
+    const bool is_regular = glm::determinant(normal) > k_singular * squares;
+    const glm::dmat3 inverse = is_regular ? glm::inverse(normal) : glm::dmat3(HUGE_VAL);
+    table.sigma_axis_px = table.residual_px * std::sqrt(inverse[0][0]);
+    table.sigma_roll = table.residual_px * std::sqrt(inverse[1][1]);
+    table.sigma_elevation = table.residual_px * std::sqrt(inverse[2][2]);
 }
 
 void judge(const std::vector<BackLitOutline>& outlines, double step, Turntable& table) {
