@@ -38,9 +38,9 @@ struct PoseLimits {
 };
 
 struct PoseOptions {
-    std::vector<float> mask;       ///< of the photo, from `read_mask`; empty: found in the picture
-    double search = 0.61;          ///< the start's view may be off by this angle (35 degrees) ...
-    bool all_turns = true;         ///< ... besides any turn about the stone's z axis
+    std::vector<float> mask;  ///< of the photo, from `read_mask`; empty: found in the picture
+    double search = 0.61;     ///< the start's view may be off by this angle (35 degrees) ...
+    bool all_turns = true;    ///< ... besides any turn about the stone's z axis
     /// Try the photograph mirrored left to right, too. Of a stone that looks alike in a mirror the
     /// facets' errors alone tell which it is, and a small picture does not show them.
     bool both_chiralities = false;
