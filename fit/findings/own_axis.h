@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fit/findings/findings.h"
-#include "stone/axis_groups.h"
 #include "fit/uncertainty/covariance.h"
+#include "stone/axis_groups.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fit/findings/findings.h"
-#include "stone/axis_groups.h"
 #include "fit/model/linear.h"
+#include "stone/axis_groups.h"
 
 namespace culet {
 

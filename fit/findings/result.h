@@ -103,7 +103,7 @@ struct SolidChecks {
 struct FitStatistics {
     /// Beside a prior of the readings alone, one value for several facets counting once.
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
-    double chi2_low_p = 1;  ///< chance of a chi-square as small
+    double chi2_low_p = 1;     ///< chance of a chi-square as small
     double suspect_limit = 0;  ///< of |normalized|
     int rank_defect = 0;       ///< parameters of the shape that nothing fixes
     MeetReport meets;
