@@ -1,6 +1,7 @@
 // PLY (Turk 1994): a text header that declares elements and their properties, then the elements as
 // text or in binary of either byte order. Vertices need x, y, z; faces a list vertex_indices (or
-// vertex_index); everything else is passed over.
+// vertex_index), and so do triangle strips (element tristrips, as Stanford's scans have them, where
+// -1 ends a strip); everything else is passed over, whatever it holds.
 
 #include <fmt/format.h>
 
@@ -78,17 +79,12 @@ public:
             // An element without properties takes no room, however many there are.
             if (element.properties.empty()) continue;
             has_vertices |= element.name == "vertex";
-            has_faces |= element.name == "face";
+            has_faces |= element.name == "face" || element.name == "tristrips";
             read_element(element);
         }
-        for (const Element& element : elements_) {
-            if (element.name != "tristrips" || element.count == 0) continue;
-            throw InputError(file_,
-                             "has triangle strips (element tristrips), which are not read: export "
-                             "it with faces");
-        }
         if (!has_vertices || !has_faces || soup_.vertices.empty() || soup_.faces.empty()) {
-            throw InputError(file_, "holds no mesh: it needs elements vertex and face");
+            throw InputError(file_,
+                             "holds no mesh: it needs elements vertex and face (or tristrips)");
         }
         for (std::size_t f = 0; f < soup_.faces.size(); ++f) {
             for (const int corner : soup_.faces[f].corners) {
@@ -184,9 +180,17 @@ private:
         }
     }
 
-    /// Text that is no number matters only where a number is `wanted`.
-    double next_scalar(Scalar type, bool wanted = true) {
-        if (form_ == Form::text) return next_word(wanted);
+    // Of a value that nobody needs it does not matter what it is.
+    void pass_over(Scalar type) {
+        if (form_ == Form::text) {
+            find_word();
+        } else {
+            next_scalar(type);
+        }
+    }
+
+    double next_scalar(Scalar type) {
+        if (form_ == Form::text) return next_word();
         const std::size_t size = size_of(type);
         if (bytes_.size() - position_ < size) {
             throw InputError(file_, fmt::format("ends in the middle of element {}: is it cut "
@@ -228,7 +232,8 @@ private:
         return value;
     }
 
-    double next_word(bool wanted) {
+    // Sets `word_`; returns where it begins.
+    std::size_t find_word() {
         constexpr std::string_view blanks = " \t\r\n\v\f";
         const std::size_t start = bytes_.find_first_not_of(blanks, position_);
         if (start == std::string_view::npos) {
@@ -239,13 +244,18 @@ private:
         const std::size_t end = std::min(bytes_.find_first_of(blanks, start), bytes_.size());
         word_ = bytes_.substr(start, end - start);
         position_ = end;
+        return start;
+    }
+
+    double next_word() {
+        const std::size_t start = find_word();
         const auto number = number_in(word_);
-        if (!number && wanted) {
+        if (!number) {
             const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + start, '\n');
             throw InputError(file_, line,
                              fmt::format("{}, in element {}", not_a_number(word_), current_));
         }
-        return number.value_or(0);
+        return *number;
     }
 
     std::int64_t next_count(Scalar type) {
@@ -258,50 +268,90 @@ private:
         return static_cast<std::int64_t>(count);
     }
 
-    void read_element(const Element& element) {
-        const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+    // Which properties of an element are the coordinates and the corners; -1: none.
+    struct Wanted {
         int axis_of[3] = {-1, -1, -1};
         int corners = -1;
+    };
+    Wanted wanted_of(const Element& element, bool is_vertex, bool is_face) const {
+        Wanted wanted;
         for (int p = 0; p < static_cast<int>(element.properties.size()); ++p) {
             const Property& property = element.properties[p];
             if (is_vertex && !property.count_type) {
                 for (int axis = 0; axis < 3; ++axis) {
-                    if (property.name == std::string_view("xyz").substr(axis, 1)) axis_of[axis] = p;
+                    if (property.name == std::string_view("xyz").substr(axis, 1))
+                        wanted.axis_of[axis] = p;
                 }
             }
             if (is_face && property.count_type &&
                 (property.name == "vertex_indices" || property.name == "vertex_index")) {
-                corners = p;
+                wanted.corners = p;
             }
         }
+        const int* axis_of = wanted.axis_of;
         if (is_vertex && (axis_of[0] < 0 || axis_of[1] < 0 || axis_of[2] < 0)) {
             throw InputError(file_, "element vertex needs the properties x, y and z");
         }
-        if (is_face && corners < 0) {
-            throw InputError(file_, "element face needs the list property vertex_indices");
+        if (is_face && wanted.corners < 0) {
+            throw InputError(file_, fmt::format("element {} needs the list property vertex_indices",
+                                                element.name));
         }
+        return wanted;
+    }
+
+    void read_element(const Element& element) {
+        const bool is_vertex = element.name == "vertex", is_strip = element.name == "tristrips",
+                   is_face = element.name == "face" || is_strip;
+        const Wanted wanted = wanted_of(element, is_vertex, is_face);
         for (std::int64_t i = 0; i < element.count; ++i) {
             current_ = fmt::format("{} {} of {}", shown(element.name), i, element.count);
             Vec3 vertex{0, 0, 0};
-            SoupFace face;
+            std::vector<double> corners;
             for (int p = 0; p < static_cast<int>(element.properties.size()); ++p) {
                 const Property& property = element.properties[p];
                 if (property.count_type) {
                     const std::int64_t count = next_count(*property.count_type);
                     for (std::int64_t k = 0; k < count; ++k) {
-                        const double value = next_scalar(property.type, p == corners);
-                        if (p == corners && is_face) face.corners.push_back(corner_at(value));
+                        if (p == wanted.corners) {
+                            corners.push_back(next_scalar(property.type));
+                        } else {
+                            pass_over(property.type);
+                        }
                     }
                     continue;
                 }
-                const bool wanted = std::find(axis_of, axis_of + 3, p) != axis_of + 3;
-                const double value = next_scalar(property.type, wanted);
-                for (int axis = 0; is_vertex && axis < 3; ++axis) {
-                    if (axis_of[axis] == p) vertex[axis] = coordinate(value, property.type);
+                const auto* axis = std::find(wanted.axis_of, wanted.axis_of + 3, p);
+                if (axis == wanted.axis_of + 3) {
+                    pass_over(property.type);
+                } else {
+                    vertex[int(axis - wanted.axis_of)] =
+                        coordinate(next_scalar(property.type), property.type);
                 }
             }
             if (is_vertex) soup_.vertices.push_back(vertex);
-            if (is_face) soup_.faces.push_back(std::move(face));
+            if (is_strip) {
+                add_strips(corners);
+            } else if (is_face) {
+                soup_.faces.emplace_back();
+                for (const double corner : corners)
+                    soup_.faces.back().corners.push_back(corner_at(corner));
+            }
+        }
+    }
+
+    // Every other triangle of a strip runs the other way.
+    void add_strips(const std::vector<double>& corners) {
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            if (corners[i] == -1) {
+                first = i + 1;
+                continue;
+            }
+            if (i < first + 2) continue;
+            int a = corner_at(corners[i - 2]), b = corner_at(corners[i - 1]);
+            if ((i - first) % 2 == 1) std::swap(a, b);
+            soup_.faces.emplace_back();
+            soup_.faces.back().corners = {a, b, corner_at(corners[i])};
         }
     }
 
