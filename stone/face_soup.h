@@ -19,6 +19,7 @@ struct SoupFace {
     std::vector<int> corners;
     int name = -1;               ///< index into FaceSoup::names; -1: the file gives none
     Vec3 given_normal{0, 0, 0};  ///< STL; zero: none
+    bool turned = false;         ///< by `orient_faces`
 };
 
 struct FaceSoup {
@@ -50,6 +51,15 @@ double merging_tolerance(const FaceSoup& soup, double size);
 /// Puts one vertex in the place of those that coincide, first exactly, then, if the surface is open
 /// still, of those no further apart than rounding explains.
 void weld_vertices(FaceSoup& soup);
+
+/// Leaves out faces with the same corners as an earlier one, run round either way, where each edge
+/// has two faces then. For welded vertices.
+void drop_repeated_faces(FaceSoup& soup);
+
+/// Turns faces round until neighbours run along their edge in opposite ways, of each connected part
+/// the fewer, and all of them where the volume is negative then. A surface that has an edge of one
+/// face or of more than two, or one side only, is left as it is.
+void orient_faces(FaceSoup& soup);
 
 /// For each face the facet that it is part of, numbered in the order of their first faces.
 std::vector<int> facet_of_face(const FaceSoup& soup, double tolerance);

@@ -22,6 +22,7 @@ struct Outline {
     std::vector<int> corners;
     int name = -1;
     Vec3 given_normal{0, 0, 0};
+    bool turned = false;
 };
 
 std::vector<Vec3> loop_of(const FaceSoup& soup, const std::vector<int>& corners) {
@@ -142,13 +143,16 @@ std::vector<Outline> merge_faces(FaceSoup& soup, double tolerance) {
         const SoupFace& first = soup.faces[faces.front()];
         std::vector<int> outline = faces.size() > 1 ? outline_of(soup, faces) : first.corners;
         if (!outline.empty()) {
-            outlines.push_back({std::move(outline), first.name, first.given_normal});
+            const bool turned = std::any_of(faces.begin(), faces.end(),
+                                            [&](int f) { return soup.faces[f].turned; });
+            outlines.push_back({std::move(outline), first.name, first.given_normal, turned});
             continue;
         }
         // With a hole, or touching itself in a corner: not one loop, so no facet.
         ++holed;
         for (const int f : faces) {
-            outlines.push_back({soup.faces[f].corners, soup.faces[f].name, {}});
+            outlines.push_back(
+                {soup.faces[f].corners, soup.faces[f].name, {}, soup.faces[f].turned});
         }
     }
     if (outlines.size() < soup.faces.size()) {
@@ -225,6 +229,34 @@ void tell_unused_vertices(FaceSoup& soup) {
     }
 }
 
+void tell_turned_facets(const std::vector<Outline>& outlines, const Solid& solid, FaceSoup& soup) {
+    constexpr int k_most_named = 5;
+    std::string names;
+    int count = 0;
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        if (!outlines[i].turned) continue;
+        if (++count <= k_most_named)
+            names += (count == 1 ? "" : ", ") + shown(solid.facets[i].name);
+    }
+    if (count == 0) return;
+    if (std::all_of(soup.faces.begin(), soup.faces.end(),
+                    [](const SoupFace& face) { return face.turned; })) {
+        soup.notes.emplace_back(
+            "the mesh was inside out (its faces ran clockwise as seen from outside): all faces "
+            "were turned round");
+    } else if (count == 1) {
+        soup.notes.push_back(fmt::format(
+            "facet {} was inside out (it ran the other way round than its neighbours): it was "
+            "turned round",
+            names));
+    } else {
+        soup.notes.push_back(fmt::format(
+            "{} facets were inside out (they ran the other way round than their neighbours): {}{} "
+            "were turned round",
+            count, names, count > k_most_named ? ", ..." : ""));
+    }
+}
+
 }  // namespace
 
 ReadSolid solid_from_faces(FaceSoup soup) {
@@ -235,11 +267,18 @@ ReadSolid solid_from_faces(FaceSoup soup) {
     const double tolerance = merging_tolerance(soup, size);
     std::vector<Outline> outlines;
     if (stated == StatedPlanes::all) {
-        for (SoupFace& face : soup.faces)
-            outlines.push_back({std::move(face.corners), face.name, {}});
+        orient_faces(soup);
+        for (std::size_t i = 0; i < soup.faces.size(); ++i) {
+            SoupFace& face = soup.faces[i];
+            Plane& plane = soup.planes[i].plane;
+            if (face.turned) plane = {-plane.normal, -plane.offset};
+            outlines.push_back({std::move(face.corners), face.name, {}, face.turned});
+        }
     } else {
         weld_vertices(soup);
         drop_collapsed_faces(soup);
+        drop_repeated_faces(soup);
+        orient_faces(soup);
         outlines = merge_faces(soup, tolerance);
         drop_straight_corners(soup, outlines, tolerance);
     }
@@ -270,6 +309,7 @@ ReadSolid solid_from_faces(FaceSoup soup) {
         for (const int corner : outlines[i].corners) facet.corners.push_back(index[corner]);
         result.solid.facets.push_back(std::move(facet));
     }
+    tell_turned_facets(outlines, result.solid, soup);
     result.notes = std::move(soup.notes);
     result.planes_stated = stated == StatedPlanes::all;
     return result;
