@@ -16,6 +16,8 @@
 #include "render/scene/transform.h"
 #include "render/scene/turned_lights.h"
 #include "render/scene/view_presets.h"
+#include "render/setup/scene_checks.h"
+#include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/stone_io.h"
@@ -47,6 +49,23 @@ std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) 
     return view;
 }
 
+// A mesh of which nobody says whether it is convex: one that is not, by more than meets of designs
+// miss, is drawn as it is. Bent facets have no other surface than their planes.
+void judge_convexity(Stone& stone, std::vector<std::string>& notes) {
+    const CheckLimits limits{.planarity = k_largest_miss, .must_be_convex = false};
+    if (is_convex(stone.solid) || !find_faults(stone.solid, limits).empty()) return;
+    const double apart = distance_from_planes_body(stone.solid);
+    if (apart <= k_largest_miss * diameter(stone.solid)) return;
+    stone.convex = false;
+    notes.push_back(fmt::format(
+        "{} is not convex{}: it is drawn as it is (convex = true draws what its planes bound)",
+        stone.name,
+        std::isfinite(apart) ? fmt::format(", its corners stand up to {:.2g} {} out of what its "
+                                           "planes bound",
+                                           apart, name_of(stone.unit))
+                             : ""));
+}
+
 // A stone file (under `file_key`) or a mesh, and what the table says beside it.
 Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::string>& notes) {
     Stone stone;
@@ -60,6 +79,8 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
         if (!table.has("material")) require_material(file, *table.path(file_key));
         stone = std::move(file.stone);
         for (std::string& note : file.notes) notes.push_back(std::move(note));
+        if (!read_toml(*table.path(file_key)).table("stone")->has("convex"))
+            judge_convexity(stone, notes);
     } else {
         SolidFile file = read_solid(*table.path("mesh"));
         stone.solid = std::move(file.solid);
@@ -72,6 +93,7 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
             stone.unit = *known;
         }
         stone.convex = table.boolean("convex").value_or(true);
+        if (!table.has("convex")) judge_convexity(stone, notes);
     }
     apply_words_beside(table, stone);
     return stone;

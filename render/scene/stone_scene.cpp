@@ -13,7 +13,7 @@
 #include "stone/gemcad_io.h"
 #include "stone/material.h"
 #include "stone/material_io.h"
-#include "stone/mesh_io.h"
+#include "stone/solid_input.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -29,11 +29,12 @@ enum class InputKind { scene, stone, mesh, cut };
 InputKind input_kind_of(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     if (extension == "asc" || extension == "gem") return InputKind::cut;
-    if (mesh_format(file)) return InputKind::mesh;
+    if (is_solid_file(file)) return InputKind::mesh;
     if (extension != "toml") {
-        throw InputError(file,
-                         "is no scene, stone (.toml), mesh (.obj .off .ply .stl) or cut design "
-                         "(.asc .gem)");
+        throw InputError(
+            file,
+            "is no scene, stone (.toml), mesh (.obj .off .ply .stl .glb) or cut design "
+            "(.asc .gem)");
     }
     const TomlTable root = read_toml(file);
     if (root.kind("stone") == TomlTable::Kind::table) return InputKind::stone;

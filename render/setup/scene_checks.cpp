@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "render/geometry/stone_body.h"
 #include "render/optics/path.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -56,6 +59,22 @@ void require_drawable(const Stone& stone) {
             }
         }
     }
+}
+
+double distance_to_facet(const Solid& solid, const Facet& facet, const Vec3& point) {
+    double to_edge = std::numeric_limits<double>::infinity();
+    bool above = true;  // of the facet itself, not of a place beside it
+    for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+        const auto corner = [&](std::size_t k) {
+            return solid.vertices[std::size_t(facet.corners[k % facet.corners.size()])];
+        };
+        const Vec3 a = corner(i), side = corner(i + 1) - a, to = point - a;
+        if (glm::dot(glm::cross(facet.plane.normal, side), to) < 0) above = false;
+        const double length2 = glm::dot(side, side);
+        const double t = length2 > 0 ? std::clamp(glm::dot(to, side) / length2, 0.0, 1.0) : 0;
+        to_edge = std::min(to_edge, glm::length(to - t * side));
+    }
+    return above ? std::abs(height_above(facet.plane, point)) : to_edge;
 }
 
 bool holds(const Shape& shape, const Vec3& point) {
@@ -115,14 +134,38 @@ void require_outside(const StoneBody& body, const Camera& camera) {
         throw InputError("the camera is inside the stone: move camera.position out");
 }
 
+double distance_from_planes_body(const Solid& solid) {
+    std::vector<NamedPlane> planes;
+    for (const Facet& facet : solid.facets) planes.push_back({facet.name, facet.plane});
+    const Solid body = intersect_half_spaces(planes).solid;
+    if (body.facets.empty()) return std::numeric_limits<double>::infinity();
+    double largest = 0;
+    for (const Vec3& corner : solid.vertices) {
+        double nearest = std::numeric_limits<double>::infinity();
+        bool outside = false;
+        for (const Facet& facet : body.facets) {
+            if (height_above(facet.plane, corner) <= 0) continue;
+            outside = true;
+            nearest = std::min(nearest, distance_to_facet(body, facet, corner));
+        }
+        if (outside) largest = std::max(largest, nearest);
+    }
+    return largest;
+}
+
 std::vector<std::string> notes_on_drawing(const Scene& scene) {
-    if (!scene.has_stone()) return {};
-    const double off = planarity(scene.stone.solid) / diameter(scene.stone.solid);
-    if (!(off > k_largest_miss)) return {};
-    return {
-        fmt::format("{}: corners lie up to {:.2g} of the diameter off their facets' planes: what "
-                    "the planes bound is drawn",
-                    scene.stone.name, off)};
+    if (!scene.has_stone() || !scene.stone.convex) return {};
+    const Solid& solid = scene.stone.solid;
+    const double off = planarity(solid) / diameter(solid);
+    const bool bent = off > k_largest_miss;
+    if (!bent && is_convex(solid)) return {};
+    const double apart = distance_from_planes_body(solid);
+    if (!bent && apart <= k_largest_miss * diameter(solid)) return {};
+    return {fmt::format(
+        "{}: {}: what the planes bound is drawn, up to {:.2g} {} from the mesh", scene.stone.name,
+        bent ? fmt::format("corners lie up to {:.2g} of the diameter off their facets' planes", off)
+             : "the mesh is not convex and is to be drawn as convex",
+        apart, name_of(scene.stone.unit))};
 }
 
 }  // namespace culet
