@@ -218,6 +218,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     SceneExtras extras;
     if (a.against_scene()) {
         scene = read_scene(a.against(), a.common.set);
+        for (const std::string& note : scene->notes) say(note, a.common.quiet);
         scene->settings.threads = a.common.threads;
         if (!a.start.empty()) extras.start = load_solid(a.start).solid;
         if (!a.uncertainty.empty())

@@ -50,9 +50,9 @@ int run_fit(const FitCommand& command) {
     require_writable(command.drawing);
     require_kind(command.stone, {FileKind::stone}, "culet fit", command.common.set);
     StoneFile file = read_stone(command.stone, command.common.set);
-    for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
-    const FitInput input = fit_input(file.stone, read_readings(command.stone, command.common.set));
+    FitInput input = fit_input(file.stone, read_readings(command.stone, command.common.set));
+    input.notes.insert(input.notes.begin(), file.notes.begin(), file.notes.end());
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
     if (command.starts > 0) options.starts = command.starts;

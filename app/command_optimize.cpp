@@ -201,6 +201,9 @@ int run_optimize(OptimizeCommand command) {
         print_result(result, command);
         if (result.found && !result.interrupted) print_losses(result, options);
     }
+    // The last one of a fit that is not trusted is told below.
+    for (std::size_t i = 0; i + (input.trusted ? 0 : 1) < input.notes.size(); ++i)
+        say(fmt::format("{}: {}", input.file, input.notes[i]), command.common.quiet);
     if (result.interrupted) {
         say(fmt::format("interrupted after {} of about {} cuts: {} is the best until then",
                         result.evaluations, options.evaluations, command.out),

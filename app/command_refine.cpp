@@ -82,7 +82,8 @@ int run_refine(const RefineArguments& a) {
     require_writable(a.report);
     StoneFile file = read_stone(a.files.front());
     require_material(file, a.files.front());
-    const FitInput input = fit_input(file.stone, read_readings(a.files.front()));
+    FitInput input = fit_input(file.stone, read_readings(a.files.front()));
+    input.notes.insert(input.notes.begin(), file.notes.begin(), file.notes.end());
     RefineOptions options;
     options.fit = read_fit_options(a.files.front());
     options.find_pose = !a.keep_pose;

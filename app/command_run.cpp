@@ -101,6 +101,7 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
         StoneFile& file = input.file = read_stone(job.stone);
         if (!job.scene.empty()) require_material(file, job.stone);
         input.fit = fit_input(file.stone, read_readings(job.stone));
+        input.fit.notes.insert(input.fit.notes.begin(), file.notes.begin(), file.notes.end());
         file.stone = input.fit.stone;
         input.fit_options = read_fit_options(job.stone);
     }

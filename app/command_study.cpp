@@ -52,9 +52,9 @@ int run_study(const StudyCommand& command) {
     refuse(command, command.size_given, "scenes");
     refuse(command, command.runs_given, "scenes");
     StoneFile file = read_stone(command.input, command.common.set);
-    for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
-    const FitInput input = fit_input(file.stone, read_readings(command.input, command.common.set));
+    FitInput input = fit_input(file.stone, read_readings(command.input, command.common.set));
+    input.notes.insert(input.notes.begin(), file.notes.begin(), file.notes.end());
     for (const std::string& note : input.notes) say(note, command.common.quiet);
     if (input.readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");

@@ -8,6 +8,7 @@
 #include "fit/silhouettes/silhouette_fit.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/errors.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -74,6 +75,24 @@ void judge_outlines(const OutlineKnowledge& told, FitResult& result) {
 }
 
 }  // namespace
+
+std::vector<WrittenReading> outlines_turned(const Vec3& file_up,
+                                            std::vector<WrittenReading> written) {
+    if (file_up == Vec3{0, 0, 1}) return written;
+    const glm::dmat3 turn = turn_upright(file_up);
+    for (WrittenReading& reading : written) {
+        if (!reading.outlines || reading.outlines->is_free) continue;
+        auto set = std::make_shared<SilhouetteSet>(*reading.outlines);
+        for (std::vector<Contour>* contours : {&set->contours, &set->held_out}) {
+            for (Contour& contour : *contours) {
+                contour.direction = turn * contour.direction;
+                for (Vec3& point : contour.points) point = turn * point;
+            }
+        }
+        reading.outlines = std::move(set);
+    }
+    return written;
+}
 
 TakenOutlines take_outlines(const Stone& mesh, const std::vector<WrittenReading>& written) {
     TakenOutlines taken;

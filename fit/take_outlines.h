@@ -12,6 +12,10 @@
 
 namespace culet {
 
+/// Outlines in the mesh's frame turn with the mesh (Stone::file_up).
+std::vector<WrittenReading> outlines_turned(const Vec3& file_up,
+                                            std::vector<WrittenReading> written);
+
 struct TakenOutlines {
     Stone stone;                    ///< the mesh as the outlines show it
     std::vector<Reading> readings;  ///< of kind silhouette; empty: there are no outlines

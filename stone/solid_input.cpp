@@ -1,21 +1,95 @@
 #include "stone/solid_input.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
 #include "stone/errors.h"
+#include "stone/face_soup.h"
 #include "stone/file_kind.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
+#include "stone/surface_mesh.h"
+#include "stone/upright.h"
 
 namespace culet {
 
-bool is_solid_file(const std::filesystem::path& file) {
-    const std::string extension = extension_of(file);
-    return mesh_format(file).has_value() || extension == "asc" || extension == "gem";
+namespace {
+
+// Areas go with the fourth power before a root is taken, and edges may be 1e-13 of the whole: what
+// is larger or smaller runs out of a double's exponents, and is no unit that a stone is measured
+// in.
+constexpr double k_largest_coordinate = 1e50, k_smallest_extent = 1e-50;
+
+void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
+    if (solid.vertices.empty()) return;
+    double largest = 0, extent = 0;
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+        extent = std::max(extent, width_along(solid, axis));
+        for (const Vec3& v : solid.vertices)
+            largest = std::max(largest, std::abs(glm::dot(axis, v)));
+    }
+    if (largest > k_largest_coordinate || (extent > 0 && extent < k_smallest_extent)) {
+        throw InputError(
+            file, fmt::format("has coordinates up to {:.2g} and is {:.2g} across: between {:g} and "
+                              "{:g} can be computed with; write it in another unit",
+                              largest, extent, k_smallest_extent, k_largest_coordinate));
+    }
 }
 
-SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
+// glTF counts metres in single precision (specification, 3.4 and 3.6.2); a stone, millimetres.
+ReadSolid solid_of_gltf(const std::filesystem::path& file) {
+    TriangleMesh mesh = read_triangle_mesh(file);
+    FaceSoup soup;
+    for (const Vec3& v : mesh.vertices) {
+        soup.vertices.push_back(mm_per(LengthUnit::m) * v);
+        for (int k = 0; k < 3; ++k) soup.precision.add_single(soup.vertices.back()[k]);
+    }
+    for (const auto& t : mesh.triangles) {
+        soup.faces.emplace_back();
+        soup.faces.back().corners.assign(t.begin(), t.end());
+    }
+    return solid_from_faces(std::move(soup));
+}
+
+// Diameters of stones lie between these, in mm. A mesh that counts metres or micrometres gets a
+// word about it, nothing more.
+constexpr double k_smallest_stone = 0.05, k_largest_stone = 500;
+
+void hint_at_unit(SolidInput& input) {
+    const double size = diameter(input.solid);
+    if (!(size > 0) || (size >= k_smallest_stone && size <= k_largest_stone)) return;
+    input.notes.push_back(fmt::format(
+        "it is {:.3g} across, which in mm is no stone: state the file's unit in a stone file "
+        "(unit = \"m\"), or its true width (--width)",
+        size));
+}
+
+// Turns a mesh whose table faces another way than +z, and says so.
+void stand_up(SolidInput& input) {
+    const std::optional<int> table = table_by_shape(input.solid);
+    if (!table) return;
+    const Facet& facet = input.solid.facets[static_cast<std::size_t>(*table)];
+    const Vec3 up = axis_near(facet.plane.normal);
+    if (up == Vec3{0, 0, 1}) return;
+    input.notes.push_back(fmt::format(
+        "its table, facet {}, faces {}: the stone was turned so that it faces up (+z); should the "
+        "stone stand as the file has it, say so in a stone file: up = [0, 0, 1]",
+        shown(facet.name), words_for_direction(up)));
+    input.solid = turned(std::move(input.solid), turn_upright(up));
+    input.file_up = up;
+}
+
+bool is_cut(const std::string& extension) {
+    return extension == "asc" || extension == "gem";
+}
+
+SolidInput solid_in(const std::filesystem::path& file, const CutReading& how, Standing standing) {
     SolidInput input;
     input.format = extension_of(file);
-    if (input.format == "asc" || input.format == "gem") {
+    if (is_cut(input.format)) {
         ReadCut cut =
             input.format == "asc" ? read_gemcad_asc(file, how) : read_gemcad_gem(file, how);
         input.solid = std::move(cut.solid);
@@ -24,19 +98,42 @@ SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) 
         input.sheet = std::move(cut.sheet);
         input.unused_planes = std::move(cut.unused_planes);
         input.repeated_planes = std::move(cut.repeated_planes);
+        input.facets_are_whole = true;
+        require_sane_size(input.solid, file);
         return input;
     }
-    if (!is_solid_file(file)) {
+    if (!mesh_format(file) && !is_gltf(file)) {
         if (const std::string other = foreign_kind_of(file); !other.empty())
             throw InputError(file, other);
         throw InputError(file,
                          "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, "
-                         ".stl, .asc or .gem");
+                         ".stl, .gltf, .glb, .asc or .gem");
     }
-    ReadSolid mesh = read_mesh(file);
+    ReadSolid mesh = is_gltf(file) ? solid_of_gltf(file) : read_mesh(file);
     input.solid = std::move(mesh.solid);
     input.notes = std::move(mesh.notes);
+    input.facets_are_whole = mesh.planes_stated;
+    require_sane_size(input.solid, file);
+    if (standing == Standing::upright) stand_up(input);
     return input;
+}
+
+}  // namespace
+
+bool is_solid_file(const std::filesystem::path& file) {
+    return mesh_format(file).has_value() || is_gltf(file) || is_cut(extension_of(file));
+}
+
+SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
+    SolidInput input = solid_in(file, how, Standing::upright);
+    if (!input.sheet) hint_at_unit(input);
+    return input;
+}
+
+SolidFile read_solid(const std::filesystem::path& file, Standing standing) {
+    SolidInput input = solid_in(file, {}, standing);
+    return {std::move(input.solid), std::move(input.notes), std::move(input.details),
+            input.facets_are_whole, input.file_up};
 }
 
 }  // namespace culet

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stone/gemcad_io.h"
-#include "stone/solid.h"
+#include "stone/stone.h"
 
 namespace culet {
 
@@ -18,12 +18,19 @@ struct SolidInput {
     std::vector<std::string> details;  ///< as in ReadCut
     std::optional<CutSheet> sheet;     ///< of a cut design
     std::vector<std::string> unused_planes, repeated_planes;
+    bool facets_are_whole = false;  ///< see Stone
+    Vec3 file_up{0, 0, 1};          ///< see Stone
 };
 
 /// True for the extensions that `load_solid` reads.
 bool is_solid_file(const std::filesystem::path& file);
 
-/// Throws InputError for an extension that it does not know, naming those that it does.
+/// Every command gets its stone here. A mesh whose shape shows that its table faces another way
+/// than +z (`table_by_shape`) is turned about the origin until it does, and a note says so; another
+/// note says where the size is none of a stone in mm. glTF's metres become mm.
+///
+/// Throws InputError for an extension that it does not know, naming those that it does, for
+/// coordinates beyond 1e50, and for a mesh less than 1e-50 across.
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
 
 }  // namespace culet

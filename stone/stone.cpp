@@ -28,31 +28,6 @@ double azimuth(const Vec3& normal) {
     return turned < 2 * std::numbers::pi ? turned : 0.0;
 }
 
-namespace {
-
-// Areas go with the fourth power before a root is taken, and edges may be 1e-13 of the whole: what
-// is larger or smaller runs out of a double's exponents, and is no unit that a stone is measured
-// in.
-constexpr double k_largest_coordinate = 1e50, k_smallest_extent = 1e-50;
-
-void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
-    if (solid.vertices.empty()) return;
-    double largest = 0, extent = 0;
-    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
-        extent = std::max(extent, width_along(solid, axis));
-        for (const Vec3& v : solid.vertices)
-            largest = std::max(largest, std::abs(glm::dot(axis, v)));
-    }
-    if (largest > k_largest_coordinate || (extent > 0 && extent < k_smallest_extent)) {
-        throw InputError(
-            file, fmt::format("has coordinates up to {:.2g} and is {:.2g} across: between {:g} and "
-                              "{:g} can be computed with; write it in another unit",
-                              largest, extent, k_smallest_extent, k_largest_coordinate));
-    }
-}
-
-}  // namespace
-
 std::string doubtful_size(const Solid& solid) {
     // The least stones that are cut are half a millimetre wide, the largest below 0.2 m.
     constexpr double k_least_mm = 0.3, k_largest_mm = 200, k_mm_per_m = 1000;
@@ -64,24 +39,6 @@ std::string doubtful_size(const Solid& solid) {
         "stone file (unit = \"m\", \"cm\", \"in\")",
         across, across < k_least_mm ? "small" : "large",
         metres ? fmt::format("if it is in metres, {:.4g} mm across, ", k_mm_per_m * across) : "");
-}
-
-SolidFile read_solid(const std::filesystem::path& file) {
-    const std::string extension = extension_of(file);
-    SolidFile read;
-    if (extension == "asc" || extension == "gem") {
-        ReadCut cut = extension == "asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
-        read = {std::move(cut.solid), std::move(cut.notes), std::move(cut.details), true};
-    } else if (mesh_format(file)) {
-        ReadSolid mesh = read_mesh(file);
-        read = {std::move(mesh.solid), std::move(mesh.notes), {}, mesh.planes_stated};
-    } else {
-        throw InputError(file,
-                         "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, .stl, "
-                         ".asc or .gem");
-    }
-    require_sane_size(read.solid, file);
-    return read;
 }
 
 void require_solid_name(const std::filesystem::path& file) {

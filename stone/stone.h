@@ -29,6 +29,9 @@ struct Stone {
     CrystalFrame crystal;
     std::string up_facet;  ///< facet whose normal is up; empty: `up` is given as a vector
     Vec3 up{0, 0, 1};      ///< unit; inclinations are measured from it
+    /// The unit direction of the mesh file that was turned to +z (upright.h). Directions and places
+    /// that a stone file states are the file's.
+    Vec3 file_up{0, 0, 1};
     bool azimuth_from_mesh =
         false;  ///< azimuths count from the mesh's +x (else their zero is free)
     bool convex = true;
@@ -43,16 +46,18 @@ double inclination(const Vec3& normal, const Vec3& up);
 /// Azimuth of a normal about +z, radians in [0, 2 pi), counter-clockwise from +x seen from above.
 double azimuth(const Vec3& normal);
 
-/// The mesh or cut file IN FILE's format (.obj .off .ply .stl .asc .gem), checked for nothing but
-/// its size. Throws InputError for an unknown extension, coordinates beyond 1e50, and a mesh less
-/// than 1e-50 across.
+/// What `load_solid` (solid_input.h) reads, as a stone file takes it.
 struct SolidFile {
     Solid solid;
     std::vector<std::string> notes;
     std::vector<std::string> details;  ///< of cut files, as in ReadCut
     bool facets_are_whole = false;     ///< see Stone
+    Vec3 file_up{0, 0, 1};             ///< see Stone
 };
-SolidFile read_solid(const std::filesystem::path& file);
+
+/// How a mesh is to stand: table up by its shape, or as the file has it.
+enum class Standing { upright, as_given };
+SolidFile read_solid(const std::filesystem::path& file, Standing standing = Standing::upright);
 
 /// What is odd about a mesh of this size if it is in mm, and what to do; empty: nothing.
 std::string doubtful_size(const Solid& solid);

@@ -8,6 +8,7 @@
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/perpendicular.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -16,9 +17,10 @@ namespace {
 constexpr const char* k_no_material =
     "has no material: name one of the catalogue (material = \"diamond\") or add a [material] table";
 
-// The largest of the facets that look up more than sideways, or -1: what `up = "table"` means in a
-// mesh whose facets have no names.
+// What `up = "table"` means in a mesh whose facets have no names: the table by its shape, or else
+// the largest of the facets that look up more than sideways, or -1.
 int table_of(const Solid& solid) {
+    if (const auto table = table_by_shape(solid)) return *table;
     int best = -1;
     double best_area = 0;
     for (std::size_t i = 0; i < solid.facets.size(); ++i) {
@@ -38,6 +40,23 @@ Vec3 unit_vector(const TomlTable& table, const char* key, const Vec3& value) {
         table.fail(key, fmt::format("{} must not be the zero vector", key));
     }
     return value / length;
+}
+
+// Turns the stone so that its `up` faces +z, and what the file says of the mesh's frame with it. A
+// facet that names `up` may be tilted as tables are.
+void stand_as_stated(bool crystal_is_given, StoneFile& file) {
+    Stone& stone = file.stone;
+    const Vec3 up = stone.up_facet.empty() ? stone.up : axis_near(stone.up);
+    if (up != Vec3{0, 0, 1}) {
+        file.notes.push_back(fmt::format(
+            "up of the stone file is {} of the mesh: the stone was turned so that it faces +z",
+            words_for_direction(up)));
+        stone.file_up = up;
+        stone.solid = turned(std::move(stone.solid), turn_upright(up));
+        stone.up = stone.up_facet.empty() ? Vec3{0, 0, 1} : turn_upright(up) * stone.up;
+    }
+    if (!crystal_is_given) return;
+    for (Vec3& axis : stone.crystal.axes) axis = turn_upright(stone.file_up) * axis;
 }
 
 }  // namespace
@@ -138,8 +157,10 @@ StoneFile stone_of(const TomlTable& root) {
     const auto mesh = table->path("mesh");
     if (!mesh) table->fail("", "[stone] has no mesh: name the hand-made mesh, mesh = \"hand.obj\"");
     result.mesh_file = *mesh;
-    SolidFile file = read_solid(result.mesh_file);
+    SolidFile file =
+        read_solid(result.mesh_file, table->has("up") ? Standing::as_given : Standing::upright);
     stone.solid = std::move(file.solid);
+    stone.file_up = file.file_up;
     result.notes = std::move(file.notes);
     if (std::string odd = doubtful_size(stone.solid); !odd.empty() && !table->has("unit"))
         result.notes.push_back("the mesh " + odd);
@@ -171,6 +192,7 @@ StoneFile stone_of(const TomlTable& root) {
         default:
             stone.up = unit_vector(*table, "up", *table->vector("up"));
     }
+    stand_as_stated(table->has("optic_axis") || table->has("principal_axes"), result);
 
     if (const auto readings = table->path("readings")) result.readings_file = *readings;
     return result;

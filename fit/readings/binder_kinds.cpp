@@ -9,6 +9,7 @@
 
 #include "fit/readings/binder.h"
 #include "stone/errors.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -153,7 +154,7 @@ Reading Binder::along_direction(const Reading& base) const {
         const Vec3 direction{numbers[0], numbers[1], numbers[2]};
         const double length = glm::length(direction);
         if (!(length > 0) || !std::isfinite(length)) fail("the vector in `of` has no direction");
-        reading.direction = direction / length;
+        reading.direction = turn_upright(stone_.file_up) * (direction / length);
         reading.has_direction = true;
     } else {
         fail(

@@ -41,7 +41,7 @@ using Caliper = Relaxation::Caliper;
 
 // From the shape to where the mesh stands, about up (Kabsch 1976), and how surely: corners that are
 // off by s each turn it by s / sqrt(sum of squared radii).
-struct Standing {
+struct StandingMesh {
     double angle = 0, sigma = 0;
 
     double misfit(double turn) const {
@@ -49,7 +49,7 @@ struct Standing {
         return off == 0 ? 0 : std::min(off * off / (sigma * sigma), k_mesh_is_wrong);
     }
 };
-Standing standing_of_mesh(const std::vector<Vec3>& points, const std::vector<Vec3>& mesh) {
+StandingMesh standing_of_mesh(const std::vector<Vec3>& points, const std::vector<Vec3>& mesh) {
     Vec3 mean(0), mesh_mean(0);
     for (std::size_t p = 0; p < points.size(); ++p) {
         mean += points[p] / double(points.size());
@@ -129,8 +129,8 @@ struct Best {
     CaliperMisfit misfit;
     double sum = 0;
 };
-Best best_turn(const std::vector<Caliper>& calipers, const Corners& corners, const Standing& mesh,
-               int from, int to, double limit) {
+Best best_turn(const std::vector<Caliper>& calipers, const Corners& corners,
+               const StandingMesh& mesh, int from, int to, double limit) {
     const double pace = radians(k_pace_deg);
     Best best;
     for (int k = from; k <= to; ++k) {
@@ -242,7 +242,8 @@ std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, co
         loosened.ways_to_lean(relaxation.folded(shape, k_nearly_upright));
     double least = std::numeric_limits<double>::infinity();
     for (const Loosened::Left& way : ways) least = std::min(least, way.merit);
-    const Standing mesh = standing_of_mesh(shape.points, relaxation.system().mesh_shape().points);
+    const StandingMesh mesh =
+        standing_of_mesh(shape.points, relaxation.system().mesh_shape().points);
     const double now = linearisation.merit + mesh.misfit(0);
     if (!(now - least > k_turn_gain)) return std::nullopt;
 

@@ -26,7 +26,7 @@ namespace {
 std::string read_text(const std::filesystem::path& file, std::size_t) {
     refuse(file);
 }
-SolidFile read_solid(const std::filesystem::path& file) {
+SolidFile read_solid(const std::filesystem::path& file, Standing) {
     refuse(file);
 }
 std::string doubtful_size(const Solid&) {
