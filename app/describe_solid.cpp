@@ -8,6 +8,7 @@
 #include "stone/solid_input.h"
 #include "stone/stone.h"
 #include "stone/units.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -175,6 +176,8 @@ Description describe_solid_file(const DescribeOptions& options) {
         CutSheet sheet = input.sheet.value_or(CutSheet{});
         if (options.gear != 0) sheet.gear = options.gear;
         describe_cutting(input.solid, sheet, about);
+        if (std::string ask = question_of_up(input.solid); !ask.empty() && !input.sheet)
+            about.notes.push_back(std::move(ask));
     }
     for (const std::string& place : input.unused_planes) {
         about.faults.push_back({FaultKind::missing_facet, place + " bounds nothing"});

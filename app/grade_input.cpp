@@ -108,6 +108,8 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         input.name = file.stem().string();
         input.stone.solid = std::move(solid.solid);
         input.notes = std::move(solid.notes);
+        if (std::string ask = question_of_up(input.stone.solid); !ask.empty() && !solid.sheet)
+            input.notes.push_back(std::move(ask));
         if (solid.sheet && solid.sheet->refractive_index && *solid.sheet->refractive_index > 1)
             input.index = solid.sheet->refractive_index;
         input.sheet = std::move(solid.sheet);

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "stone/least_rotation.h"
+#include "stone/proportions.h"
 
 namespace culet {
 
@@ -59,6 +60,13 @@ Vec3 axis_near(const Vec3& direction) {
         return axis;
     }
     return direction;
+}
+
+std::string question_of_up(const Solid& solid) {
+    if (proportions(solid).table_width) return {};
+    return "no facet faces up (+z) as a table does, and the shape does not show which way is up: "
+           "it stands as the file has it; if that is wrong, say so in a stone file: up = \"NAME\" "
+           "of a facet, or up = [x, y, z]";
 }
 
 std::string words_for_direction(const Vec3& direction) {

@@ -197,6 +197,11 @@ TEST_F(ForeignMeshes, ThatStandRightOrCannotBeToldAreLeftAsTheyAre) {
     }
 }
 
+TEST_F(ForeignMeshes, WithoutATableAreAskedAbout) {
+    EXPECT_THAT(question_of_up(drop()), says("up = "));
+    EXPECT_EQ(question_of_up(make_cut("oval")), "");
+}
+
 // The catalogue's cuts are table up by definition (cuts.h); those with a table facet T show it.
 TEST_F(ForeignMeshes, StandardCutsAreNeverTurnedWrong) {
     for (const CutKind& kind : cut_kinds()) {
