@@ -166,8 +166,6 @@ Description describe_solid_file(const DescribeOptions& options) {
     Description about;
     about.notes = input.notes;
     about.notes.insert(about.notes.end(), input.details.begin(), input.details.end());
-    if (std::string odd = doubtful_size(input.solid); !odd.empty() && !input.sheet)
-        about.notes.push_back(std::move(odd));
     about.object["format"] = input.format;
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.sheet) describe_sheet(*input.sheet, about);

@@ -54,19 +54,6 @@ ReadSolid solid_of_gltf(const std::filesystem::path& file) {
     return solid_from_faces(std::move(soup));
 }
 
-// Diameters of stones lie between these, in mm. A mesh that counts metres or micrometres gets a
-// word about it, nothing more.
-constexpr double k_smallest_stone = 0.05, k_largest_stone = 500;
-
-void hint_at_unit(SolidInput& input) {
-    const double size = diameter(input.solid);
-    if (!(size > 0) || (size >= k_smallest_stone && size <= k_largest_stone)) return;
-    input.notes.push_back(fmt::format(
-        "it is {:.3g} across, which in mm is no stone: state the file's unit in a stone file "
-        "(unit = \"m\"), or its true width (--width)",
-        size));
-}
-
 // Turns a mesh whose table faces another way than +z, and says so.
 void stand_up(SolidInput& input) {
     const std::optional<int> table = table_by_shape(input.solid);
@@ -126,7 +113,8 @@ bool is_solid_file(const std::filesystem::path& file) {
 
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
     SolidInput input = solid_in(file, how, Standing::upright);
-    if (!input.sheet) hint_at_unit(input);
+    if (std::string odd = doubtful_size(input.solid); !odd.empty() && !input.sheet)
+        input.notes.push_back(std::move(odd));
     return input;
 }
 
