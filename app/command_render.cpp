@@ -238,7 +238,7 @@ RenderResult draw(const RenderOptions& options, const Scene& scene,
         const Progress progress = progress_line("rendering", quiet);
         RenderResult result = saved ? render_as_planned(now, saved->of(now), progress)
                                     : render(now, progress, drafts.better());
-        if (options.verify) result.stats.verification = verify(now, result);
+        if (options.verify) result.stats.verification = verify(now, result, 128, progress);
         return result;
     };
     if (options.frames) return draw_frames(frames_of(options), scene, picture, quiet);

@@ -68,7 +68,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
         if (!picture.misjudged) break;
         seconds_before = seconds_of(result.stats);
         if (!now.merged_waves && now.leave == Planner::Leave::likely &&
-            (scene.settings.meter == nullptr || !scene.settings.meter->limited()))
+            !scene.settings.meter->limited())
             tried.push_back(
                 "what was left out matters more than its pilot saw: drawn with all that is not "
                 "sure to change nothing");
@@ -176,7 +176,7 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
     }
     // A plan has many parts: counted together, they tell how far it is.
     Scene counted = scene;
-    if (planned && progress) counted.settings.meter = std::make_shared<WorkMeter>();
+    if (planned) counted.settings.meter = std::make_shared<WorkMeter>();
     const Progress told =
         counted.settings.meter ? counted_by(progress, counted.settings.meter) : progress;
     RenderResult result = planned ? drawn_as_planned(counted, told) : drawn(scene, progress);
@@ -184,8 +184,10 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
     RenderStats& stats = result.stats;
     const double tolerance = scene.settings.tolerance;
     if (tolerance > 0 && stats.error_bound > tolerance) {
-        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
-                                          stats.error_bound, tolerance));
+        stats.notes.push_back(
+            fmt::format("the picture may be off by {:.2g} of its mean radiance, which is over the "
+                        "tolerance {:.3g} that was asked for",
+                        stats.error_bound, tolerance));
     }
     // Of a checked picture the bound says it all.
     if (!planned && tolerance > 0 && stats.standard_error > tolerance) {

@@ -23,8 +23,8 @@ double mean_reflectance(double n, double cosine) {
 }  // namespace
 
 void BeamGrower::prepare(const FacetNet& net, const ScreenView& view, double n,
-                         const BeamLimits& limits, double front_area,
-                         std::atomic<long long>& grown) {
+                         const BeamLimits& limits, double front_area, std::atomic<long long>& grown,
+                         const std::function<bool(long long)>& goes_on) {
     net_ = &net;
     view_ = &view;
     n_ = n;
@@ -34,6 +34,8 @@ void BeamGrower::prepare(const FacetNet& net, const ScreenView& view, double n,
     const double pixel = glm::length(view.vx) / glm::length(view.towards(centre));
     small_ = pixel > 0 ? k_surely_small / pixel : std::numeric_limits<double>::infinity();
     grown_ = &grown;
+    goes_on_ = &goes_on;
+    stopped_ = false;
     splitter_.prepare(net);
 }
 
@@ -70,6 +72,7 @@ void BeamGrower::grow_branch(int front, const ScreenPoint& middle, const BeamTru
     BeamTrunk trunk = child;
     trunk.part.region.first = 0;
     counted_ = 0;
+    stopped_ = !(*goes_on_)(*grown_);
     grow(trunk, Folding());
 }
 
@@ -149,8 +152,9 @@ bool BeamGrower::too_many() {
     if (out_->beams - counted_ >= k_now_and_then) {
         *grown_ += out_->beams - counted_;
         counted_ = out_->beams;
+        stopped_ = stopped_ || !(*goes_on_)(*grown_);
     }
-    return *grown_ > limits_->most_beams;
+    return stopped_ || *grown_ > limits_->most_beams;
 }
 
 // Adds to the path what the ray along `d` through `point` meets behind the trunk's facet.
@@ -167,6 +171,7 @@ void BeamGrower::follow_alone(const BeamTrunk& trunk, Vec3 d, const Vec3& point)
         d -= 2 * cosine * plane.normal;
         weight *= mean_reflectance(n_, std::min(cosine, 1.0));
         path_.push_back(static_cast<std::uint16_t>(facet));
+        ++out_->faces;
     }
 }
 

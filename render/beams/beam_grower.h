@@ -2,6 +2,7 @@
 // The beams below one front facet: each is split by the facets that its rays meet next.
 
 #include <atomic>
+#include <functional>
 #include <vector>
 
 #include "render/beams/beam_tree.h"
@@ -20,7 +21,8 @@ struct BeamTrunk {
 class BeamGrower {
 public:
     void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
-                 double front_area, std::atomic<long long>& grown);
+                 double front_area, std::atomic<long long>& grown,
+                 const std::function<bool(long long)>& goes_on);
 
     /// Beams behind the front facet's, with the corners of their regions in `corners()`. None when
     /// the front beam is not to be split.
@@ -54,7 +56,9 @@ private:
     const BeamLimits* limits_ = nullptr;
     double n_ = 1, least_ = 0, small_ = 0;
     std::atomic<long long>* grown_ = nullptr;  // in all branches
-    long long counted_ = 0;                    // of this branch, in that
+    const std::function<bool(long long)>* goes_on_ = nullptr;
+    bool stopped_ = false;
+    long long counted_ = 0;  // of this branch, in that
     BeamBranch* out_ = nullptr;
     Pencil front_;
     std::vector<std::uint16_t> path_;

@@ -94,7 +94,6 @@ struct BeamRenderer::Work {
 
     PaintedStone stone;
     std::vector<SortedBeams> beams;  // view * bands + band
-    std::shared_ptr<const EnvironmentMap> map;
     std::shared_ptr<const EnvironmentPyramid> pyramid;
     Canvas canvas;
     // One a thread, with the room that it has needed so far.
@@ -107,17 +106,17 @@ struct BeamRenderer::Work {
     void clear(int strip);
     void develop(int strip, Picture& picture) const;
     void prepare(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
-                 std::size_t planes, Picture& picture);
+                 std::size_t planes, Picture& picture, Listener& listener);
     void keep_spectra(const Scene& scene, const OpticalSetup& setup, Picture& picture) const;
 };
 
 void BeamRenderer::Work::prepare(const Scene& scene, const OpticalSetup& setup,
-                                 const WavelengthSet& colours, std::size_t planes,
-                                 Picture& picture) {
-    if (scene.lights.environment != map) {
-        map = scene.lights.environment;
-        pyramid = map ? std::make_shared<EnvironmentPyramid>(*map) : nullptr;
-    }
+                                 const WavelengthSet& colours, std::size_t planes, Picture& picture,
+                                 Listener& listener) {
+    pyramid = scene.lights.environment
+                  ? pyramid_of(scene.lights.environment, [&] { return listener.still_goes_on(); })
+                  : nullptr;
+    if (listener.stopped()) throw Interrupted();
     canvas.width = picture.width = scene.camera.width;
     canvas.height = picture.height = scene.camera.height;
     canvas.planes.resize(planes * canvas.pixels());
@@ -210,11 +209,13 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
     Work& work = *work_;
     const std::size_t nodes = setup.wavelengths_nm.size();
     const std::size_t stokes = setup.stokes && scene.settings.spectral ? 4 : 1;
-    work.prepare(scene, setup, colours, stokes * nodes, picture);
+    const std::vector<ScreenView> views = views_of(scene, setup);
+    const int strips = (scene.camera.height + k_strip - 1) / k_strip;
+    Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
+    work.prepare(scene, setup, colours, stokes * nodes, picture, listener);
     std::vector<ShadingPass> passes =
         shading_passes(scene, setup, colours, work.stone.shaded.middle, work.pyramid,
                        static_cast<int>(stokes), settings.crystal == CrystalBeams::parted);
-    const std::vector<ScreenView> views = views_of(scene, setup);
     const std::vector<std::size_t> leader = shared_beams(setup, views[0], work.stone.shaded.middle,
                                                          work.stone.net.size(), settings.limits);
     for (ShadingPass& pass : passes) pass.beams = leader[pass.beams];
@@ -228,13 +229,13 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
 
     const std::size_t bands = setup.bands.size();
     work.beams.resize(views.size() * bands);
-    const int strips = (work.canvas.height + k_strip - 1) / k_strip;
     StripSums whole;
     double lost = 0;
     int trees = 0;
     WorkMeter* const meter = scene.settings.meter.get();
-    Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
-    options.goes_on = [&listener] { return listener.still_goes_on(); };
+    const auto may_spend = [&](double ns) {
+        return listener.still_goes_on() && (meter == nullptr || !(ns > meter->left()));
+    };
     for (std::size_t v = 0; v < views.size(); ++v) {
         SortedBeams* beams = work.beams.data() + v * bands;
         std::vector<StripSums> sums(static_cast<std::size_t>(strips));
@@ -248,9 +249,13 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                     if (band.two_waves && settings.crystal == CrystalBeams::parted) return;
                     if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
-                                  settings.limits);
+                                  settings.limits, [&](long long grown) {
+                                      return may_spend(price_ns(DrawnBeams{.grown = grown}));
+                                  });
+                    const BeamTree& tree = beams[b].tree;
                     if (meter != nullptr)
-                        meter->spend(price_ns(DrawnBeams{beams[b].tree.beams(), 0, 0, 1}));
+                        meter->spend(price_ns(DrawnBeams{.grown = tree.discarded + tree.beams(),
+                                                         .walked = tree.faces()}));
                 },
                 tbb::simple_partitioner());
             report.seconds_build += seconds_from(building);
@@ -260,12 +265,21 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                 [&](int strip) {
                     if (!listener.goes_on() || (meter != nullptr && meter->over())) return;
                     if (v == 0) work.clear(strip);
+                    // What is painted is counted while it is: a strip may take seconds.
+                    double spent = 0;
+                    PaintOptions asking = options;
+                    asking.goes_on = [&](const StripSums& sum) {
+                        const double before = spent;
+                        spent = std::floor(price_ns(DrawnBeams{.parted = sum.beams,
+                                                               .fragments = sum.fragments,
+                                                               .faces = sum.faces,
+                                                               .nodes = passes[0].lights.nodes}));
+                        if (meter != nullptr) meter->spend(spent - before);
+                        return may_spend(0);
+                    };
                     const StripSums& sum = sums[static_cast<std::size_t>(strip)] =
-                        work.painters.local().paint(strip, views[v], beams, fronts, passes,
-                                                    options);
-                    if (meter != nullptr)
-                        meter->spend(price_ns(
-                            DrawnBeams{0, sum.beams, sum.fragments, passes[0].lights.nodes}));
+                        work.painters.local().paint(strip, views[v], beams, fronts, passes, asking);
+                    asking.goes_on(sum);
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());

@@ -62,7 +62,7 @@ void BeamBranch::clear() {
     leaves.clear();
     corners.clear();
     facets.clear();
-    beams = 0;
+    beams = faces = 0;
     leaf_area = 0;
     deepest = 0;
 }
@@ -70,6 +70,12 @@ void BeamBranch::clear() {
 long long BeamTree::beams() const {
     long long sum = 0;
     for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].beams;
+    return sum;
+}
+
+long long BeamTree::faces() const {
+    long long sum = 0;
+    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].faces;
     return sum;
 }
 
@@ -85,8 +91,11 @@ double BeamTree::leaf_area() const {
     return sum;
 }
 
-void build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
-                 BeamTree& tree) {
+namespace {
+
+// Until there are too many, or `goes_on` says so.
+void grow_all(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+              BeamTree& tree, const std::function<bool(long long)>& goes_on) {
     struct Front : FrontFacet {
         std::vector<ScreenPoint> corners;
         std::vector<BeamTrunk> children;
@@ -101,7 +110,7 @@ void build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
     tbb::enumerable_thread_specific<BeamGrower> growers;
     const auto grower = [&]() -> BeamGrower& {
         BeamGrower& mine = growers.local();
-        mine.prepare(net, view, n, limits, tree.front_area, grown);
+        mine.prepare(net, view, n, limits, tree.front_area, grown, goes_on);
         return mine;
     };
     tbb::parallel_for(
@@ -139,13 +148,31 @@ void build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
                              child, front.corners.data() + child.part.region.first, out);
         },
         tbb::simple_partitioner());
-    if (tree.beams() <= limits.most_beams) return;
-    // Whether there are too many does not depend on who grew which first, so neither does this.
-    constexpr double k_fewer = 8, k_least_share = 1e-10;
+}
+
+}  // namespace
+
+bool build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+                 BeamTree& tree, const std::function<bool(long long)>& goes_on) {
+    tree.discarded = 0;
     BeamLimits fewer = limits;
-    fewer.cut_share = std::max(k_fewer * limits.cut_share, k_least_share);
-    for (std::size_t i = 0; i < tree.branch_count; ++i) tree.branches[i] = {};
-    build_beams(net, view, n, fewer, tree);
+    constexpr double k_fewer = 8, k_least_share = 1e-10;
+    for (;;) {
+        std::atomic<bool> stopped{false};
+        const std::function<bool(long long)> ask = [&](long long grown) {
+            // More than `most_beams` count as so many: how many there are then hangs on chance.
+            if (goes_on && !goes_on(tree.discarded + std::min(grown, limits.most_beams)))
+                stopped = true;
+            return !stopped;
+        };
+        grow_all(net, view, n, fewer, tree, ask);
+        if (stopped) return false;
+        if (tree.beams() <= limits.most_beams) return true;
+        // Whether there are too many does not depend on who grew which first, so neither does this.
+        fewer.cut_share = std::max(k_fewer * fewer.cut_share, k_least_share);
+        tree.discarded += limits.most_beams;
+        for (std::size_t i = 0; i < tree.branch_count; ++i) tree.branches[i] = {};
+    }
 }
 
 }  // namespace culet

@@ -8,6 +8,7 @@
 // edge shared with the facet just left is never clipped by.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "render/beams/facet_net.h"
@@ -47,6 +48,7 @@ struct BeamBranch {
     std::vector<ScreenPoint> corners;   ///< positively oriented in the picture's x and y
     std::vector<std::uint16_t> facets;  ///< met by a leaf, from the front facet on
     long long beams = 0;                ///< leaves and what they were split from
+    long long faces = 0;                ///< met by beams that are alone
     double leaf_area = 0;               ///< square pixels
     int deepest = 0;
     void clear();
@@ -56,8 +58,10 @@ struct BeamTree {
     std::vector<BeamBranch> branches;
     std::size_t branch_count = 0;  ///< of `branches`; the rest is kept room
     double front_area = 0;         ///< of the front facets, in square pixels
+    long long discarded = 0;       ///< beams that were grown and were too many
 
     long long beams() const;
+    long long faces() const;
     double leaf_area() const;
     int deepest() const;  ///< most facets that a beam meets
 };
@@ -71,7 +75,9 @@ std::vector<FrontFacet> front_facets(const FacetNet& net, const ScreenView& view
 
 /// Builds into `tree`, whose memory is used again. `n`: index over the outside's, above 1. The eye
 /// must be outside. Runs in parallel; the result does not depend on the number of threads.
-void build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
-                 BeamTree& tree);
+/// `goes_on`: asked from any thread, now and then, with the number of beams grown so far; false:
+/// the tree is left unfinished, and the answer is false.
+bool build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+                 BeamTree& tree, const std::function<bool(long long)>& goes_on = {});
 
 }  // namespace culet

@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <numbers>
+#include <utility>
 
 namespace culet {
 
@@ -30,7 +32,8 @@ Vec3 direction_at(double u, double v, double& solid_angle) {
 
 }  // namespace
 
-EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
+EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map,
+                                       const std::function<bool()>& goes_on) {
     // The square is as wide as a circle of directions, twice the map's height.
     const int wanted = static_cast<int>(std::bit_ceil(4 * static_cast<unsigned>(map.height)));
     const int finest = std::min(k_finest, wanted);
@@ -55,6 +58,7 @@ EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
         std::vector<double> weights(static_cast<std::size_t>(side) *
                                     static_cast<std::size_t>(side));
         tbb::parallel_for(0, side, [&](int y) {
+            if (goes_on && !goes_on()) return;
             for (int x = 0; x < side; ++x) {
                 double sum = 0;
                 std::array<double, 3> rgb{};
@@ -102,6 +106,25 @@ EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
             plane[at(level, side, side)] = plane[at(level, 0, 0)];
         }
     }
+}
+
+std::shared_ptr<const EnvironmentPyramid> pyramid_of(
+    const std::shared_ptr<const EnvironmentMap>& map, const std::function<bool()>& goes_on) {
+    static std::mutex mutex;
+    static std::vector<
+        std::pair<std::weak_ptr<const EnvironmentMap>, std::shared_ptr<const EnvironmentPyramid>>>
+        made;
+    {
+        const std::lock_guard<std::mutex> lock(mutex);
+        std::erase_if(made, [](const auto& of) { return of.first.expired(); });
+        for (const auto& [of, pyramid] : made) {
+            if (of.lock() == map) return pyramid;
+        }
+    }
+    auto pyramid = std::make_shared<const EnvironmentPyramid>(*map, goes_on);
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (!goes_on || goes_on()) made.emplace_back(map, pyramid);
+    return pyramid;
 }
 
 }  // namespace culet

@@ -6,6 +6,8 @@
 // x, y over |x| + |y| + |z|, folded over the diagonals below the horizon. Each level has a border
 // of one texel that continues it, so that no look-up needs to know of the folds.
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "render/scene/scene.h"
@@ -14,7 +16,9 @@ namespace culet {
 
 class EnvironmentPyramid {
 public:
-    explicit EnvironmentPyramid(const EnvironmentMap& map);
+    /// `goes_on`: asked from any thread, once a row; false: the pyramid is left unfinished.
+    explicit EnvironmentPyramid(const EnvironmentMap& map,
+                                const std::function<bool()>& goes_on = {});
 
     struct Level {
         int side = 1;           ///< texels along an edge, without the border
@@ -31,5 +35,10 @@ private:
     std::vector<Level> levels_;
     std::vector<float> planes_[3];
 };
+
+/// The same again for the same map, as long as somebody has that: making one takes as long as
+/// drawing some pictures. Unfinished, and not kept, where `goes_on` says no. From any thread.
+std::shared_ptr<const EnvironmentPyramid> pyramid_of(
+    const std::shared_ptr<const EnvironmentMap>& map, const std::function<bool()>& goes_on);
 
 }  // namespace culet

@@ -180,8 +180,8 @@ void FrameRenderer::State::draw(bool with_check) {
     stats.error_bound = std::numeric_limits<double>::quiet_NaN();
     if (with_check) {
         const auto start = Clock::now();
-        const SampledCheck found = check_against_reference(scene, prepared, result.picture,
-                                                           report.filled, stats.mean_radiance);
+        const SampledCheck found = check_against_reference(
+            scene, prepared, result.picture, report.filled, stats.mean_radiance, progress);
         stats.checked_pixels = found.pixels;
         stats.engine_error = stats.error_bound = found.error;
         if (stats.mean_radiance > 0)

@@ -153,8 +153,8 @@ InsideView PartedBeams::view_of(const Rays& rays, double length) const {
 // A beam that left facet `facet` as its `event`th.
 void PartedBeams::follow(const Rays& rays, int facet, const FacetRegion& part, int event) {
     ++beams_;
-    constexpr long long k_asked_every = 4096;
-    if (beams_ % k_asked_every == 0 && limits_.goes_on && !limits_.goes_on()) stopped_ = true;
+    constexpr long long k_asked_after = 1024;
+    if (beams_ % k_asked_after == 0 && limits_.goes_on && !limits_.goes_on(beams_)) stopped_ = true;
     if (stopped_) return;
     const double kept = rays[0].weight * mean_transmitted(rays[0]), area = 0.5 * part.doubled_area;
     if (event >= limits_.depth || !(kept >= limits_.cut_weight)) {

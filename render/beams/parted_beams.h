@@ -33,8 +33,8 @@ struct LeavingBeam {
 struct PartedLimits {
     int depth = 8;  ///< at most 200
     double cut_weight = 1e-3;
-    /// Asked every few thousand beams; false: no more are followed.
-    std::function<bool()> goes_on = {};
+    /// Asked now and then with the number of beams so far; false: no more are followed.
+    std::function<bool(long long)> goes_on = {};
 };
 
 class PartedBeams {

@@ -7,7 +7,9 @@
 
 #include "render/optics/eye_optics.h"
 #include "render/reference/pixel_shader.h"
+#include "render/work/listener.h"
 #include "render/work/threads.h"
+#include "stone/errors.h"
 
 namespace culet {
 
@@ -44,7 +46,8 @@ std::vector<std::size_t> pixels_to_check(const Picture& picture, int wanted, dou
 }  // namespace
 
 SampledCheck check_against_reference(const Scene& scene, const PreparedScene& prepared,
-                                     const Picture& picture, double filled, double mean_radiance) {
+                                     const Picture& picture, double filled, double mean_radiance,
+                                     const Progress& progress) {
     const RenderSettings& settings = scene.settings;
     const bool single = settings.samples == 1 && scene.camera.aperture_radius == 0;
     const int samples = single                         ? 1
@@ -56,9 +59,11 @@ SampledCheck check_against_reference(const Scene& scene, const PreparedScene& pr
     const std::vector<Stokes> behind =
         responses(scene.camera.optics, prepared.setup.wavelengths_nm);
     std::vector<double> errors(pixels.size());
+    Listener listener(progress);
     on_threads(settings.threads, [&] {
         tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
             PixelMemory memory;
+            memory.goes_on = [&listener] { return listener.still_goes_on(); };
             std::vector<double> stokes(
                 static_cast<std::size_t>(prepared.colours.size() * shader.planes()));
             const int x = static_cast<int>(pixels[i] % static_cast<std::size_t>(picture.width)),
@@ -72,6 +77,7 @@ SampledCheck check_against_reference(const Scene& scene, const PreparedScene& pr
                                                                static_cast<double>(seen[2])}));
         });
     });
+    if (listener.stopped()) throw Interrupted();
     double sum = 0, squares = 0;
     for (double error : errors) {
         // A pixel of no number is as wrong as can be.

@@ -14,8 +14,9 @@ struct SampledCheck {
 };
 
 /// Pixels on a grid, as the reference sees them to the same depth and with the same effects.
-/// `filled`: pixels that the stone fills.
+/// `filled`: pixels that the stone fills. `progress` may stop it: Interrupted.
 SampledCheck check_against_reference(const Scene& scene, const PreparedScene& prepared,
-                                     const Picture& picture, double filled, double mean_radiance);
+                                     const Picture& picture, double filled, double mean_radiance,
+                                     const Progress& progress);
 
 }  // namespace culet

@@ -24,15 +24,15 @@ struct SortedBeams {
     BeamTree tree;
     std::vector<std::vector<LeafNumber>> strips;
 
-    /// Grows the beams unless they are there.
+    /// Grows the beams unless they are there, or `goes_on` says no (beam_tree.h).
     void grow(const FacetNet& net, const ScreenView& wanted_view, double wanted_n,
-              const BeamLimits& wanted_limits) {
+              const BeamLimits& wanted_limits, const std::function<bool(long long)>& goes_on) {
         if (grown && view == wanted_view && n == wanted_n && limits == wanted_limits) return;
         grown = false;
         view = wanted_view;
         n = wanted_n;
         limits = wanted_limits;
-        build_beams(net, view, n, limits, tree);
+        if (!build_beams(net, view, n, limits, tree, goes_on)) return;
         sort((view.height + k_strip - 1) / k_strip);
         grown = true;
     }

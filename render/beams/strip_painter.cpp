@@ -44,6 +44,8 @@ Fragments rest_of(const Fragments& all, int first, int count) {
     return rest;
 }
 
+// Beams that are painted before somebody is asked whether to go on.
+constexpr std::size_t k_asked_every = 16;
 // Borders of beams are off by half of this.
 constexpr double k_margin = 0.5;  // pixels
 
@@ -55,6 +57,7 @@ StripSums& StripSums::operator+=(const StripSums& more) {
     absorbed += more.absorbed;
     luminance += more.luminance;
     fragments += more.fragments;
+    faces += more.faces;
     retraced += more.retraced;
     beams += more.beams;
     deepest = std::max(deepest, more.deepest);
@@ -96,6 +99,7 @@ void StripPainter::paint_flat(const CoveredPixels& covered, const Beam& beam,
     }
     shade_beam({&stone_.shaded, &pass.optics, &pass.lights}, eye, facets, beam.facets, fragments);
     ++sums_.fragments;
+    sums_.faces += beam.facets;
     const float *shares = covered.share.data(), unhidden = hides_ ? unhidden_[0] : 1.0f;
     const double filled =
         options_.share * static_cast<double>(sum_of_shared(nullptr, shares, covered.count));
@@ -227,6 +231,7 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
     if (verified < covered.count)
         shade_beam(job, eye, facets, beam.facets, rest_of(fragments, verified, covered.count));
     sums_.fragments += covered.count;
+    sums_.faces += static_cast<long long>(beam.facets) * ((covered.count + 7) / 8);
 
     const float* share = covered.share.data();
     if (options_.shading == BeamShading::single) {
@@ -385,8 +390,11 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
         }
         if (options.shading == BeamShading::single) taken_.assign(count, 0);
         const SortedBeams& sorted = beams[pass.beams];
-        for (const LeafNumber& number : sorted.strips[static_cast<std::size_t>(strip)])
+        std::size_t painted = 0;
+        for (const LeafNumber& number : sorted.strips[static_cast<std::size_t>(strip)]) {
+            if (painted++ % k_asked_every == 0 && !goes_on()) return sums_;
             paint_beam(sorted, number, pass);
+        }
     }
     if (options.shading == BeamShading::single && !parted) fill_holes(fronts, passes);
     add_background(passes);

@@ -54,6 +54,7 @@ struct Canvas {
 struct StripSums {
     double filled = 0, remainder = 0, absorbed = 0, luminance = 0;
     long long fragments = 0, retraced = 0, beams = 0;
+    long long faces = 0;  ///< met by fragments, up to eight at once
     int deepest = 0;
     StripSums& operator+=(const StripSums& more);
 };
@@ -71,8 +72,8 @@ struct PaintOptions {
     int depth = 8;  ///< as the beams' limits
     double cut_weight = 0;
     double share = 1;  ///< of the picture: one of several points of the pupil
-    /// Asked now and then where beams part in two at every face.
-    std::function<bool()> goes_on = {};
+    /// Asked now and then with what is done of the strip; false: the rest is left out.
+    std::function<bool(const StripSums&)> goes_on = {};
 };
 
 /// One thread's tools.
@@ -87,6 +88,7 @@ public:
                     const PaintOptions& options);
 
 private:
+    bool goes_on() const { return !options_.goes_on || options_.goes_on(sums_); }
     void paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass);
     void paint_leaving(const LeavingBeam& beam, const ScreenPoint* corners, std::size_t count,
                        const ShadingPass& pass);

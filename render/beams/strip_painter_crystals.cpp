@@ -66,9 +66,13 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
 
 // Cell by cell of every front facet.
 void StripPainter::paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass) {
+    const long long before = sums_.beams;
+    const auto goes_on_with = [&](long long grown) {
+        sums_.beams = before + grown;
+        return goes_on();
+    };
     PartedBeams beams(stone_.net, pass.parted->band,
-                      {options_.depth, options_.cut_weight, options_.goes_on},
-                      pass.parted->response);
+                      {options_.depth, options_.cut_weight, goes_on_with}, pass.parted->response);
     const PartedBeams::Sink sink = [&](const LeavingBeam& beam, const ScreenPoint* corners,
                                        std::size_t count) {
         paint_leaving(beam, corners, count, pass);
@@ -100,7 +104,7 @@ void StripPainter::paint_parted(const std::vector<FrontFacet>& fronts, const Sha
         }
     }
     const double of_sums = options_.share * pass.weight * pass.lights.nodes;
-    sums_.beams += beams.beams();
+    sums_.beams = before + beams.beams();
     sums_.remainder += of_sums * beams.remainder();
     sums_.absorbed += of_sums * beams.absorbed();
 }

@@ -8,6 +8,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
 #include "render/planner/wavelengths.h"
+#include "render/work/work_meter.h"
 
 namespace culet {
 
@@ -355,7 +356,11 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
         const double share = noisy ? k_noisy_price : doubtful ? k_doubtful_share : 1;
         if (rays_for(wanted, next->levels) * ray_ns > share * most_ns) break;
         while (levels_.size() < next->levels) take_more();
-        estimate = look(picture, wanted);
+        try {
+            estimate = look(picture, wanted);
+        } catch (const OverAllowance&) {
+            break;  // what was found before stands
+        }
     }
     return estimate;
 }

@@ -43,7 +43,7 @@ double seconds_since(Clock::time_point start) {
 
 // The work is what is given, and the tolerance follows.
 bool is_paced(const RenderSettings& settings) {
-    return settings.meter != nullptr && settings.meter->limited();
+    return settings.meter->limited();
 }
 
 void add_plan(const ScenePlan& plan, RenderStats& stats) {
@@ -131,13 +131,14 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
     double seconds_before = plan.seconds_planning, error_before = 0;
     for (int drawing = 1;; ++drawing) {
         const bool beams = drawn_by_beams(step.settings);
-        if (meter != nullptr) meter->expect_more((1 + k_usual_check) * step.price_ns);
+        meter->expect_more((1 + k_usual_check) * step.price_ns);
         // What paths take is known well; what beams take they find out.
         if (is_paced(scene_.settings) && !beams && step.price_ns > k_surely_over * meter->left())
             throw OverAllowance();
+        const long long spent = meter->spent();
         RenderResult result = draw_with(step.settings);
         RenderStats& stats = result.stats;
-        if (beams) step.price_ns = steps.price_of(stats);
+        if (beams) step.price_ns = static_cast<double>(meter->spent() - spent);
         const auto start = Clock::now();
         const double share = beams && drawing < most ? k_check_share : k_last_check_share;
         const ErrorEstimate estimate =
@@ -146,7 +147,8 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         const bool blind = beams && steps.may_miss_the_sun(step.settings);
         so_far.near_enough = estimate.bound <= tolerance && !blind;
         std::optional<Step> other;
-        if (!so_far.near_enough) {
+        // Once the work allowed is done, the picture counts as it is.
+        if (!so_far.near_enough && !meter->over()) {
             so_far.misjudged = misjudged(estimate, estimator, step.settings, so_far);
             if (!so_far.misjudged && drawing < most)
                 other = next(steps, step, estimate, drawing > 1);

@@ -24,7 +24,7 @@ struct LadderPicture {
 
 class Ladder {
 public:
-    /// Both must outlive it.
+    /// Both must outlive it; the scene has a meter.
     Ladder(const Scene& scene, const Progress& progress)
         : scene_(scene), drawn_(scene), progress_(progress) {}
 

@@ -308,13 +308,4 @@ Step LadderSteps::finer_beams(const Step& step, const ErrorEstimate& estimate, b
     return finer;
 }
 
-double LadderSteps::price_of(const RenderStats& stats) const {
-    // A stone's own, whatever its beams.
-    constexpr double k_stone_ns = 4e6;
-    DrawnBeams work;
-    (setup_.splits ? work.parted : work.grown) = stats.beams;
-    work.fragments = stats.rays;
-    return k_stone_ns + price_ns(work);
-}
-
 }  // namespace culet

@@ -37,8 +37,6 @@ public:
     /// likely small enough. `again`: finer beams were drawn before, and were not near enough
     /// either: then all of it is.
     Step finer_beams(const Step& step, const ErrorEstimate& estimate, bool again) const;
-    /// About, of a picture by beams that was drawn.
-    double price_of(const RenderStats& stats) const;
     /// A sun's images in a few pixels are so coarse in this picture that those looked at may all
     /// miss them: a preview's regions lie beside those that show it, and few wavelengths lack some.
     bool may_miss_the_sun(const RenderSettings& settings) const;

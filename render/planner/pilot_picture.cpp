@@ -152,6 +152,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
                                                                                            range) {
             const auto start = Clock::now();
             PixelMemory memory;
+            memory.goes_on = [&listener] { return listener.still_goes_on(); };
             std::vector<double> stokes(static_cast<std::size_t>(wavelengths * shader.planes()));
             for (std::size_t p = range.begin(); p < range.end() && listener.goes_on(); ++p) {
                 const auto [x, y] = pixels.at[p];

@@ -22,11 +22,13 @@ Scene one_window(const Scene& scene) {
 
 }  // namespace
 
-Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samples) {
-    return draw_truth(scene, plan, stone_pixels(one_window(scene), pixels), samples);
+Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samples,
+                 const Progress& progress) {
+    return draw_truth(scene, plan, stone_pixels(one_window(scene), pixels), samples, progress);
 }
 
-Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, int samples) {
+Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, int samples,
+                 const Progress& progress) {
     Scene whole = one_window(scene);
     RenderSettings& settings = whole.settings;
     settings.effects_auto = true;
@@ -45,7 +47,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, 
     Truth truth;
     truth.samples = samples;
     truth.pixels = std::move(pixels);
-    truth.drawing = draw_pilot(whole, truth.pixels, limits, samples, nodes);
+    truth.drawing = draw_pilot(whole, truth.pixels, limits, samples, nodes, progress);
     return truth;
 }
 
@@ -65,14 +67,15 @@ Verification hold_against(const Truth& truth, const Picture& picture) {
     return result;
 }
 
-Verification verify(const Scene& scene, const RenderResult& result, int pixels) {
+Verification verify(const Scene& scene, const RenderResult& result, int pixels,
+                    const Progress& progress) {
     const auto start = std::chrono::steady_clock::now();
     ScenePlan plan;
     plan.settings = scene.settings;
     if (result.stats.plan) plan = *result.stats.plan;
     plan.settings.wavelengths_nm = result.stats.wavelengths_nm;
     const int samples = std::clamp(4 * plan.settings.samples, k_verified_samples, 256);
-    const Truth truth = draw_truth(scene, plan, pixels, samples);
+    const Truth truth = draw_truth(scene, plan, pixels, samples, progress);
     Verification found = hold_against(truth, result.picture);
     found.bound = result.stats.error_bound;
     if (result.stats.plan) found.bound_delta_e = result.stats.plan->bound_delta_e;

@@ -14,8 +14,10 @@ struct Truth {
 };
 /// Drawn by the reference with every effect that can matter, down to weights that change nothing,
 /// at twice the wavelengths of `plan` or more, with `samples` rays a pixel.
-Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samples);
-Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, int samples);
+Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samples,
+                 const Progress& progress = {});
+Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, int samples,
+                 const Progress& progress = {});
 
 /// `picture` at those pixels. What the truth's own few rays are off by is taken off the error as of
 /// independent quantities: measured^2 = difference^2 - noise^2.

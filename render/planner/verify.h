@@ -3,11 +3,13 @@
 
 #include "render/engine/render_result.h"
 #include "render/scene/scene.h"
+#include "stone/progress.h"
 
 namespace culet {
 
 /// Draws some pixels anew with everything on: the time of so many pixels of 64 to 256 rays
-/// each.
-Verification verify(const Scene& scene, const RenderResult& result, int pixels = 128);
+/// each. `progress` is told 0, and may stop it: Interrupted.
+Verification verify(const Scene& scene, const RenderResult& result, int pixels = 128,
+                    const Progress& progress = {});
 
 }  // namespace culet

@@ -98,6 +98,7 @@ private:
             PathTrace trace{};
             LeafSink sink(axes_, lengths_, absorption_, least, row);
             for (const TableHit& hit : hits_[y]) {
+                if (!listener_.still_goes_on()) return;
                 row.count.push_back(0);
                 const EyeRay eye = eyes_.ray(hit.ray);
                 PathLimits limits = rays_.limits;

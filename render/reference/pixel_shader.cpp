@@ -217,6 +217,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
     PixelSums sums;
     const double share = 1.0 / static_cast<double>(pattern_.size());
     for (std::size_t i = 0; i < pattern_.size(); ++i) {
+        if (memory.goes_on && !memory.goes_on()) break;
         const SamplePoint& p = pattern_[i];
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);

@@ -2,6 +2,7 @@
 // One pixel of the reference renderer: eye rays, their light paths, and the sums over them.
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "render/geometry/stone_body.h"
@@ -36,6 +37,8 @@ struct PixelMemory {
     std::vector<double> stone, behind;
     EntryGuess entry;
     PathTrace trace;
+    /// Asked before each ray, since a pixel may take seconds; false: the rest is left out.
+    std::function<bool()> goes_on = {};
 };
 
 class PixelShader {

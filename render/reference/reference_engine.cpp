@@ -52,13 +52,13 @@ PixelSums shade_picture(const Scene& scene, const PreparedScene& prepared, Film&
     const long long tiles_high = (camera.height + k_tile - 1) / k_tile;
     std::vector<PixelSums> sums(static_cast<std::size_t>(tiles_wide * tiles_high));
     tbb::enumerable_thread_specific<PixelMemory> memories;
-    // At every pixel: one may take seconds.
     Listener listener(progress, static_cast<double>(camera.width) * camera.height);
     WorkMeter* const meter = scene.settings.meter.get();
     const auto shade_tile = [&](long long tile) {
         std::vector<double> stokes(
             static_cast<std::size_t>(prepared.colours.size() * shader.planes()));
         PixelMemory& memory = memories.local();
+        memory.goes_on = [&listener] { return listener.still_goes_on(); };
         PathWork work = work_of_a_ray(prepared.setup);
         PixelSums& sum = sums[static_cast<std::size_t>(tile)];
         const int x0 = static_cast<int>(tile % tiles_wide) * k_tile,

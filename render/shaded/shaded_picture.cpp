@@ -56,7 +56,7 @@ RenderResult shaded_picture(const Scene& scene, const std::string& engine, const
     const auto shade_row = [&](int y) {
         if (!listener.goes_on()) return;
         RowSums& sums = rows[static_cast<std::size_t>(y)];
-        for (int x = 0; x < camera.width; ++x) {
+        for (int x = 0; x < camera.width && listener.still_goes_on(); ++x) {
             const std::size_t pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) +
                 static_cast<std::size_t>(x);

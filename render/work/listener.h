@@ -2,6 +2,7 @@
 // Threads that draw ask one Progress whether to go on.
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include "stone/progress.h"
@@ -25,11 +26,15 @@ public:
         if (!progress_(parts_ > 0 ? done / parts_ : 0)) stop_ = true;
         return !stopped();
     }
-    /// Within a part that may take long.
+    /// Within a part that may take long, as often as every few microseconds: Progress is asked some
+    /// fifty times a second.
     bool still_goes_on() {
         if (!progress_) return true;
         if (stopped()) return false;
+        const auto now = std::chrono::steady_clock::now().time_since_epoch();
+        if (now < std::chrono::nanoseconds(next_)) return true;
         const std::lock_guard<std::mutex> lock(mutex_);
+        next_ = std::chrono::nanoseconds(now + std::chrono::milliseconds(20)).count();
         if (!stopped() && !progress_(parts_ > 0 ? done_ / parts_ : 0)) stop_ = true;
         return !stopped();
     }
@@ -40,6 +45,7 @@ private:
     double parts_, done_ = 0;
     std::mutex mutex_;
     std::atomic<bool> stop_{false};
+    std::atomic<long long> next_{0};  // when Progress is asked again, ns of the steady clock
 };
 
 }  // namespace culet

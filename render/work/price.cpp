@@ -31,6 +31,8 @@ struct BeamCount {
 constexpr BeamCount k_single{330, 1.1, 0.5, 0.25, 0.6, 0.2},
     k_parted{11500, 0.45, 0.4, 0.1, 0.1, 0.85};
 constexpr double k_grown_beam = 300, k_parted_beam = 1500, k_fragment = 60;
+// Faces that beams meet which are followed alone, and that up to eight fragments meet at once.
+constexpr double k_walked = 45, k_shaded_face = 100;
 // Of a beam's price, another wavelength along the same way.
 constexpr double k_node = 0.1;
 
@@ -46,8 +48,10 @@ double price_ns(const PathWork& work) {
 double price_ns(const DrawnBeams& work) {
     const double nodes = 1 + k_node * (work.nodes - 1);
     return k_grown_beam * static_cast<double>(work.grown) +
+           k_walked * static_cast<double>(work.walked) +
            nodes * (k_parted_beam * static_cast<double>(work.parted) +
-                    k_fragment * static_cast<double>(work.fragments));
+                    k_fragment * static_cast<double>(work.fragments) +
+                    k_shaded_face * static_cast<double>(work.faces));
 }
 
 double price_ns(const BeamWork& work) {

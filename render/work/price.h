@@ -18,7 +18,9 @@ double price_ns(const PathWork& work);
 struct DrawnBeams {
     long long grown = 0;      ///< isotropic or merged, of trees
     long long parted = 0;     ///< of a crystal's two waves
+    long long walked = 0;     ///< faces met by those that are followed alone
     long long fragments = 0;  ///< pixels under them, each wavelength's pass by itself
+    long long faces = 0;      ///< met by fragments, up to eight of a beam at once
     int nodes = 1;            ///< wavelengths of a pass
 };
 double price_ns(const DrawnBeams& work);

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,9 +25,36 @@ std::string content(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// Of processor time, so far.
+double seconds_of(pid_t child) {
+    clockid_t clock{};
+    timespec time{};
+    if (::clock_getcpuclockid(child, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// The status of its end; `stop_at` as run_culet has it.
+int wait_for(pid_t child, double stop_at, double& cpu_after_stop) {
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    double stopped_at = -1;
+    rusage used{};
+    int status = 0;
+    while (::wait4(child, &status, stop_at > 0 && stopped_at < 0 ? WNOHANG : 0, &used) != child) {
+        ::usleep(1000);
+        if (stopped_at >= 0 || !(seconds_of(child) >= stop_at)) continue;
+        stopped_at = seconds_of(child);
+        ::kill(child, SIGTERM);
+    }
+    if (stopped_at >= 0)
+        cpu_after_stop = seconds(used.ru_utime) + seconds(used.ru_stime) - stopped_at;
+    return status;
+}
+
 }  // namespace
 
-ProgramRun run_culet(const std::vector<std::string>& arguments) {
+ProgramRun run_culet(const std::vector<std::string>& arguments, double stop_at) {
     std::string pattern = (std::filesystem::temp_directory_path() / "culet-run-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr) return {};
     const std::filesystem::path folder = pattern, out = folder / "out", err = folder / "err";
@@ -41,10 +71,9 @@ ProgramRun run_culet(const std::vector<std::string>& arguments) {
     posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_CREAT | O_WRONLY, 0600);
     ProgramRun run;
     pid_t child = 0;
-    int status = 0;
-    if (::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ) == 0 &&
-        ::waitpid(child, &status, 0) == child && WIFEXITED(status)) {
-        run.exit_code = WEXITSTATUS(status);
+    if (::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ) == 0) {
+        const int status = wait_for(child, stop_at, run.cpu_after_stop);
+        if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
     }
     posix_spawn_file_actions_destroy(&actions);
     run.out = content(out);

@@ -12,10 +12,12 @@ namespace culet::test {
 struct ProgramRun {
     int exit_code = -1;  ///< -1: ended by a signal
     std::string out, err;
+    double cpu_after_stop = 0;  ///< seconds of processor time
 };
 
-/// `culet` with these arguments, no shell in between.
-ProgramRun run_culet(const std::vector<std::string>& arguments);
+/// `culet` with these arguments, no shell in between. `stop_at`: it gets SIGTERM when it has used
+/// so many seconds of processor time; 0: never.
+ProgramRun run_culet(const std::vector<std::string>& arguments, double stop_at = 0);
 
 /// The fixture of the program's tests.
 class ProgramTest : public FolderTest {

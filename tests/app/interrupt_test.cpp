@@ -1,0 +1,90 @@
+// SIGTERM while culet works: how soon it ends, with which exit code, and what it leaves.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "tests/app/program_test.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+using ::testing::HasSubstr;
+
+// A loop asks at least every 0.1 s of its processor time; two threads may both have just asked when
+// the signal comes, and the end itself (freeing memory, the last lines) takes as much again.
+constexpr double k_soon = 3 * 0.1;
+
+class Interrupt : public test::ProgramTest {
+protected:
+    void SetUp() override {
+        cut("round-brilliant", "stone.obj");
+        // Flat (not run-length) scanlines of red, green, blue and an exponent: grey 1 (128 x 2^-7)
+        // with a lamp of 2^14 in one texel.
+        constexpr int k_width = 2048, k_height = 1024;
+        std::string texels;
+        for (int i = 0; i < k_width * k_height; ++i)
+            texels += i == k_width * 300 + 700 ? "\x80\x80\x80\x8f" : "\x80\x80\x80\x81";
+        write("map.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1024 +X 2048\n" + texels);
+        write("scene.toml", scene("preset = \"jeweller\"", "diamond"));
+        write("map.toml", scene("environment = \"map.hdr\"", "diamond"));
+        write("crystal.toml", scene("preset = \"jeweller\"", "zircon"));
+    }
+    static std::string scene(const std::string& light, const std::string& material) {
+        return "mesh = \"stone.obj\"\nmaterial = \"" + material +
+               "\"\n[camera]\nposition = [0, 0, 40]\nlook_at = [0, 0, 0]\nfov = 12\n"
+               "size = [1600, 1600]\n[light]\n" +
+               light + "\n";
+    }
+    std::size_t files() const {
+        return static_cast<std::size_t>(std::distance(
+            fs::recursive_directory_iterator(folder_.path()), fs::recursive_directory_iterator()));
+    }
+    void expect_soon(std::vector<std::string> arguments, double stop_at) const {
+        SCOPED_TRACE(testing::PrintToString(arguments));
+        arguments.insert(arguments.end(), {"--threads", "2"});
+        const std::size_t before = files();
+        const ProgramRun run = run_culet(arguments, stop_at);
+        EXPECT_EQ(run.exit_code, 130) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("interrupted; nothing was written"));
+        EXPECT_LT(run.cpu_after_stop, k_soon);
+        EXPECT_EQ(files(), before);
+    }
+};
+
+TEST_F(Interrupt, EveryEngineEndsSoon) {
+    for (const std::string engine :
+         {"reference", "beams", "preview", "flat", "gouraud", "phong", "whitted"}) {
+        const std::string samples = engine == "reference" || engine == "beams" ? "16" : "400";
+        expect_soon(
+            {"render", file("scene.toml"), "-o", file("picture.exr"), "--engine", engine,
+             "--tolerance", "1e-5", "--check", "none", "--set", "render.samples=" + samples},
+            0.6);
+    }
+    expect_soon({"render", file("scene.toml"), "-o", file("picture.exr"), "--engine", "raytable",
+                 "--table", file("table.rays")},
+                0.6);
+}
+
+TEST_F(Interrupt, WhatIsPlannedEndsSoon) {
+    for (const std::string scene : {"scene.toml", "map.toml", "crystal.toml"}) {
+        for (const double stop_at : {0.4, 1.0, 3.0}) {
+            expect_soon({"render", file(scene), "-o", file("picture.exr"), "--set",
+                         "camera.size=[400,400]"},
+                        stop_at);
+        }
+    }
+}
+
+TEST_F(Interrupt, ACrystalsPreviewEndsSoon) {
+    expect_soon({"render", file("crystal.toml"), "-o", file("picture.exr"), "--engine", "preview"},
+                0.6);
+}
+
+}  // namespace
+}  // namespace culet
