@@ -113,17 +113,38 @@ Material pure_material(const std::string& id, const Json& entry) {
     return material;
 }
 
-constexpr std::size_t k_longest_query = 200;
+constexpr std::size_t k_longest_query = 200, k_most_suggested = 8;
+
+// A variety's own title, else that of its host.
+std::string title_of(const std::string& id) {
+    const auto colour = catalogue().at("absorption").find(id);
+    if (colour == catalogue().at("absorption").end())
+        return text_of(catalogue().at("materials").at(id), "name");
+    const std::string own = text_of(*colour, "name");
+    return own.empty() ? text_of(catalogue().at("materials").at(colour->at("material")), "name")
+                       : own;
+}
 
 // What a search of the catalogue looks at: names, kind, colour.
 std::string about(const std::string& id) {
-    const Json& materials = catalogue().at("materials");
     const Json& absorptions = catalogue().at("absorption");
     const auto colour = absorptions.find(id);
-    const std::string host = colour == absorptions.end() ? id : text_of(*colour, "material");
-    const Json& entry = materials.at(host);
-    return id + " " + text_of(entry, "name") + " " +
-           (colour == absorptions.end() ? text_of(entry, "usual_colour") : host);
+    return id + " " + title_of(id) + " " +
+           (colour == absorptions.end()
+                ? text_of(catalogue().at("materials").at(id), "usual_colour")
+                : text_of(*colour, "material"));
+}
+
+// The one that is called so, empty where none or several are (topaz).
+std::string titled(const std::string& name) {
+    std::string found;
+    for (const std::string& id : catalogue_names()) {
+        const std::string title = title_of(id);
+        if (!same_words(id, name) && !same_words(title.substr(0, title.find('(')), name)) continue;
+        if (!found.empty()) return {};
+        found = id;
+    }
+    return found;
 }
 
 }  // namespace
@@ -149,6 +170,7 @@ Material catalogue_material(const std::string& name) {
         const std::string host = colour->at("material");
         Material material = pure_material(host, materials.at(host));
         material.id = name;
+        material.name = title_of(name);
         material.absorption_source = text_of(*colour, "source");
         material.absorption_confidence = text_of(*colour, "confidence");
         material.absorption_depth = text_of(*colour, "scale_reason");
@@ -171,16 +193,21 @@ Material catalogue_material(const std::string& name) {
                 "{} of the catalogue absorbs along none of the rays of {}", name, host));
         return material;
     }
-    // What is called so before what is only described so (corundum is the host of ruby).
+    const std::string meant = name.size() > k_longest_query ? std::string() : titled(name);
+    if (!meant.empty()) return catalogue_material(meant);
+    // Those that have the word itself before those that have it in another (beryl, chrysoberyl).
     std::vector<std::string> like = catalogue_names_like(name);
-    const auto described = std::find_if(like.begin(), like.end(), [&name](const std::string& id) {
-        return !holds_words(id, name);
-    });
-    if (described != like.begin()) like.erase(described, like.end());
+    const auto others =
+        std::stable_partition(like.begin(), like.end(), [&name](const std::string& id) {
+            return holds_whole_words(about(id), name);
+        });
+    if (others != like.begin()) like.erase(others, like.end());
     throw InputError(fmt::format(
         "no material \"{}\" in the catalogue{}; culet info --materials WORD looks for one, or "
         "describe yours in a [material] table",
-        name, like.empty() ? std::string() : fmt::format(" (did you mean {}?)", listed(like))));
+        name,
+        like.empty() ? std::string()
+                     : fmt::format(" (did you mean {}?)", listed(like, k_most_suggested))));
 }
 
 std::vector<std::string> catalogue_names_like(const std::string& words) {

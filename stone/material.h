@@ -34,7 +34,7 @@ const char* ray_name(OpticCharacter optic, int ray);
 
 struct Material {
     std::string id = "glass";
-    std::string name;
+    std::string name;  ///< title; a variety's own (`Ruby`)
     OpticCharacter optic = OpticCharacter::isotropic;
     std::array<RefractiveIndex, 3> index;  ///< the first ray_count(optic) are used
     /// Napierian intensity coefficient per mm along the ray, for E along each principal axis.
@@ -59,8 +59,9 @@ struct Material {
 /// absorption), in order.
 std::vector<std::string> catalogue_names();
 
-/// A material or coloured variety of the catalogue. Throws InputError with the nearest names when
-/// there is none of that name.
+/// A material or coloured variety of the catalogue, by its name there or by its title up to a
+/// parenthesis where only one is called so (`ruby` is ruby_gem, `blue sapphire` sapphire_blue).
+/// Throws InputError with the nearest names when there is none of that name.
 Material catalogue_material(const std::string& name);
 
 /// Names whose material has all of `words` in its name, its kind or its usual colour (`blue

@@ -43,6 +43,14 @@ std::vector<std::string> plain_words(const std::string& plain_text) {
 
 }  // namespace
 
+bool same_words(std::string_view a, std::string_view b) {
+    return plain(a) == plain(b);
+}
+
+bool holds_whole_words(std::string_view text, std::string_view words) {
+    return (' ' + plain(text) + ' ').find(' ' + plain(words) + ' ') != std::string::npos;
+}
+
 bool holds_words(std::string_view text, std::string_view words) {
     const std::string held = plain(text);
     const std::vector<std::string> wanted = plain_words(plain(words));

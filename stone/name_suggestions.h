@@ -13,6 +13,12 @@ namespace culet {
 /// same. Empty when none is near.
 std::vector<std::string> names_like(std::string_view word, const std::vector<std::string>& known);
 
+/// True when `text` holds these words one after another, each whole.
+bool holds_whole_words(std::string_view text, std::string_view words);
+
+/// True when both are the same words: letters of either case, `-`, `_` and blanks are the same.
+bool same_words(std::string_view a, std::string_view b);
+
 /// True when `text` holds every word of `words`; letters of either case are the same.
 bool holds_words(std::string_view text, std::string_view words);
 

@@ -9,6 +9,7 @@
 #include "stone/cuts/brilliant.h"
 #include "stone/cuts/faceted.h"
 #include "stone/errors.h"
+#include "stone/name_suggestions.h"
 #include "stone/toml_file.h"
 #include "stone/units.h"
 
@@ -239,10 +240,10 @@ const Recipe& recipe(const std::string& name) {
     }
     std::vector<std::string> names{"emerald"};
     for (const Recipe& r : recipes()) names.push_back(r.kind.name);
-    const auto near = nearest_name(name, names);
+    const std::vector<std::string> like = names_like(name, names);
     throw InputError(
         fmt::format("no cut \"{}\"{}; culet cut --list lists them", name,
-                    near ? fmt::format(", did you mean \"{}\"?", *near) : std::string()));
+                    like.empty() ? "" : fmt::format(", did you mean {}?", listed(like))));
 }
 
 void turn(Solid& solid, double angle) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "stone/errors.h"
 #include "stone/material.h"
@@ -50,9 +51,17 @@ TEST(NamesLike, AreListedInWords) {
 }
 
 TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
-    EXPECT_NE(error_of("sapphire").find("mean \"sapphire_blue\"?"), std::string::npos);
-    EXPECT_NE(error_of("ruby").find("mean \"ruby_gem\" or \"ruby_pale\"?"), std::string::npos)
-        << error_of("ruby");
+    EXPECT_NE(error_of("sapphire").find("mean \"sapphire_blue\", \"corundum\""), std::string::npos)
+        << error_of("sapphire");
+    // Of several kinds all are named, and none is chosen.
+    EXPECT_NE(error_of("topaz").find("mean \"topaz_fluor\", \"topaz_imperial\" or \"topaz_blue\"?"),
+              std::string::npos)
+        << error_of("topaz");
+    EXPECT_NE(error_of("beryl").find("mean \"aquamarine\" or \"emerald\"?"), std::string::npos)
+        << error_of("beryl");
+    for (const char* kind :
+         {"pyrope", "almandine", "spessartine", "grossular", "andradite", "rhodolite"})
+        EXPECT_NE(error_of("garnet").find(kind), std::string::npos) << kind;
     EXPECT_NE(error_of("dimond").find("\"diamond\""), std::string::npos);
     // Tsavorite and demantoid are kinds of garnet that the usual colours name.
     EXPECT_EQ(catalogue_names_like("tsavorite"), std::vector<std::string>{"garnet_grossular"});
@@ -61,6 +70,18 @@ TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
     EXPECT_TRUE(catalogue_names_like("qqqqqqqq").empty());
     // A name of a megabyte is not echoed whole.
     EXPECT_LT(for_terminal(error_of(std::string(1 << 20, 'x'))).size(), 400u);
+}
+
+TEST(Catalogue, KnowsAStoneByItsTitle) {
+    const Material ruby = catalogue_material("Ruby");
+    EXPECT_EQ(ruby.id, "ruby_gem");
+    // Red: the green between chromium's two bands is taken away, and red passes.
+    EXPECT_GT(ruby.absorption_per_mm[0].at(550), 10 * ruby.absorption_per_mm[0].at(650));
+    EXPECT_EQ(catalogue_material("blue sapphire").id, "sapphire_blue");
+    EXPECT_EQ(catalogue_material("Diamond").id, "diamond");
+    std::set<std::string> titles;
+    for (const std::string& name : catalogue_names())
+        EXPECT_TRUE(titles.insert(catalogue_material(name).name).second) << name;
 }
 
 TEST(Catalogue, SaysWhenTheColourOfAStoneIsMissing) {

@@ -80,6 +80,10 @@ class PanelMaterial {
                        .replace(/_/g, " ");
         return wanted.every((word) => text.includes(word.replace(/_/g, " ")));
       });
+      // What is called so stands before what is only described so: Enter takes the first.
+      const called = (m) =>
+        wanted.length > 0 && [m.name, m.title || ""].some((n) => n.toLowerCase().startsWith(wanted[0]));
+      this.listed.sort((a, b) => called(b) - called(a));
       const chosen = this.page.state.get("material") || "";
       this.list.replaceChildren(...this.listed.map(
         (m) => element("li", {
