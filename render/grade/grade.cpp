@@ -188,7 +188,7 @@ GradeIndex grade_index(const Material* material, std::optional<double> n) {
 }
 
 Vec3 eye_over_tilted(double tilt, double axis) {
-    return {-std::sin(axis) * std::sin(tilt), std::cos(axis) * std::sin(tilt), std::cos(tilt)};
+    return {std::sin(axis) * std::sin(tilt), -std::cos(axis) * std::sin(tilt), std::cos(tilt)};
 }
 
 std::vector<Vec3> cone_directions(double half_angle, int rings, int each) {

@@ -18,9 +18,10 @@ class TiltStrip {
     });
   }
 
-  // About the picture's x: the far edge of the stone rises for positive tilts.
+  // About the picture's x, as culet grade counts: the near edge of the stone rises for positive
+  // tilts.
   turn_at(tilt) {
-    return Turn.after(Turn.about([1, 0, 0], tilt * Math.PI / 180), this.page.home());
+    return Turn.after(Turn.about([1, 0, 0], -tilt * Math.PI / 180), this.page.home());
   }
 
   // Drawn when the stone rests; what did not change is not drawn again.
