@@ -209,12 +209,17 @@ WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm)
         rgb_weight_.push_back({rgb(0, i), rgb(1, i), rgb(2, i)});
 }
 
+WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm, std::vector<Rgb> shares)
+    : wavelengths_nm_(std::move(wavelengths_nm)), rgb_weight_(std::move(shares)), fitted_(true) {
+    check(wavelengths_nm_.size() == rgb_weight_.size(), "each wavelength needs its shares");
+}
+
 const std::array<std::vector<double>, 3>& WavelengthSet::primaries() const {
     // A plan tries the same few sets again and again, and most scenes have no coloured light.
     static std::mutex mutex;
-    static std::map<std::vector<double>, std::array<std::vector<double>, 3>> found;
+    static std::map<std::vector<Rgb>, std::array<std::vector<double>, 3>> found;
     const std::lock_guard<std::mutex> lock(mutex);
-    const auto [at, is_new] = found.try_emplace(wavelengths_nm_);
+    const auto [at, is_new] = found.try_emplace(rgb_weight_);
     if (!is_new) return at->second;
     if (size() == 1) {
         for (int p = 0; p < 3; ++p) at->second[p] = {k_luminance[p]};
@@ -252,6 +257,10 @@ std::vector<double> WavelengthSet::spectrum_of(const Rgb& rgb) const {
 std::vector<double> WavelengthSet::illuminant_relative(const char* name) const {
     const Spectrum* lamp = illuminant(name);
     check(lamp != nullptr, "unknown illuminant");
+    if (fitted_) {
+        const WavelengthSet whole(lamp->wavelengths_nm());
+        return spectrum_of(whole.rgb_of(whole.illuminant_relative(name).data()));
+    }
     const Spectrum& d65 = *illuminant("D65");
     double y_lamp = 0, y_white = 0;
     for (double nm : cie_y().wavelengths_nm()) {

@@ -20,6 +20,8 @@ class WavelengthSet {
 public:
     /// Increasing, at least one. With a single wavelength a picture is grey: (v, v, v).
     explicit WavelengthSet(std::vector<double> wavelengths_nm);
+    /// The same with shares of their own, which sum to 1 for each colour (few_wavelengths.h).
+    WavelengthSet(std::vector<double> wavelengths_nm, std::vector<Rgb> rgb_weight);
 
     const std::vector<double>& wavelengths_nm() const { return wavelengths_nm_; }
     int size() const { return static_cast<int>(wavelengths_nm_.size()); }
@@ -34,15 +36,17 @@ public:
     /// values below 0. Two nodes: as near to (r, g, b) as they can; one: its luminance.
     std::vector<double> spectrum_of(const Rgb& rgb) const;
     /// s_r, s_g, s_b at each node. The first call with these wavelengths takes up to tens of
-    /// milliseconds (57 nodes); what it finds is kept for all sets of the same wavelengths.
+    /// milliseconds (57 nodes); what it finds is kept for all sets of the same nodes.
     const std::array<std::vector<double>, 3>& primaries() const;
 
     /// Radiances at the nodes of a CIE illuminant relative to D65, luminance 1: "D65" is flat.
+    /// Where nodes have shares of their own, those of a light of the illuminant's colour.
     std::vector<double> illuminant_relative(const char* name) const;
 
 private:
     std::vector<double> wavelengths_nm_;
     std::vector<Rgb> rgb_weight_;  // of each node
+    bool fitted_ = false;          // shares of their own
 };
 
 /// Y of linear sRGB, 1 for white.

@@ -32,7 +32,7 @@ public:
         : table_(table),
           scene_(scene),
           rays_(rays),
-          colours_(rays.setup.wavelengths_nm),
+          colours_(rays.setup.colours()),
           surroundings_(surroundings_of(scene, colours_)),
           shader_(leaf_shader(scene, rays, colours_, *surroundings_, table, precision)),
           width_(scene.camera.width),

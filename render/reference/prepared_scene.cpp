@@ -147,14 +147,14 @@ PathLimits furnished_limits(const Scene& scene, const OpticalSetup& setup) {
 
 PreparedScene::PreparedScene(const Scene& scene)
     : setup(setup_for_tolerance(scene)),
-      colours(setup.wavelengths_nm),
+      colours(setup.colours()),
       surroundings(surroundings_of(scene, colours)) {
     set_limits(scene, *this);
 }
 
 PreparedScene::PreparedScene(const Scene& scene, int nodes, const PathLimits& as_given)
     : setup(make_optical_setup(scene, nodes)),
-      colours(setup.wavelengths_nm),
+      colours(setup.colours()),
       surroundings(surroundings_of(scene, colours)),
       limits(as_given) {
     limits.polarised = setup.polarised;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/colour/few_wavelengths.h"
 #include "render/setup/light_needs.h"
 #include "render/setup/probe_wavelengths.h"
 #include "stone/errors.h"
@@ -62,10 +63,6 @@ struct Decider {
         decision.error_bound = matters && !decision.on ? bound_if_forbidden : 0;
     }
 };
-
-}  // namespace
-
-namespace {
 
 bool has_polariser(const Scene& scene) {
     return scene.camera.optics.analyzer || polarised(scene.lights);
@@ -127,6 +124,19 @@ std::array<double, 3> along_axes(OpticCharacter optic, const Value& value) {
 double mean(const std::array<double, 3>& v) {
     // Equal values stay what they are.
     return v[0] == v[1] && v[1] == v[2] ? v[0] : (v[0] + v[1] + v[2]) / 3;
+}
+
+// Absorption per mm of each principal ray, or their mean where the two waves are not told apart.
+std::vector<Spectrum> absorption_of(const Material& material, bool each_ray) {
+    const int rays = ray_count(material.optic);
+    const std::vector<Spectrum> all(material.absorption_per_mm.begin(),
+                                    material.absorption_per_mm.begin() + rays);
+    if (each_ray || rays == 1) return all;
+    const std::vector<double> nm = even_nodes(k_node_counts.back());
+    std::vector<double> values;
+    for (const double at : nm)
+        values.push_back(mean(along_axes(material.optic, [&](int r) { return all[r].at(at); })));
+    return {Spectrum(nm, values)};
 }
 
 void decide_coherence(const Scene& scene, const Optics& optics, OpticalSetup& setup) {
@@ -226,6 +236,15 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
 
     const double mm = mm_per(scene.stone.unit);
     const int count = static_cast<int>(setup.wavelengths_nm.size());
+    const bool each_ray = setup.on(Effects::pleochroism) && setup.splits;
+    const FewWavelengths* few = nullptr;
+    // Spectra, and scenes with other things in colour, are at the wavelengths themselves.
+    if (setup.on(Effects::absorption) && optics.spectral_absorption && !scene.settings.spectral &&
+        !scene.furnished() && count >= k_least_fitted && count <= k_most_fitted) {
+        few = &few_wavelengths(absorption_of(material, each_ray), setup.wavelengths_nm,
+                               mm * diameter(scene.stone.solid));
+        setup.rgb_weight = few->rgb_weight;
+    }
     const double spacing =
         count > 1 ? (setup.wavelengths_nm.back() - setup.wavelengths_nm.front()) / (count - 1) : 0;
     const double bandwidth = scene.settings.bandwidth_nm.value_or(spacing);
@@ -252,7 +271,8 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
         for (int i = 0; i < band.count; ++i) {
             const double at = setup.wavelengths_nm[first + i];
             std::array<double, 3> K = along_axes(material.optic, [&](int ray) {
-                return material.absorption_per_mm[ray].at(at) * mm;
+                return mm * (few ? few->absorption_per_mm[each_ray ? ray : 0][first + i]
+                                 : material.absorption_per_mm[ray].at(at));
             });
             if (!setup.on(Effects::pleochroism) || !band.two_waves) K.fill(mean(K));
             for (int axis = 0; axis < 3; ++axis) band.absorption[axis][i] = K[axis];

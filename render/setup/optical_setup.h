@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/colour/colour.h"
 #include "render/optics/band.h"
 #include "render/scene/scene.h"
 
@@ -22,6 +23,9 @@ struct EffectDecision {
 struct OpticalSetup {
     std::array<EffectDecision, k_effect_count> effects;
     std::vector<double> wavelengths_nm;
+    /// Of each wavelength, where few stand for a coloured stone's whole spectrum, as the absorption
+    /// of `bands` then does (few_wavelengths.h); else empty.
+    std::vector<Rgb> rgb_weight;
     std::vector<Band> bands;
     bool polarised = true;
     bool stokes = false;   ///< all four Stokes parameters are needed: polarised lights, an analyser
@@ -29,6 +33,10 @@ struct OpticalSetup {
     bool splits = false;   ///< the stone has two waves, so that trees double
 
     bool on(Effects effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    WavelengthSet colours() const {
+        return rgb_weight.empty() ? WavelengthSet(wavelengths_nm)
+                                  : WavelengthSet(wavelengths_nm, rgb_weight);
+    }
 };
 
 /// Wavelengths that can be chosen from, coarse to fine; each set holds the one before.
