@@ -201,10 +201,11 @@ DecodedPixels decode_png(const std::string& bytes, const std::filesystem::path& 
     check(input.png != nullptr, "libpng starts");
     input.info = png_create_info_struct(input.png);
     check(input.info != nullptr, "libpng has room for a header");
-    if (!read_png_head(input)) throw png_refusal(input, file);
+    const bool head = read_png_head(input);
     const std::size_t width = png_get_image_width(input.png, input.info),
                       height = png_get_image_height(input.png, input.info);
-    check_size(width, height, bytes.size(), "PNG", file);
+    if (head || width > 0) check_size(width, height, bytes.size(), "PNG", file);
+    if (!head) throw png_refusal(input, file);
     const bool grey = (png_get_color_type(input.png, input.info) & PNG_COLOR_MASK_COLOR) == 0;
     if (!prepare_png_rows(input)) throw png_refusal(input, file);
     const std::size_t channels = png_get_channels(input.png, input.info);
