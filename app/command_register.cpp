@@ -147,8 +147,10 @@ void add_command_register(CLI::App& program, int& exit_code) {
                      "refuse a pose whose chance of being a wrong one is larger (percent; default "
                      "0.1; 100 takes any)")
         ->check(CLI::Range(1e-6, 100.0));
-    command->add_flag("--mirrored,!--not-mirrored", a.mirrored,
-                      "the photograph may be turned left to right: try both (default: it is not)");
+    command->add_flag("--mirrored", a.mirrored,
+                      "the photograph may be turned left to right: try it both ways");
+    command->add_flag("--not-mirrored", "it is not turned left to right: the default")
+        ->excludes("--mirrored");
     add_common(*command, a.common, true);
     command->footer(
         "Examples:\n"
