@@ -26,7 +26,7 @@ struct RegisterArguments {
     std::string photo, scene, out, overlay, json, mask;
     double facet_error_deg = 0.2, search_deg = 35, focal_error = 20, principal_point_error = 0,
            within_deg = 10, within_px = 0, doubt_percent = 0.1;
-    bool mirrored = false;
+    bool mirrored = false, not_mirrored = false;
 };
 
 PoseOptions options_of(const RegisterArguments& a, const Photo& photo) {
@@ -149,7 +149,8 @@ void add_command_register(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1e-6, 100.0));
     command->add_flag("--mirrored", a.mirrored,
                       "the photograph may be turned left to right: try it both ways");
-    command->add_flag("--not-mirrored", "it is not turned left to right: the default")
+    command
+        ->add_flag("--not-mirrored", a.not_mirrored, "it is not turned left to right: the default")
         ->excludes("--mirrored");
     add_common(*command, a.common, true);
     command->footer(
