@@ -329,6 +329,7 @@ double shift_to_truth(const Shot& made, const FoundPose& pose) {
 TEST(FindPose, FindsTheCameraOfABrilliantFrom25DegreesAway) {
     const Shot made = shot("round-brilliant", 0.2, 20, 12, "overcast", 320, 11);
     PoseOptions options;
+    options.both_chiralities = true;
     options.limits.angle = radians(1);
     options.limits.shift_px = 1;
     const FoundPose pose =
