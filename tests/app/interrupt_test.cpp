@@ -33,7 +33,7 @@ protected:
         write("map.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1024 +X 2048\n" + texels);
         write("scene.toml", scene("preset = \"jeweller\"", "diamond"));
         write("map.toml", scene("environment = \"map.hdr\"", "diamond"));
-        write("crystal.toml", scene("preset = \"jeweller\"", "zircon"));
+        write("crystal.toml", scene("preset = \"jeweller\"", "zircon_blue"));
     }
     static std::string scene(const std::string& light, const std::string& material) {
         return "mesh = \"stone.obj\"\nmaterial = \"" + material +
