@@ -36,8 +36,8 @@ Vec3 axis_near(const Vec3& direction);
 /// +y, -x, ... or the three components: for people.
 std::string words_for_direction(const Vec3& direction);
 
-/// Where no facet faces up (+z) as a table does: a sentence that asks for `up`; else empty. For what
-/// counts from up.
+/// Where no facet faces up (+z) as a table does: a sentence that asks for `up`; else empty. For
+/// what counts from up.
 std::string question_of_up(const Solid& solid);
 
 /// Up as the solid itself shows it: the normal of the one facet that is a table, which lies flat
