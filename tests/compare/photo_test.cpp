@@ -135,8 +135,8 @@ TEST_F(PhotoFiles, BrokenPicturesAreNamed) {
 
 // A header of 4 billion pixels and no data must not be believed.
 TEST_F(PhotoFiles, AbsurdSizesAreRefusedBeforeAnythingIsAllocated) {
-    std::string png(
-        "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\1\0\0\0\1\0\0\x08\2\0\0\0\xe3\xe6\xa7\xb4", 33);
+    std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\1\0\0\0\1\0\0\x08\2\0\0\0\xe3\xe6\xa7\xb4",
+                    33);
     write("huge.png", png);
     EXPECT_THAT(complaint("huge.png"), HasSubstr("65536 x 65536"));
     write("huge.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 99999 +X 99999\n");
