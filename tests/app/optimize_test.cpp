@@ -64,7 +64,9 @@ TEST_F(OptimizeCommand, KeepsTheDesignsWords) {
         EXPECT_THAT(better, HasSubstr(kept));
     const auto tiers = [](const std::string& words) {
         std::size_t count = 0;
-        for (std::size_t at = words.find("\na "); at != std::string::npos; at = words.find("\na ", at + 1)) ++count;
+        for (std::size_t at = words.find("\na "); at != std::string::npos;
+             at = words.find("\na ", at + 1))
+            ++count;
         return count;
     };
     EXPECT_EQ(tiers(better), tiers(design));

@@ -139,7 +139,8 @@ Solid brilliant_of_two_names() {
     Solid solid = make_cut("round-brilliant");
     int number = 0;
     for (Facet& facet : solid.facets) {
-        if (facet.name.starts_with("L")) facet.name = (++number % 2 == 0 ? "A." : "B.") + facet.name.substr(1);
+        if (facet.name.starts_with("L"))
+            facet.name = (++number % 2 == 0 ? "A." : "B.") + facet.name.substr(1);
     }
     return solid;
 }
@@ -152,7 +153,8 @@ TEST(Optimize, KeepsSymmetryAndEveryFacet) {
     options.evaluations = 120;
     const Optimized result = optimize_cut(start, options);
     ASSERT_TRUE(result.found);
-    const DrawnSymmetry kept = drawn_symmetry(result.better, {0, 0, 1}, table_facet(start, {0, 0, 1}));
+    const DrawnSymmetry kept =
+        drawn_symmetry(result.better, {0, 0, 1}, table_facet(start, {0, 0, 1}));
     EXPECT_EQ(kept.group.name(), "C8v");
     for (const FacetOrbit& orbit : orbits_of(kept.group, start.facets.size())) {
         for (const int f : orbit.facets) {
@@ -176,8 +178,8 @@ TEST(Optimize, KeepsSymmetryAndEveryFacet) {
 
 TEST(Optimize, GivesTheBestSoFarWhereItIsStopped) {
     int calls = 0;
-    const Optimized result =
-        optimize_cut(make_cut("round-brilliant"), quick(1.54), [&](double) { return ++calls < 15; });
+    const Optimized result = optimize_cut(make_cut("round-brilliant"), quick(1.54),
+                                          [&](double) { return ++calls < 15; });
     EXPECT_TRUE(result.interrupted);
     EXPECT_EQ(result.evaluations, 15);
     EXPECT_GE(result.at_better.total, result.at_start.total);
