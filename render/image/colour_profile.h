@@ -24,7 +24,8 @@ public:
     void linear(const float* samples, std::size_t pixels, float* rgb) const;
 
 private:
-    std::size_t channels_, of_profile_;
+    // The page's stand-in needs neither.
+    [[maybe_unused]] std::size_t channels_, of_profile_;
     std::string trouble_, name_;
     std::shared_ptr<void> transform_;
 };
