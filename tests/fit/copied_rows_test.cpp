@@ -14,7 +14,7 @@
 namespace culet {
 namespace {
 
-WrittenReading width(const std::string& azimuth, double value, double sigma) {
+WrittenReading width_row(const std::string& azimuth, double value, double sigma) {
     WrittenReading w;
     w.kind = "width";
     w.of = {azimuth};
@@ -26,15 +26,15 @@ WrittenReading width(const std::string& azimuth, double value, double sigma) {
 
 // A hundredth read twice with a sigma of two: alike in one case of five at most.
 TEST(CopiedRows, AreNotThoseThatWereReadAgain) {
-    const std::vector<WrittenReading> rows{width("0", 6.52, 0.02), width("0", 6.52, 0.02),
-                                           width("0", 6.53, 0.02), width("45", 6.5, 0.02)};
+    const std::vector<WrittenReading> rows{width_row("0", 6.52, 0.02), width_row("0", 6.52, 0.02),
+                                           width_row("0", 6.53, 0.02), width_row("45", 6.5, 0.02)};
     EXPECT_THAT(copied_rows(rows), testing::Each(false));
 }
 
 // Four decimals and a sigma of a hundredth: alike in four cases of a thousand, twice in 16 of a
 // million.
 TEST(CopiedRows, RepeatEveryDigit) {
-    std::vector<WrittenReading> rows{width("0", 6.5204, 0.01), width("45", 6.4987, 0.01)};
+    std::vector<WrittenReading> rows{width_row("0", 6.5204, 0.01), width_row("45", 6.4987, 0.01)};
     const auto first = rows;
     rows.insert(rows.end(), first.begin(), first.end());
     EXPECT_THAT(copied_rows(rows), testing::ElementsAre(false, false, true, true));
@@ -44,7 +44,7 @@ TEST(CopiedRows, RepeatEveryDigit) {
 
 // Nothing is known of the scale of whole numbers but that its step is not much more than sigma.
 TEST(CopiedRows, OfWholeNumbersTakeManyCopies) {
-    const std::vector<WrittenReading> few(3, width("0", 6, 0.01)), many(100, few[0]);
+    const std::vector<WrittenReading> few(3, width_row("0", 6, 0.01)), many(100, few[0]);
     EXPECT_THAT(copied_rows(few), testing::Each(false));
     const std::vector<bool> copies = copied_rows(many);
     EXPECT_FALSE(copies[0]);
@@ -54,7 +54,7 @@ TEST(CopiedRows, OfWholeNumbersTakeManyCopies) {
 TEST(CopiedRows, CountOnceAndAreSaidToBeCopies) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");
-    std::vector<WrittenReading> rows(40, width("0", 6.5204, 0.01));
+    std::vector<WrittenReading> rows(40, width_row("0", 6.5204, 0.01));
     std::vector<std::string> notes;
     EXPECT_EQ(bind_readings(rows, stone, &notes).size(), 1u);
     ASSERT_EQ(notes.size(), 1u);

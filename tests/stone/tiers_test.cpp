@@ -13,7 +13,6 @@
 #include "stone/cuts/cuts.h"
 #include "stone/cutting_list.h"
 #include "stone/gemcad_io.h"
-#include "stone/half_spaces.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
 #include "stone/written_number.h"
