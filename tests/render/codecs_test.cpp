@@ -54,7 +54,8 @@ TEST(Codecs, WritePngsThatOpenCvReadsToTheLastBit) {
             for (auto& sample : samples) sample = static_cast<std::uint8_t>(random());
             const std::string bytes = encode_png(width, height, channels, samples,
                                                  {{"culet:a", "1"}, {"culet:b", "\u03bb"}});
-            EXPECT_EQ(difference({width, height, channels, samples}, decoded_by_opencv(bytes)), 0);
+            EXPECT_EQ(difference({width, height, channels, samples, {}}, decoded_by_opencv(bytes)),
+                      0);
             EXPECT_EQ(encode_png(width, height, channels, samples,
                                  {{"culet:a", "1"}, {"culet:b", "\u03bb"}}),
                       bytes);
