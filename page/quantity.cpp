@@ -87,7 +87,7 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
     if (!given(sigma) || *sigma < 0) return to_place_of(value, std::nullopt, unit);
     if (*sigma < finest_of(unit)) return trimmed(*value, unit) + suffix + " (held exactly)";
     if (unit == "deg" && *sigma >= k_right_angle_deg) return "not known";
-    if (*sigma >= k_largest_written) {
+    if (*sigma >= k_largest_written || std::abs(*value) >= k_largest_written * k_largest_written) {
         return significant(*value, 2) + " ± " + significant(*sigma, 2) + suffix;
     }
     // One digit of sigma at least.

@@ -55,6 +55,11 @@ bool is_closed(const Solid& solid);
 /// (planar to rounding) with a flipped edge is not.
 bool is_convex(const Solid& solid);
 
+/// The largest distance of a corner from the body that the facets' planes bound, which lies within
+/// a closed mesh: how far another body is drawn when a stone is drawn as convex. Infinite when the
+/// planes bound none.
+double distance_from_planes_body(const Solid& solid);
+
 /// As far as the meets of a real cut design miss, as a fraction of the diameter (the published
 /// files that we know miss by up to 3e-4 of the width).
 inline constexpr double k_largest_miss = 3e-4;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "stone/checks.h"
@@ -95,6 +96,45 @@ bool is_convex(const Solid& solid) {
         seen += solid_angle(solid, facet, middle);
     }
     return std::abs(seen - 4 * std::numbers::pi) < 1;
+}
+
+namespace {
+
+double distance_to_facet(const Solid& solid, const Facet& facet, const Vec3& point) {
+    double to_edge = std::numeric_limits<double>::infinity();
+    bool above = true;  // of the facet itself, not of a place beside it
+    for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+        const auto corner = [&](std::size_t k) {
+            return solid.vertices[std::size_t(facet.corners[k % facet.corners.size()])];
+        };
+        const Vec3 a = corner(i), side = corner(i + 1) - a, to = point - a;
+        if (glm::dot(glm::cross(facet.plane.normal, side), to) < 0) above = false;
+        const double length2 = glm::dot(side, side);
+        const double t = length2 > 0 ? std::clamp(glm::dot(to, side) / length2, 0.0, 1.0) : 0;
+        to_edge = std::min(to_edge, glm::length(to - t * side));
+    }
+    return above ? std::abs(height_above(facet.plane, point)) : to_edge;
+}
+
+}  // namespace
+
+double distance_from_planes_body(const Solid& solid) {
+    std::vector<NamedPlane> planes;
+    for (const Facet& facet : solid.facets) planes.push_back({facet.name, facet.plane});
+    const Solid body = intersect_half_spaces(planes).solid;
+    if (body.facets.empty()) return std::numeric_limits<double>::infinity();
+    double largest = 0;
+    for (const Vec3& corner : solid.vertices) {
+        double nearest = std::numeric_limits<double>::infinity();
+        bool outside = false;
+        for (const Facet& facet : body.facets) {
+            if (height_above(facet.plane, corner) <= 0) continue;
+            outside = true;
+            nearest = std::min(nearest, distance_to_facet(body, facet, corner));
+        }
+        if (outside) largest = std::max(largest, nearest);
+    }
+    return largest;
 }
 
 }  // namespace culet

@@ -11,6 +11,7 @@ namespace culet {
 
 struct DrawnSymmetry {
     AxisGroup group;  ///< trivial where the drawing has none, or is not closed
+    AxisGroup near;   ///< the largest that it comes near to: one facet cut askew leaves it
     double scatter =
         0;  ///< of a corner beside where the symmetric form has it, each coordinate, in
             ///< the solid's unit; at least what the last digit of designs leaves open
@@ -26,8 +27,8 @@ struct DrawnSymmetry {
 /// - which the corners come near to: within 5 % of the half diameter, or as near as they come to
 ///   their own facets' planes,
 /// - and which loses nothing against its subgroups: an F-test of what the facets of its orbits
-///   differ by, beyond those of each subgroup's, at the 1 % level (Bonferroni). So an oval is not
-///   taken for a round stone, however alike its facets meet.
+///   differ by, beyond those of each subgroup's, at the 0.01 % level (Bonferroni). So an oval is
+///   not taken for a round stone, however alike its facets meet.
 DrawnSymmetry drawn_symmetry(const Solid& solid, const Vec3& up, int table);
 
 }  // namespace culet

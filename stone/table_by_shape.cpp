@@ -7,7 +7,7 @@
 
 #include "stone/checks.h"
 #include "stone/perpendicular.h"
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 #include "stone/units.h"
 #include "stone/upright.h"
 

@@ -173,7 +173,8 @@ std::string foreign_kind(std::string_view bytes) {
     std::transform(start.begin(), start.end(), start.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     start.erase(0, std::min(start.find_first_not_of("\xef\xbb\xbf \t\r\n"), start.size()));
-    if (start.starts_with("<!doctype html") || start.starts_with("<html"))
+    if (start.starts_with('<') &&
+        (start.substr(1).starts_with("!doctype html") || start.substr(1).starts_with("html")))
         return "is a page of the web (HTML), not the file that it links to: download that";
     return {};
 }

@@ -141,7 +141,14 @@ public:
         for (const std::string& name : names_) ++named_[name];
     }
 
-    StonePart part(int facet) const { return part_of(solid_, facet, table_, up_); }
+    // Of most of them: a girdle drawn by hand does not stand upright everywhere.
+    StonePart part(const std::vector<int>& facets) const {
+        std::map<StonePart, int> count;
+        for (const int f : facets) ++count[part(f)];
+        return std::max_element(count.begin(), count.end(),
+                                [](const auto& a, const auto& b) { return a.second < b.second; })
+            ->first;
+    }
     double variance(int facet) const {
         return std::pow(drawn_.tilt_sigma(solid_, facet, up_), 2) +
                std::pow(radians(k_same_angle_deg), 2) / 12;
@@ -169,6 +176,14 @@ public:
                 }
             }
         }
+        // Where the drawing alone would part them, a name in common confirms them.
+        for (const FacetOrbit& orbit : orbits_of(drawn_.near, solid_.facets.size())) {
+            for (const int f : orbit.facets) {
+                for (const int other : orbit.facets) {
+                    if (other < f && have_one_name(f, other)) join(f, other);
+                }
+            }
+        }
         for (int f = 0; f < static_cast<int>(root.size()); ++f) {
             for (int other = 0; other < f; ++other) {
                 if (are_cut_alike(f, other)) join(f, other);
@@ -184,6 +199,7 @@ public:
     }
 
 private:
+    StonePart part(int facet) const { return part_of(solid_, facet, table_, up_); }
     // Names of several facets each tell tiers apart.
     bool may_belong(int a, int b) const {
         const std::string& one = names_[static_cast<std::size_t>(a)];
@@ -191,16 +207,19 @@ private:
         const auto tells = [&](const std::string& name) {
             return !name.empty() && named_.at(name) > 1;
         };
-        return part(a) == part(b) && (one == other || !tells(one) || !tells(other));
+        return one == other || !tells(one) || !tells(other);
+    }
+    bool have_one_name(int a, int b) const {
+        const std::string& name = names_[static_cast<std::size_t>(a)];
+        return !name.empty() && name == names_[static_cast<std::size_t>(b)];
     }
     // In one setting of the machine but for the index; a name stands for the same distance.
     bool are_cut_alike(int a, int b) const {
         if (std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) > radians(k_same_angle_deg) ||
-            !may_belong(a, b)) {
+            part(a) != part(b) || !may_belong(a, b)) {
             return false;
         }
-        const std::string& one = names_[static_cast<std::size_t>(a)];
-        if (!one.empty() && one == names_[static_cast<std::size_t>(b)]) return true;
+        if (have_one_name(a, b)) return true;
         const Plane& p = solid_.facets[static_cast<std::size_t>(a)].plane;
         const Plane& q = solid_.facets[static_cast<std::size_t>(b)].plane;
         const double from_middle =
@@ -226,7 +245,7 @@ std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up) {
     std::vector<FacetTier> tiers;
     for (std::vector<int>& facets : finder.tiers()) {
         FacetTier tier;
-        tier.part = finder.part(facets.front());
+        tier.part = finder.part(facets);
         tier.name = finder.name(facets);
         tier.pattern = pattern_of(solid, tier.name, facets);
         const double count = static_cast<double>(facets.size());

@@ -24,8 +24,9 @@ std::vector<int> main_facets(const Solid& solid, const Vec3& up, bool crown);
 
 /// Facets of one part that belong together by the drawing itself: the symmetry about up that the
 /// drawing has takes them into each other (drawn_symmetry.h), or they have the same angle (to 0.02
-/// degrees, as designs are written) and distance, or name. Names alone make no tier; they part one
-/// where they differ (see `tier_names_of`).
+/// degrees, as designs are written) and distance, or name, or they have one name and the drawing
+/// comes near to a symmetry that takes them into each other. Names alone make no tier; they part
+/// one where they differ (see `tier_names_of`).
 struct FacetTier {
     StonePart part = StonePart::crown;
     std::string name;  ///< see `tier_names_of`; empty: they have none in common

@@ -18,7 +18,8 @@ glm::dmat3 turn_upright(const Vec3& up) {
     if (up == -z) return {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
     glm::dmat3 turn(turned_with(up, z, {1, 0, 0}), turned_with(up, z, {0, 1, 0}),
                     turned_with(up, z, {0, 0, 1}));
-    if (axis_near(up) == up) {
+    // Along an axis no rounding is left.
+    if (std::abs(up.x) + std::abs(up.y) + std::abs(up.z) == 1) {
         for (int k = 0; k < 3; ++k) turn[k] = glm::round(turn[k]);
     }
     return turn;

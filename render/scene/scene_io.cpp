@@ -16,7 +16,6 @@
 #include "render/scene/transform.h"
 #include "render/scene/turned_lights.h"
 #include "render/scene/view_presets.h"
-#include "render/setup/scene_checks.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"

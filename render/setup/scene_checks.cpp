@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "render/geometry/stone_body.h"
 #include "render/optics/path.h"
@@ -59,22 +57,6 @@ void require_drawable(const Stone& stone) {
             }
         }
     }
-}
-
-double distance_to_facet(const Solid& solid, const Facet& facet, const Vec3& point) {
-    double to_edge = std::numeric_limits<double>::infinity();
-    bool above = true;  // of the facet itself, not of a place beside it
-    for (std::size_t i = 0; i < facet.corners.size(); ++i) {
-        const auto corner = [&](std::size_t k) {
-            return solid.vertices[std::size_t(facet.corners[k % facet.corners.size()])];
-        };
-        const Vec3 a = corner(i), side = corner(i + 1) - a, to = point - a;
-        if (glm::dot(glm::cross(facet.plane.normal, side), to) < 0) above = false;
-        const double length2 = glm::dot(side, side);
-        const double t = length2 > 0 ? std::clamp(glm::dot(to, side) / length2, 0.0, 1.0) : 0;
-        to_edge = std::min(to_edge, glm::length(to - t * side));
-    }
-    return above ? std::abs(height_above(facet.plane, point)) : to_edge;
 }
 
 bool holds(const Shape& shape, const Vec3& point) {
@@ -132,25 +114,6 @@ void require_renderable(const Scene& scene) {
 void require_outside(const StoneBody& body, const Camera& camera) {
     if (body.contains(camera.position))
         throw InputError("the camera is inside the stone: move camera.position out");
-}
-
-double distance_from_planes_body(const Solid& solid) {
-    std::vector<NamedPlane> planes;
-    for (const Facet& facet : solid.facets) planes.push_back({facet.name, facet.plane});
-    const Solid body = intersect_half_spaces(planes).solid;
-    if (body.facets.empty()) return std::numeric_limits<double>::infinity();
-    double largest = 0;
-    for (const Vec3& corner : solid.vertices) {
-        double nearest = std::numeric_limits<double>::infinity();
-        bool outside = false;
-        for (const Facet& facet : body.facets) {
-            if (height_above(facet.plane, corner) <= 0) continue;
-            outside = true;
-            nearest = std::min(nearest, distance_to_facet(body, facet, corner));
-        }
-        if (outside) largest = std::max(largest, nearest);
-    }
-    return largest;
 }
 
 std::vector<std::string> notes_on_drawing(const Scene& scene) {

@@ -7,7 +7,7 @@
 
 #include "stone/checks.h"
 #include "stone/errors.h"
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 #include "stone/upright.h"
 
 namespace culet {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "stone/errors.h"
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 
 namespace culet {
 

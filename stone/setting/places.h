@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 #include "stone/solid.h"
 
 namespace culet {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "fit/fit.h"
@@ -37,13 +38,13 @@ Reading photograph(const Solid& solid, double lean, double out) {
     return reading;
 }
 
-Reading caliper(ReadingKind kind, const Vec3& direction) {
+Reading caliper(ReadingKind kind, const Vec3& direction, double value) {
     Reading reading;
     reading.kind = kind;
     reading.id = kind == ReadingKind::depth ? "depth" : direction.x > 0 ? "x" : "y";
     reading.direction = direction;
     reading.has_direction = kind == ReadingKind::width;
-    reading.value = 2;
+    reading.value = value;
     reading.sigma = 0.01;
     return reading;
 }
@@ -51,13 +52,18 @@ Reading caliper(ReadingKind kind, const Vec3& direction) {
 // Least squares of readings that know a hundredth as much: the planes are where the rows say, and
 // everything else where the mesh has it.
 TEST(KnownPlanes, MoveTheFit) {
-    const Stone stone = test::stone_of(test::cube());
+    // Wider along y: what X+ leans says nothing of Y+.
+    Solid block = test::cube();
+    for (Vec3& v : block.vertices) v.y *= 1.5;
+    for (Facet& facet : block.facets)
+        facet.plane.offset *= 1 + 0.5 * std::abs(facet.plane.normal.y);
+    const Stone stone = test::stone_of(block);
     const double lean = 0.02, out = 0.01;
     FitOptions options;
     options.prior.source = Prior::Source::mesh;
     const FitResult fit =
         fit_stone(stone,
-                  {caliper(ReadingKind::width, {0, 1, 0}), caliper(ReadingKind::depth, {}),
+                  {caliper(ReadingKind::width, {0, 1, 0}, 3), caliper(ReadingKind::depth, {}, 2),
                    photograph(stone.solid, lean, out)},
                   options);
     EXPECT_EQ(fit.status, FitStatus::converged) << fit.message;

@@ -204,7 +204,7 @@ TEST_F(Views, AHeartBalancesAndNeedsToBeSaidNotConvex) {
         "fov = 9\nsize = [24, 24]\n[light]\nconstant = 1\n"
         "[render]\nsamples = 1\ndepth = 5\ntolerance = 0\nwavelengths = [589.3]\n";
     std::string convex = text, carved = text;
-    convex.erase(convex.find('@'), 1);
+    convex.replace(convex.find('@'), 1, "convex = true\n");
     carved.replace(carved.find('@'), 1, "convex = false\n");
     try {
         render(scene(convex));

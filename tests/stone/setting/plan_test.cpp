@@ -1,7 +1,7 @@
 // Outlines, places on them, wires and gaps that a setting is made from.
 // Source of the expectations: closed forms, stated with each.
 
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 
 #include <gtest/gtest.h>
 

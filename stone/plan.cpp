@@ -1,4 +1,4 @@
-#include "stone/setting/plan.h"
+#include "stone/plan.h"
 
 #include <algorithm>
 #include <cmath>
