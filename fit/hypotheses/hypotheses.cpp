@@ -29,10 +29,10 @@ Verdict take_with_prior(const Problem&, const Attempt&, const Problem&, FitResul
 }
 
 constexpr Hypothesis k_hypotheses[] = {
+    // The mesh is the mirror image of the stone. First, for it makes many readings look wrong.
+    {"mesh mirrored", mesh_mirrored, judge_mirrored_mesh},
     // The readings leave parts of the stone open.
     {"", with_prior, take_with_prior},
-    // The mesh is the mirror image of the stone.
-    {"mesh mirrored", mesh_mirrored, judge_mirrored_mesh},
     // All azimuths count from another mark.
     {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},
     // Angles far off the mesh are wrong.
