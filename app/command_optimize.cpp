@@ -152,9 +152,10 @@ void print_losses(const Optimized& result, const OptimizeOptions& options) {
     GradeOptions grade;
     grade.head = options.merit.head;
     grade.threads = options.merit.threads;
-    const std::vector<GradeFigure>
-        before = figures_of(grade_stone(result.start, options.merit.index, grade)),
-        now = figures_of(grade_stone(result.better, options.merit.index, grade));
+    const std::vector<GradeFigure> before = figures_of(
+                                       grade_stone(result.start, options.merit.index, grade)),
+                                   now = figures_of(
+                                       grade_stone(result.better, options.merit.index, grade));
     // Below this, in points, nobody sees it.
     constexpr double k_seen = 0.05;
     for (const GradeFigure& was : before) {

@@ -21,8 +21,8 @@ struct GradeInput {
     std::optional<double> index;  ///< as asked for, or of a cut design without a material
     std::optional<StoneUncertainty> uncertainty;
     std::optional<CutSheet> sheet;  ///< of a cut design
-    bool as_drawn = false;  ///< the mesh that a fit began with
-    bool trusted = true;    ///< false: a fit that should not be trusted; `notes` say why
+    bool as_drawn = false;          ///< the mesh that a fit began with
+    bool trusted = true;            ///< false: a fit that should not be trusted; `notes` say why
     std::vector<std::string> notes;
 };
 

@@ -16,10 +16,10 @@
 #include <numbers>
 #include <string>
 
+#include "bench/view_interpolation.h"
 #include "render/engine/engine.h"
 #include "render/raytable/relighting.h"
 #include "render/raytable/table_maker.h"
-#include "bench/view_interpolation.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
 #include "stone/material_io.h"

@@ -8,8 +8,8 @@
 // traced but where eye rays meet the stone. The error is not bounded; docs/ray-tables.md has what
 // was measured.
 
-#include "render/raytable/ray_table.h"
 #include "bench/stored_views.h"
+#include "render/raytable/ray_table.h"
 #include "render/raytable/table_key.h"
 #include "stone/progress.h"
 

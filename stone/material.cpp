@@ -197,10 +197,9 @@ Material catalogue_material(const std::string& name) {
     if (!meant.empty()) return catalogue_material(meant);
     // Those that have the word itself before those that have it in another (beryl, chrysoberyl).
     std::vector<std::string> like = catalogue_names_like(name);
-    const auto others =
-        std::stable_partition(like.begin(), like.end(), [&name](const std::string& id) {
-            return holds_whole_words(about(id), name);
-        });
+    const auto others = std::stable_partition(
+        like.begin(), like.end(),
+        [&name](const std::string& id) { return holds_whole_words(about(id), name); });
     if (others != like.begin()) like.erase(others, like.end());
     throw InputError(fmt::format(
         "no material \"{}\" in the catalogue{}; culet info --materials WORD looks for one, or "

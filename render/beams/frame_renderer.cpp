@@ -276,8 +276,9 @@ std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
     if (!scene.stone.convex) return "beams are for convex stones only";
     for (const Band& band : setup.bands) {
         if (!(band.n > band.n_outside)) {
-            return fmt::format("beams need a stone denser than what surrounds it, found {:.4g} in {:.4g}",
-                               band.n, band.n_outside);
+            return fmt::format(
+                "beams need a stone denser than what surrounds it, found {:.4g} in {:.4g}", band.n,
+                band.n_outside);
         }
     }
     if (scene.camera.optics.two_windows) return "beams draw one window, a dichroscope has two";

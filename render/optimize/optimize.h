@@ -47,13 +47,14 @@ struct Optimized {
     std::vector<OptimizedTier> tiers;
     double volume_ratio = 1;  ///< better over start; of a recut what is left of the stone
     int evaluations = 0;
-    bool found = false;  ///< whether anything better was
-    bool gained = true;  ///< of a recut: whether the wanted gain was reached
+    bool found = false;        ///< whether anything better was
+    bool gained = true;        ///< of a recut: whether the wanted gain was reached
     bool interrupted = false;  ///< by `progress`: the best until then
 };
 
 /// `solid`: closed and convex, table up; throws InputError for others and where no angle can
-/// change. Every facet stays, and so does the symmetry about +z that the drawing has. The result does not depend on the number of threads.
+/// change. Every facet stays, and so does the symmetry about +z that the drawing has. The result
+/// does not depend on the number of threads.
 Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
                        const Progress& progress = {});
 

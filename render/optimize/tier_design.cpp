@@ -26,8 +26,8 @@ constexpr double k_angle_weight = 60;
 // Meets that tie angles to each other are dependent equations: singular values this small, of the
 // largest, are theirs. Meets of real designs miss by up to 3e-4.
 constexpr double k_dependent = 1e-7;
-// Of the diameter: 0.04 mm of a stone of 8 mm, which a loupe shows. Ten times what readers of designs
-// take for a meet that misses (CutReading::meet_tolerance).
+// Of the diameter: 0.04 mm of a stone of 8 mm, which a loupe shows. Ten times what readers of
+// designs take for a meet that misses (CutReading::meet_tolerance).
 constexpr double k_least_edge = 0.005;
 
 // A facet's angle from the horizontal keeps its side: of the pavilion the normal looks down.
@@ -270,8 +270,9 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
                        &b = result.vertices[std::size_t(facet.corners[(i + 1) % n])],
                        &c = result.vertices[std::size_t(facet.corners[(i + 2) % n])];
             if (!(glm::dot(glm::cross(b - a, c - b), facet.plane.normal) > 0)) return std::nullopt;
-            const double was = glm::length(solid_.vertices[std::size_t(facet.corners[i])] -
-                                           solid_.vertices[std::size_t(facet.corners[(i + 1) % n])]);
+            const double was =
+                glm::length(solid_.vertices[std::size_t(facet.corners[i])] -
+                            solid_.vertices[std::size_t(facet.corners[(i + 1) % n])]);
             // Rounding must not tell a design's own edge from itself.
             if (glm::length(b - a) < std::min((1 - 1e-9) * was, k_least_edge * size_))
                 return std::nullopt;

@@ -27,8 +27,8 @@ public:
 
     /// Those that may change: crown and pavilion, in the solid's order.
     const std::vector<FacetTier>& tiers() const { return tiers_; }
-    /// Of `tiers`, those that the design's symmetry takes into each other: each set has one angle to
-    /// choose. Every tier is in one set.
+    /// Of `tiers`, those that the design's symmetry takes into each other: each set has one angle
+    /// to choose. Every tier is in one set.
     const std::vector<std::vector<int>>& tied_tiers() const { return tied_; }
     /// The design itself, its meets closed.
     const Solid& start() const { return start_; }
