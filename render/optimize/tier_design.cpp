@@ -270,12 +270,11 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
                        &b = result.vertices[std::size_t(facet.corners[(i + 1) % n])],
                        &c = result.vertices[std::size_t(facet.corners[(i + 2) % n])];
             if (!(glm::dot(glm::cross(b - a, c - b), facet.plane.normal) > 0)) return std::nullopt;
+            if (start_.facets.empty()) continue;  // the design's own meets are being closed
             const double was =
-                glm::length(solid_.vertices[std::size_t(facet.corners[i])] -
-                            solid_.vertices[std::size_t(facet.corners[(i + 1) % n])]);
-            // Rounding must not tell a design's own edge from itself.
-            if (glm::length(b - a) < std::min((1 - 1e-9) * was, k_least_edge * size_))
-                return std::nullopt;
+                glm::length(start_.vertices[std::size_t(facet.corners[i])] -
+                            start_.vertices[std::size_t(facet.corners[(i + 1) % n])]);
+            if (glm::length(b - a) < std::min(was / 2, k_least_edge * size_)) return std::nullopt;
         }
     }
     return result;

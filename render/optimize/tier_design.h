@@ -35,8 +35,8 @@ public:
 
     /// `steeper`: by tier, radians added to the angle from the horizontal. Nothing where the meets
     /// cannot be kept, or facets would appear, vanish or change their neighbours: every edge keeps
-    /// its length, or 0.5 % of the diameter where it was longer. The girdle stays; corners lie at
-    /// their meets. Angles may differ from those wanted where meets tie them.
+    /// half of its length, or 0.5 % of the diameter where that is less. The girdle stays; corners
+    /// lie at their meets. Angles may differ from those wanted where meets tie them.
     std::optional<Solid> with(const std::vector<double>& steeper) const;
 
 private:
