@@ -23,6 +23,8 @@ constexpr double k_girdle_deg = 80;
 constexpr double k_same_angle_deg = 0.02;
 // Distances, to five decimals of the width and what meets miss by.
 constexpr double k_same_distance = k_largest_miss;
+// As near as a drawing comes to its symmetry (drawn_symmetry.h): radians, and of half the diameter.
+constexpr double k_near_drawing = 0.05;
 
 bool touches(const Facet& facet, const std::set<int>& corners) {
     return std::any_of(facet.corners.begin(), facet.corners.end(),
@@ -186,7 +188,7 @@ public:
         }
         for (int f = 0; f < static_cast<int>(root.size()); ++f) {
             for (int other = 0; other < f; ++other) {
-                if (are_cut_alike(f, other)) join(f, other);
+                if (are_cut_alike(f, other) || are_one_name_and_near(f, other)) join(f, other);
             }
         }
         std::map<int, std::vector<int>> by_root;
@@ -213,6 +215,16 @@ private:
         const std::string& name = names_[static_cast<std::size_t>(a)];
         return !name.empty() && name == names_[static_cast<std::size_t>(b)];
     }
+    double from_middle(int f) const {
+        const Plane& p = solid_.facets[static_cast<std::size_t>(f)].plane;
+        return p.offset - glm::dot(p.normal, middle_);
+    }
+    // Where facets meet in no symmetric way, because one is askew, a name confirms what is near.
+    bool are_one_name_and_near(int a, int b) const {
+        return drawn_.near.is_trivial() && have_one_name(a, b) && part(a) == part(b) &&
+               std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) < k_near_drawing &&
+               std::abs(from_middle(a) - from_middle(b)) < 0.5 * k_near_drawing * diameter(solid_);
+    }
     // In one setting of the machine but for the index; a name stands for the same distance.
     bool are_cut_alike(int a, int b) const {
         if (std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) > radians(k_same_angle_deg) ||
@@ -222,10 +234,8 @@ private:
         if (have_one_name(a, b)) return true;
         const Plane& p = solid_.facets[static_cast<std::size_t>(a)].plane;
         const Plane& q = solid_.facets[static_cast<std::size_t>(b)].plane;
-        const double from_middle =
-            p.offset - q.offset - glm::dot(p.normal, middle_) + glm::dot(q.normal, middle_);
         return std::abs(p.offset - q.offset) < distance_limit_ ||
-               std::abs(from_middle) < distance_limit_;
+               std::abs(from_middle(a) - from_middle(b)) < distance_limit_;
     }
 
     const Solid& solid_;
