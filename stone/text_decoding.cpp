@@ -4,6 +4,7 @@
 #include <array>
 
 #include "stone/errors.h"
+#include "stone/text_scan.h"
 
 namespace culet {
 
@@ -169,9 +170,7 @@ bool is_utf16(std::string_view bytes) {
 
 std::string foreign_kind(std::string_view bytes) {
     if (std::string named = named_by(k_signatures, bytes); !named.empty()) return named;
-    std::string start(bytes.substr(0, 64));
-    std::transform(start.begin(), start.end(), start.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::string start = lower_case(std::string(bytes.substr(0, 64)));
     start.erase(0, std::min(start.find_first_not_of("\xef\xbb\xbf \t\r\n"), start.size()));
     if (start.starts_with('<') &&
         (start.substr(1).starts_with("!doctype html") || start.substr(1).starts_with("html")))

@@ -139,7 +139,9 @@ public:
         drawn_ = drawn_symmetry(solid, up, table_);
         middle_ = std::accumulate(solid.vertices.begin(), solid.vertices.end(), Vec3(0)) /
                   static_cast<double>(std::max<std::size_t>(1, solid.vertices.size()));
-        distance_limit_ = k_same_distance * diameter(solid);
+        const double size = diameter(solid);
+        distance_limit_ = k_same_distance * size;
+        near_limit_ = 0.5 * k_near_drawing * size;
         for (const std::string& name : names_) ++named_[name];
     }
 
@@ -169,6 +171,7 @@ public:
         const auto join = [&](int a, int b) {
             const int from = root[static_cast<std::size_t>(a)],
                       to = root[static_cast<std::size_t>(b)];
+            if (from == to) return;
             std::replace(root.begin(), root.end(), std::max(from, to), std::min(from, to));
         };
         for (const FacetOrbit& orbit : orbits_of(drawn_.group, solid_.facets.size())) {
@@ -223,7 +226,7 @@ private:
     bool are_one_name_and_near(int a, int b) const {
         return drawn_.near.is_trivial() && have_one_name(a, b) && part(a) == part(b) &&
                std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) < k_near_drawing &&
-               std::abs(from_middle(a) - from_middle(b)) < 0.5 * k_near_drawing * diameter(solid_);
+               std::abs(from_middle(a) - from_middle(b)) < near_limit_;
     }
     // In one setting of the machine but for the index; a name stands for the same distance.
     bool are_cut_alike(int a, int b) const {
@@ -245,7 +248,7 @@ private:
     std::map<std::string, int> named_;
     DrawnSymmetry drawn_;
     Vec3 middle_;
-    double distance_limit_ = 0;
+    double distance_limit_ = 0, near_limit_ = 0;
 };
 
 }  // namespace
