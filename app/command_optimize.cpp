@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -152,20 +153,21 @@ void print_losses(const Optimized& result, const OptimizeOptions& options) {
     GradeOptions grade;
     grade.head = options.merit.head;
     grade.threads = options.merit.threads;
-    const std::vector<GradeFigure> before = figures_of(
-                                       grade_stone(result.start, options.merit.index, grade)),
-                                   now = figures_of(
-                                       grade_stone(result.better, options.merit.index, grade));
+    const auto figures = [&](const Solid& solid) {
+        return figures_of(grade_stone(solid, options.merit.index, grade));
+    };
+    const std::vector<GradeFigure> before = figures(result.start), now = figures(result.better);
     // Below this, in points, nobody sees it.
     constexpr double k_seen = 0.05;
     for (const GradeFigure& was : before) {
         if (!was.percent && was.name != "weighted_light_return") continue;
-        for (const GradeFigure& is : now) {
-            const double scale = was.percent ? 1 : 100;
-            if (is.name == was.name && scale * (was.value - is.value) > k_seen)
-                print_lines(fmt::format("  worse than before: {} {:.2f} -> {:.2f} %\n", was.words,
-                                        scale * was.value, scale * is.value));
-        }
+        const auto is = std::find_if(now.begin(), now.end(), [&](const GradeFigure& figure) {
+            return figure.name == was.name;
+        });
+        const double scale = was.percent ? 1 : 100;
+        if (is != now.end() && scale * (was.value - is->value) > k_seen)
+            print_lines(fmt::format("  worse than before: {} {:.2f} -> {:.2f} %\n", was.words,
+                                    scale * was.value, scale * is->value));
     }
 }
 
