@@ -145,6 +145,7 @@ StoneFile stone_of(const TomlTable& root) {
         stone.material.density_g_cm3 = own;
     }
     if (result.has_material) stone.crystal = crystal_frame_in(*table, stone.material.optic);
+    result.states_convex = table->has("convex");
     stone.convex = table->boolean("convex").value_or(true);
 
     const std::string zero = table->text("azimuth_zero").value_or("free");

@@ -16,6 +16,7 @@ struct StoneFile {
     Stone stone;
     /// Else `stone.material` says nothing but a density, where the file does: a fit may do without.
     bool has_material = true;
+    bool states_convex = false;  ///< else `stone.convex` is only supposed
     std::filesystem::path mesh_file;
     std::filesystem::path readings_file;  ///< empty: none named
     std::vector<std::string> notes;       ///< from reading the mesh

@@ -78,8 +78,7 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
         if (!table.has("material")) require_material(file, *table.path(file_key));
         stone = std::move(file.stone);
         for (std::string& note : file.notes) notes.push_back(std::move(note));
-        if (!read_toml(*table.path(file_key)).table("stone")->has("convex"))
-            judge_convexity(stone, notes);
+        if (!file.states_convex) judge_convexity(stone, notes);
     } else {
         SolidFile file = read_solid(*table.path("mesh"));
         stone.solid = std::move(file.solid);
