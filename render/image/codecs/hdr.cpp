@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include "render/image/codecs/codecs.h"
 #include "stone/errors.h"
+#include "stone/text_scan.h"
 
 // Radiance pictures: G. Ward, Real Pixels, in Graphics Gems II (1991), and the format's reference,
 // `filefmts` of Radiance. A pixel is three mantissas of 8 bits and one exponent, R, G, B, E.
@@ -156,12 +157,10 @@ struct HdrHeader {
 std::vector<double> numbers_in(std::string_view text, std::size_t count, std::size_t line,
                                const std::filesystem::path& file) {
     std::vector<double> numbers;
-    const std::string copy(text.substr(0, 256));
-    const char* at = copy.c_str() + copy.find('=') + 1;
-    for (char* end = nullptr;; at = end) {
-        const double value = std::strtod(at, &end);
-        if (end == at) break;
-        numbers.push_back(value);
+    for (const std::string_view word : words_of(text.substr(text.find('=') + 1))) {
+        const std::optional<double> number = number_in(word);
+        if (!number) break;
+        numbers.push_back(*number);
     }
     if (numbers.size() < count)
         throw InputError(file, fmt::format("line {} of its header lacks numbers", line));
