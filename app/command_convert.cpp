@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 #include "app/export_input.h"
 #include "app/file_kinds.h"
 #include "app/options.h"
@@ -11,17 +14,22 @@
 #include "render/export/mitsuba.h"
 #include "render/export/pbrt.h"
 #include "render/export/povray.h"
+#include "render/grade/grade.h"
 #include "render/image/image_io.h"
 #include "render/scene/stone_scene.h"
 #include "stone/checks.h"
+#include "stone/design.h"
 #include "stone/errors.h"
 #include "stone/export/export_frame.h"
 #include "stone/export/gltf_write.h"
 #include "stone/export/step.h"
 #include "stone/file_kind.h"
+#include "stone/gemcad_io.h"
+#include "stone/material_io.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
+#include "stone/stone_io.h"
 
 namespace culet {
 
@@ -119,58 +127,89 @@ int convert_scene(const ConvertOptions& options) {
     return exit_good;
 }
 
+// A solid, or the stone of a stone file as it is drawn.
+struct ConvertInput {
+    Solid solid;
+    std::optional<Material> material;
+    std::vector<std::string> notes, details;
+};
+
+ConvertInput converted_input(const ConvertOptions& options) {
+    ConvertInput input;
+    if (kind_of(options.in, options.common.set) == FileKind::stone &&
+        extension_of(options.out) == "asc") {
+        StoneFile stone = read_stone(options.in, options.common.set);
+        input.solid = std::move(stone.stone.solid);
+        if (stone.has_material) input.material = std::move(stone.stone.material);
+        input.notes = std::move(stone.notes);
+        input.details = std::move(stone.details);
+    } else {
+        require_kind(options.in, {FileKind::solid}, "culet convert");
+        SolidInput solid = load_solid(options.in, options.cut);
+        input.solid = std::move(solid.solid);
+        input.notes = std::move(solid.notes);
+        input.details = std::move(solid.details);
+    }
+    if (!options.material.empty()) input.material = material_called(options.material);
+    if (!options.width.empty()) scale_to_width(input.solid, length_mm(options.width, "--width"));
+    return input;
+}
+
+// The design that the solid was cut by, or the one that its drawing shows; its index is the
+// material's where one is named.
+std::vector<std::string> write_asc(const ConvertInput& input, const std::filesystem::path& out) {
+    Design design = cutting_design(input.solid);
+    // The index of a design is given to four decimals at most.
+    if (input.material)
+        design.refractive_index = std::round(1e4 * grade_index(&*input.material, {}).n) / 1e4;
+    std::vector<std::string> notes = write_gemcad_asc(input.solid, design, out);
+    if (!design.refractive_index)
+        notes.emplace_back(
+            "its refractive index is not known: 1.54, GemCad's own, is written (--material NAME)");
+    return notes;
+}
+
 int convert(const ConvertOptions& options) {
-    const bool grows = !options.clearance.empty();
+    const bool grows = !options.clearance.empty(), is_cut = extension_of(options.out) == "asc";
     const bool to_scene = is_scene_for_others(options.out),
                to_others = is_for_other_programs(options.out);
     if (grows && (to_scene || (!to_others && !mesh_format(options.out))))
         throw InputError("--clearance is for meshes, .glb, .gltf and .step");
     if (to_scene) return convert_scene(options);
     if (to_others || grows) return convert_for_others(options);
-    if (!options.material.empty())
-        throw InputError("--material is for .glb, .gltf, .pov, .xml and .pbrt");
-    if (!options.common.set.empty()) {
+    if (!options.material.empty() && !is_cut)
+        throw InputError("--material is for .asc, .glb, .gltf, .pov, .xml and .pbrt");
+    if (!options.common.set.empty() && !is_cut) {
         throw InputError(
-            "--set changes keys of a stone or scene: the output must end in .pov, .xml, .pbrt, "
-            ".glb, .gltf or .step");
+            "--set changes keys of a stone or scene: the output must end in .asc, .pov, .xml, "
+            ".pbrt, .glb, .gltf or .step");
     }
-    if (!mesh_format(options.out) && extension_of(options.out) != "asc") {
+    if (!mesh_format(options.out) && !is_cut) {
         throw InputError(options.out,
                          "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
                          ".glb, .gltf, .step or .stp, or for a renderer in .pov, .xml (Mitsuba) "
                          "or .pbrt");
     }
-    require_kind(options.in, {FileKind::solid}, "culet convert");
-    SolidInput input = load_solid(options.in, options.cut);
-    if (!options.width.empty()) {
-        scale_to_width(input.solid, length_mm(options.width, "--width"));
-    }
+    const ConvertInput input = converted_input(options);
     // A mesh may be bent or dented and still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
         find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
     std::vector<std::string> notes_on_writing;
-    if (mesh_format(options.out)) {
-        write_mesh(input.solid, options.out);
+    if (is_cut) {
+        notes_on_writing = write_asc(input, options.out);
     } else {
-        notes_on_writing =
-            write_gemcad_asc(input.solid, input.sheet.value_or(CutSheet{}), options.out);
+        write_mesh(input.solid, options.out);
     }
     // Only now: when nothing could be written, the error is all there is to say.
     const bool quiet = options.common.quiet;
-    for (const std::string& note : input.notes) {
-        say(fmt::format("{}: {}", options.in.string(), note), quiet);
-    }
-    for (const std::string& detail : input.details) {
-        say(fmt::format("{}: {}", options.in.string(), detail), quiet || !options.common.verbose);
-    }
+    say_of(options.in, input.notes, quiet);
+    say_of(options.in, input.details, quiet || !options.common.verbose);
     for (const Fault& fault : faults) {
         say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),
                         fault.what),
             quiet);
     }
-    for (const std::string& note : notes_on_writing) {
-        say(fmt::format("{}: {}", options.out.string(), note), quiet);
-    }
+    say_of(options.out, notes_on_writing, quiet);
     return faults.empty() ? exit_good : exit_untrusted;
 }
 
@@ -205,7 +244,8 @@ void add_command_convert(CLI::App& program, int& exit_code) {
     command
         ->add_option(
             "--material", options->material,
-            "of the stone in .glb, .gltf, .pov, .xml and .pbrt: a name of the catalogue or a "
+            "of the stone in .asc (its index), .glb, .gltf, .pov, .xml and .pbrt: a name of the "
+            "catalogue or a "
             "material file")
         ->type_name("NAME");
     command
@@ -221,6 +261,7 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         "  culet convert design.asc design.obj\n"
         "  culet convert --width 6.5mm design.asc stone.obj\n"
         "  culet convert scan.stl scan.ply\n"
+        "  culet convert fitted.obj recut.asc --material tourmaline\n"
         "  culet convert --width 6.5mm --material diamond design.asc stone.glb\n"
         "  culet convert --clearance 0.05mm fitted.obj seat.step\n"
         "  culet convert scene.toml scene.pov --set render.depth=9\n"

@@ -11,6 +11,7 @@
 #include "app/readings_form.h"
 #include "app/terminal.h"
 #include "stone/cuts/cuts.h"
+#include "stone/design.h"
 #include "stone/errors.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
@@ -114,7 +115,8 @@ int run_cut(const std::string& name, const CutOptions& options) {
     if (!options.form.readings.empty() && options.out.empty()) {
         throw InputError("--readings is a form for a mesh: name that too, -o MESH");
     }
-    const Solid solid = make_cut(name, options.values);
+    Solid solid = make_cut(name, options.values);
+    if (cut_kind(name).convex) solid.design = std::make_shared<const Design>(drawn_design(solid));
     std::string proportions;
     if (!options.json.empty()) {
         // Length and width are those of the stone before it is turned.

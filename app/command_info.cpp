@@ -71,7 +71,7 @@ int info(InfoOptions options) {
         }
         options.describe.width_mm = length_mm(options.width, "--width");
     }
-    if (options.describe.gear != 0 && options.sheet.out.empty())
+    if (options.describe.cutting.gear != 0 && options.sheet.out.empty())
         options.describe.cutting_list = true;
     if (!options.sheet.report.empty() && options.sheet.out.empty())
         throw InputError("--report is of a cutting sheet: give --cutting-sheet too");
@@ -198,10 +198,16 @@ void add_command_info(CLI::App& program, int& exit_code) {
                      "report of the stone's fit: angles of the cutting sheet with their sigmas")
         ->type_name("FIT.json");
     command
-        ->add_option("--gear", options->describe.gear,
+        ->add_option("--gear", options->describe.cutting.gear,
                      "teeth of the index wheel of the cutting list (the design's own, or 96)")
         ->check(CLI::Range(1.0, 1e6))
         ->type_name("TEETH");
+    command
+        ->add_option("--goniometer", options->describe.cutting.shown_deg,
+                     "what yours shows, degrees: facets of a tier that differ by less are cut "
+                     "alike (0.1)")
+        ->check(CLI::Range(0.001, 5.0))
+        ->type_name("DEG");
     add_form_options(*command, options->form);
     command
         ->add_option("--material", options->form.material,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,6 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "render/grade/grade_figures.h"
-#include "stone/drawn_symmetry.h"
 #include "stone/errors.h"
 #include "stone/gemcad_io.h"
 #include "stone/output_file.h"
@@ -133,19 +133,13 @@ void print_result(const Optimized& result, const OptimizeCommand& command) {
     print_lines(text);
 }
 
-// What the design says of itself; of any other stone its name, and the symmetry that it has.
-CutSheet sheet_of(const OptimizeOptions& options, const GradeInput& input) {
-    CutSheet sheet = input.sheet.value_or(CutSheet());
-    if (!input.sheet) {
-        constexpr Vec3 up{0, 0, 1};
-        const Solid& solid = input.stone.solid;
-        const AxisGroup group = drawn_symmetry(solid, up, table_facet(solid, up)).group;
-        sheet.symmetry = group.order;
-        sheet.mirror = group.mirrors;
-        sheet.headings.push_back(input.name);
-    }
-    sheet.refractive_index = options.merit.index.n;
-    return sheet;
+// What the design says of itself, or the drawing shows; where it has no title, the stone's name.
+Design design_of(const OptimizeOptions& options, const GradeInput& input) {
+    Design design = cutting_design(input.stone.solid);
+    if (design.headings.empty()) design.headings.push_back(input.name);
+    // To as many decimals as designs give.
+    design.refractive_index = std::round(1e4 * options.merit.index.n) / 1e4;
+    return design;
 }
 
 // What a buyer may ask for and the objective did not.
@@ -191,14 +185,14 @@ int run_optimize(OptimizeCommand command) {
     } catch (const InputError& error) {
         throw InputError(input.file, error.what());
     }
-    CutSheet sheet = sheet_of(options, input);
+    Design design = design_of(options, input);
     const fs::path before = fs::path(command.page) / "before.asc";
     if (!command.page.empty()) {
         fs::create_directories(command.page);
-        write_gemcad_asc(result.start, sheet, before);
+        write_gemcad_asc(result.start, design, before);
     }
-    sheet.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
-    write_gemcad_asc(result.better, sheet, command.out);
+    design.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
+    write_gemcad_asc(about_its_axis(result), design, command.out);
     if (!command.json.empty()) write_text(command.json, json_of(result, options, command));
     if (command.json != "-") {
         print_result(result, command);

@@ -8,6 +8,7 @@
 #include "page/cutting_sheet.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
+#include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
 #include "stone/stone_io.h"
@@ -28,16 +29,15 @@ void write_cutting_sheet(const SheetOptions& options, const DescribeOptions& des
     }
     SolidInput input = load_solid(describe.file, describe.cut);
     if (describe.width_mm > 0) scale_to_width(input.solid, describe.width_mm);
-    CutSheet cut = input.sheet.value_or(CutSheet{});
-    if (describe.gear != 0) cut.gear = describe.gear;
     CuttingSheet sheet;
     sheet.name = describe.file.stem().string();
     sheet.version = CULET_VERSION;
-    sheet.headings = cut.headings;
-    sheet.steps = cutting_list(input.solid, cut, !input.sheet);
-    sheet.gear = cut.gear;
-    sheet.refractive_index = cut.refractive_index;
-    if (describe.width_mm > 0) sheet.unit = "mm";
+    sheet.design = cutting_design(input.solid);
+    sheet.steps = cutting_list(input.solid, describe.cutting);
+    sheet.teeth = gear_of(input.solid, describe.cutting);
+    // A design has no unit; a mesh that is as large as a stone is in mm.
+    const bool is_mesh = mesh_format(describe.file).has_value();
+    if (describe.width_mm > 0 || (is_mesh && doubtful_size(input.solid).empty())) sheet.unit = "mm";
     if (!options.report.empty()) {
         Stone stone;
         stone.solid = input.solid;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stone/checks.h"
+#include "stone/cutting_list.h"
 #include "stone/gemcad_io.h"
 #include "stone/material.h"
 
@@ -26,7 +27,7 @@ struct DescribeOptions {
     bool may_be_concave = false;
     bool facet_table = false;
     bool cutting_list = false;
-    double gear = 0;      ///< of the cutting list; 0: the design's own, or 96
+    CuttingOptions cutting;
     double width_mm = 0;  ///< of a mesh or a cut design: scaled to this; 0: as it is
 };
 

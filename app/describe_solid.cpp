@@ -76,48 +76,57 @@ void describe_proportions(const Solid& solid, Description& about) {
                        : std::string()));
 }
 
-void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& about) {
+void describe_cutting(const Solid& solid, const CuttingOptions& options, Description& about) {
+    const double gear = gear_of(solid, options), width = proportions(solid).width;
     Json list = Json::array();
     about.lines.push_back(
-        fmt::format("{:<8} {:<9} {:>16}  index of {:g}", "tier", "part", "angle", sheet.gear));
-    for (const CuttingStep& step : cutting_list(solid, sheet)) {
+        fmt::format("{:<8} {:<9} {:>16}  index of {:g}", "tier", "part", "angle", gear));
+    for (const CuttingStep& step : cutting_list(solid, options)) {
+        Json settings = Json::array();
+        for (const IndexSetting& setting : step.settings) {
+            Json teeth = Json::array();
+            for (const IndexSetting::Tooth& tooth : setting.teeth) teeth.push_back(tooth.tooth);
+            settings.push_back({{"cheater", setting.cheater}, {"teeth", teeth}});
+        }
         list.push_back({{"tier", step.tier},
                         {"part", name_of(step.part)},
                         {"angle", step.angle_deg},
                         {"angle_min", step.least_angle_deg},
                         {"angle_max", step.most_angle_deg},
                         {"indices", step.indices},
-                        {"cut_to", depth_words(step.depth)}});
+                        {"settings", settings},
+                        {"instruction", step.instruction},
+                        {"cut_to", depth_words(step, {}, width)}});
         const bool alike = step.most_angle_deg - step.least_angle_deg < 0.005;
         about.lines.push_back(fmt::format(
             "{:<8} {:<9} {:>16}  {}", step.tier, name_of(step.part),
             alike ? fmt::format("{:.2f}", step.angle_deg)
                   : fmt::format("{:.2f} to {:.2f}", step.least_angle_deg, step.most_angle_deg),
-            index_settings(step, sheet.gear)));
+            index_words(step)));
     }
-    about.object["gear"] = sheet.gear;
+    about.object["gear"] = gear;
     about.object["cutting_list"] = std::move(list);
 }
 
-void describe_sheet(const CutSheet& sheet, Description& about) {
+void describe_design(const Design& design, Description& about) {
     Json& object = about.object;
-    object["gear"] = sheet.gear;
-    object["gear_supposed"] = sheet.gear_supposed;
-    object["gear_offset"] = sheet.gear_offset;
-    object["symmetry"] = sheet.symmetry;
-    object["mirror"] = sheet.mirror;
-    object["refractive_index"] = sheet.refractive_index ? Json(*sheet.refractive_index) : Json();
-    object["headings"] = sheet.headings;
-    object["footnotes"] = sheet.footnotes;
-    for (const std::string& line : sheet.headings) {
+    object["gear"] = design.gear;
+    object["gear_supposed"] = design.gear_supposed;
+    object["gear_offset"] = design.gear_offset;
+    object["symmetry"] = design.symmetry;
+    object["mirror"] = design.mirror;
+    object["refractive_index"] = design.refractive_index ? Json(*design.refractive_index) : Json();
+    object["headings"] = design.headings;
+    object["footnotes"] = design.footnotes;
+    for (const std::string& line : design.headings) {
         if (!line.empty()) about.lines.push_back(line);
     }
     about.lines.push_back(fmt::format(
-        "gear {:g}{}, index {:g} at azimuth zero, {}-fold{}{}", sheet.gear,
-        sheet.gear_supposed ? " (supposed)" : "", sheet.gear_offset, sheet.symmetry,
-        sheet.mirror ? ", mirrored" : "",
-        sheet.refractive_index ? fmt::format(", refractive index {:g}", *sheet.refractive_index)
-                               : ""));
+        "gear {:g}{}, index {:g} at azimuth zero, {}-fold{}{}", design.gear,
+        design.gear_supposed ? " (supposed)" : "", design.gear_offset, design.symmetry,
+        design.mirror ? ", mirrored" : "",
+        design.refractive_index ? fmt::format(", refractive index {:g}", *design.refractive_index)
+                                : ""));
 }
 
 }  // namespace
@@ -168,13 +177,11 @@ Description describe_solid_file(const DescribeOptions& options) {
     about.notes.insert(about.notes.end(), input.details.begin(), input.details.end());
     about.object["format"] = input.format;
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
-    if (input.sheet) describe_sheet(*input.sheet, about);
+    if (input.solid.design) describe_design(*input.solid.design, about);
     describe_solid(input.solid, !options.may_be_concave, options.facet_table, about);
     if (options.cutting_list) {
-        CutSheet sheet = input.sheet.value_or(CutSheet{});
-        if (options.gear != 0) sheet.gear = options.gear;
-        describe_cutting(input.solid, sheet, about);
-        if (std::string ask = question_of_up(input.solid); !ask.empty() && !input.sheet)
+        describe_cutting(input.solid, options.cutting, about);
+        if (std::string ask = question_of_up(input.solid); !ask.empty() && !input.solid.design)
             about.notes.push_back(std::move(ask));
     }
     for (const std::string& place : input.unused_planes) {

@@ -10,6 +10,7 @@
 #include "fit/fit.h"
 #include "fit/readings/measurement.h"
 #include "stone/cuts/cuts.h"
+#include "stone/design.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/output_file.h"
@@ -108,11 +109,11 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         input.name = file.stem().string();
         input.stone.solid = std::move(solid.solid);
         input.notes = std::move(solid.notes);
-        if (std::string ask = question_of_up(input.stone.solid); !ask.empty() && !solid.sheet)
+        const Design* const design = input.stone.solid.design.get();
+        if (std::string ask = question_of_up(input.stone.solid); !ask.empty() && !design)
             input.notes.push_back(std::move(ask));
-        if (solid.sheet && solid.sheet->refractive_index && *solid.sheet->refractive_index > 1)
-            input.index = solid.sheet->refractive_index;
-        input.sheet = std::move(solid.sheet);
+        if (design && design->refractive_index && *design->refractive_index > 1)
+            input.index = design->refractive_index;
         inputs.push_back(std::move(input));
     }
     for (GradeInput& input : inputs) {

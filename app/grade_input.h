@@ -9,7 +9,6 @@
 #include "fit/findings/result.h"
 #include "render/grade/grade.h"
 #include "render/uncertainty/drawn_stones.h"
-#include "stone/gemcad_io.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -20,9 +19,8 @@ struct GradeInput {
     bool has_material = false;
     std::optional<double> index;  ///< as asked for, or of a cut design without a material
     std::optional<StoneUncertainty> uncertainty;
-    std::optional<CutSheet> sheet;  ///< of a cut design
-    bool as_drawn = false;          ///< the mesh that a fit began with
-    bool trusted = true;            ///< false: a fit that should not be trusted; `notes` say why
+    bool as_drawn = false;  ///< the mesh that a fit began with
+    bool trusted = true;    ///< false: a fit that should not be trusted; `notes` say why
     std::vector<std::string> notes;
 };
 

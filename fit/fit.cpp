@@ -104,6 +104,7 @@ FitInput fit_input(const Stone& drawn, const std::vector<WrittenReading>& as_wri
     const std::vector<WrittenReading> written = outlines_turned(drawn.file_up, as_written);
     Repaired mesh = repaired(drawn, written);
     FitInput input{std::move(mesh.stone), {}, std::move(mesh.notes)};
+    input.stone.solid.design = drawn.solid.design;
     TakenOutlines outlines = take_outlines(input.stone, written);
     if (!outlines.readings.empty()) input.stone = std::move(outlines.stone);
     input.readings = bind_readings(written, input.stone, &input.notes);
@@ -130,6 +131,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const bool asks = options.first_check || options.prior.source != Prior::Source::none;
     given.read_in_full = !asks || readings_hold_all(stone, readings, options);
     FitResult result = solved(given, hypotheses(), progress);
+    result.solid.design = stone.solid.design;
     const bool is_design = options.prior.source == Prior::Source::catalogue;
     result.findings.named_tiers =
         tier_findings(stone, readings, result.findings.suspects, is_design);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "page/drawing.h"
@@ -18,18 +19,16 @@ namespace {
 
 using SheetRow = std::pair<std::string, std::string>;
 
-// As fine as a machine is read: a hundredth of a degree.
-constexpr double k_alike_deg = 0.005;
 constexpr int k_places = 2;
 
 std::string angle_text(const CuttingSheet& sheet, std::size_t step) {
-    const CuttingStep& cut = sheet.steps[step];
     const double sigma = step < sheet.sigmas_deg.size() ? sheet.sigmas_deg[step] : 0;
-    std::string text = sigma > 0 ? quantity(cut.angle_deg, sigma, "", k_places)
-                                 : decimals(cut.angle_deg, k_places);
-    if (cut.most_angle_deg - cut.least_angle_deg >= k_alike_deg)
-        text += fmt::format(" ({:.2f} to {:.2f})", cut.least_angle_deg, cut.most_angle_deg);
-    return text;
+    const double angle = sheet.steps[step].angle_deg;
+    return sigma > 0 ? quantity(angle, sigma, "", k_places) : decimals(angle, k_places);
+}
+
+std::string depth_text(const CuttingSheet& sheet, const CuttingStep& step) {
+    return depth_words(step, sheet.unit, proportions(sheet.solid).width);
 }
 
 std::vector<SheetRow> proportion_rows(const CuttingSheet& sheet) {
@@ -55,25 +54,71 @@ std::vector<SheetRow> proportion_rows(const CuttingSheet& sheet) {
 }
 
 std::string about_text(const CuttingSheet& sheet) {
-    std::string text = fmt::format("Index wheel of {:g} teeth; {} facets", std::abs(sheet.gear),
-                                   sheet.solid.facets.size());
-    if (sheet.refractive_index)
-        text += fmt::format("; refractive index {:g}", *sheet.refractive_index);
+    const Design& design = sheet.design;
+    std::string text = fmt::format("{} facets; {}-fold{} symmetry; index wheel of {:g} teeth",
+                                   facet_count_words(sheet.solid), design.symmetry,
+                                   design.mirror ? ", mirror-image" : "", sheet.teeth);
+    if (design.refractive_index)
+        text += fmt::format("; refractive index {:g}", *design.refractive_index);
     text += ". Angles in degrees from the girdle's plane";
     if (!sheet.sigmas_deg.empty()) text += ", with one standard uncertainty";
+    if (sheet.unit.empty()) text += "; lengths in widths W (in mm with --width)";
     return text + ".";
+}
+
+// What of the words below the table this sheet uses.
+std::vector<std::string> word_notes(const CuttingSheet& sheet) {
+    std::vector<std::string> notes{
+        "\"meet A, B\": until the facet reaches the corner that A and B make."};
+    const auto any = [&](auto holds) {
+        return std::any_of(sheet.steps.begin(), sheet.steps.end(), holds);
+    };
+    const auto to = [&](CutDepth::To what) {
+        return any([&](const CuttingStep& step) { return step.depth.to == what; });
+    };
+    if (to(CutDepth::To::leave))
+        notes.emplace_back("\"leave 0.20 of A\": until a facet of A is so wide, at its widest.");
+    if (to(CutDepth::To::point) || to(CutDepth::To::distance))
+        notes.emplace_back(
+            "\"from the girdle\": along the axis from its edge; \"from the middle\": square to the "
+            "facet from the middle of the girdle's plane, for the height of the mast.");
+    const bool cheats = any([](const CuttingStep& step) {
+        return std::any_of(step.settings.begin(), step.settings.end(),
+                           [](const IndexSetting& own) { return own.cheater != 0; });
+    });
+    if (cheats)
+        notes.push_back(fmt::format(
+            "Cheater: in teeth of {:.3g} degrees, added to the index for the facets before it.",
+            360 / sheet.teeth));
+    for (const std::string& line : sheet.design.footnotes) {
+        if (!line.empty()) notes.push_back(line);
+    }
+    return notes;
+}
+
+// The facets called by their tiers.
+Solid named_by_tiers(const CuttingSheet& sheet) {
+    Solid solid = sheet.solid;
+    for (const CuttingStep& step : sheet.steps) {
+        for (const int f : step.facets) solid.facets[std::size_t(f)].name = step.tier;
+    }
+    return solid;
+}
+
+IndexWheel wheel_of(const CuttingSheet& sheet) {
+    const double factor = sheet.teeth / std::abs(sheet.design.gear);
+    return {factor * sheet.design.gear, factor * sheet.design.gear_offset};
 }
 
 }  // namespace
 
 std::string cutting_sheet_page(const CuttingSheet& sheet) {
     std::vector<View> views, steps, rows;
+    const Solid named = named_by_tiers(sheet);
     for (const ViewSide side : {ViewSide::crown, ViewSide::pavilion, ViewSide::girdle}) {
-        std::string svg = draw_facets_svg(sheet.solid, side);
+        std::string svg = draw_facets_svg(named, side, {}, wheel_of(sheet));
         if (!svg.empty())
-            views.push_back({{"wide", side == ViewSide::girdle},
-                             {"drawing_svg", std::move(svg)},
-                             {"caption", caption_of(side)}});
+            views.push_back({{"drawing_svg", std::move(svg)}, {"caption", caption_of(side)}});
     }
     for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
         const CuttingStep& step = sheet.steps[i];
@@ -81,13 +126,14 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
                          {"tier", step.tier},
                          {"part", name_of(step.part)},
                          {"angle", angle_text(sheet, i)},
-                         {"indices", index_settings(step, sheet.gear)},
-                         {"depth", depth_words(step.depth)}});
+                         {"indices", index_words(step)},
+                         {"depth", depth_text(sheet, step)}});
     }
     for (const auto& [name, value] : proportion_rows(sheet))
         rows.push_back({{"name", name}, {"value", value}});
-    std::vector<View> headings;
-    for (const std::string& line : sheet.headings) {
+    std::vector<View> headings, notes;
+    for (const std::string& note : word_notes(sheet)) notes.emplace_back(note);
+    for (const std::string& line : sheet.design.headings) {
         if (!line.empty()) headings.emplace_back(line);
     }
     return html_page(sheet.name + ", cutting sheet",
@@ -97,12 +143,13 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
                                                        {"about", about_text(sheet)},
                                                        {"views", views},
                                                        {"steps", steps},
+                                                       {"notes", notes},
                                                        {"proportions", rows}}));
 }
 
 std::string cutting_sheet_text(const CuttingSheet& sheet) {
     std::string text = sheet.name + "\n";
-    for (const std::string& line : sheet.headings) {
+    for (const std::string& line : sheet.design.headings) {
         if (!line.empty()) text += line + "\n";
     }
     text += about_text(sheet) + "\n\n";
@@ -110,7 +157,7 @@ std::string cutting_sheet_text(const CuttingSheet& sheet) {
     for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
         tier = std::max(tier, sheet.steps[i].tier.size());
         angle = std::max(angle, plain_signs(angle_text(sheet, i)).size());
-        depth = std::max(depth, depth_words(sheet.steps[i].depth).size());
+        depth = std::max(depth, depth_text(sheet, sheet.steps[i]).size());
     }
     text += fmt::format(" no  {:<{}}  part      {:>{}}  {:<{}}  index settings\n", "tier", tier,
                         "angle", angle, "cut to", depth);
@@ -118,8 +165,10 @@ std::string cutting_sheet_text(const CuttingSheet& sheet) {
         const CuttingStep& step = sheet.steps[i];
         text += fmt::format("{:>3}  {:<{}}  {:<8}  {:>{}}  {:<{}}  {}\n", i + 1, step.tier, tier,
                             name_of(step.part), plain_signs(angle_text(sheet, i)), angle,
-                            depth_words(step.depth), depth, index_settings(step, sheet.gear));
+                            depth_text(sheet, step), depth, index_words(step));
     }
+    text += "\n";
+    for (const std::string& note : word_notes(sheet)) text += note + "\n";
     text += "\n";
     for (const auto& [name, value] : proportion_rows(sheet))
         text += fmt::format("{:<26}{:>12}\n", name == "volume over W³" ? "volume over W^3" : name,

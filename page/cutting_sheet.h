@@ -2,7 +2,6 @@
 // The sheet that lies beside the faceting machine: tiers in the order of cutting, angles, index
 // settings, what each is cut to, drawings and proportions.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +12,16 @@ namespace culet {
 
 struct CuttingSheet {
     std::string name, version;
-    std::vector<std::string> headings;  ///< of the design's file
-    Solid solid;                        ///< table up (+z)
+    Design design;
+    Solid solid;  ///< table up (+z)
     std::vector<CuttingStep> steps;
-    double gear = 96;  ///< teeth of the index wheel
-    std::optional<double> refractive_index;
-    std::string unit;  ///< of lengths; empty: the design's own, without size
+    double teeth = 96;  ///< of the index wheel
+    std::string unit;   ///< of lengths; empty: the design's own, without size
     /// By step, degrees: one standard uncertainty of its least sure angle; empty: none is known.
     std::vector<double> sigmas_deg;
 };
 
-/// A whole page in itself, to be printed.
+/// A whole page in itself, to be printed on one A4.
 std::string cutting_sheet_page(const CuttingSheet& sheet);
 
 /// The same as lines of text.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "page/facet_labels.h"
 #include "page/html.h"
@@ -17,6 +19,7 @@ constexpr double k_size = 1000;  // of a view's longer side, in its own units
 struct DrawnView {
     std::string content;
     double left = 0, width = 0, height = 0;  // x runs from -left; width is all of it
+    double top = 0;                          // y runs from -top; height is all of it
 };
 
 std::string point_list(const std::vector<glm::dvec2>& corners) {
@@ -44,8 +47,49 @@ std::string label_svg(const FacetLabel& label) {
         label.at.x, label.at.y + 0.35 * label.size, label.size, turn, escaped(label.text));
 }
 
+// A tick for every tooth round the axis, outside all that is drawn; about sixteen have numbers.
+void add_wheel(const FacetView& view, ViewSide side, const IndexWheel& wheel, DrawnView& drawn) {
+    const int teeth = static_cast<int>(std::lround(std::abs(wheel.gear)));
+    if (teeth < 1 || side == ViewSide::girdle) return;
+    constexpr int k_numbers = 16;
+    constexpr double k_gap = 14, k_tick = 10, k_long = 20, k_room = 70, k_letters = 34;
+    int step = 1;
+    while (teeth % step != 0 || teeth / step > k_numbers) ++step;
+    double radius = 0;
+    for (const SeenFacet& seen : view.facets) {
+        for (const auto& c : seen.corners)
+            radius = std::max(radius, std::hypot(c.x - view.origin.x, c.y - view.origin.y));
+    }
+    radius += k_gap;
+    std::string ticks, numbers;
+    for (int tooth = 1; tooth <= teeth; ++tooth) {
+        const double turn = 2 * std::numbers::pi * (tooth - wheel.offset) / wheel.gear;
+        const double x = (side == ViewSide::pavilion ? -1 : 1) * std::sin(turn),
+                     y = -std::cos(turn);
+        const auto at = [&](double r) {
+            return fmt::format("{:.1f} {:.1f}", view.origin.x + r * x, view.origin.y + r * y);
+        };
+        const bool numbered = tooth % step == 0;
+        ticks += "M" + at(radius) + "L" + at(radius + (numbered ? k_long : k_tick));
+        if (!numbered) continue;
+        const double r = radius + k_long + 0.75 * k_letters;
+        numbers += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", view.origin.x + r * x,
+                               view.origin.y + r * y + 0.35 * k_letters, tooth);
+    }
+    drawn.content += fmt::format(
+        "<g class=\"wheel\" aria-hidden=\"true\" font-family=\"{}\" font-size=\"{}\" "
+        "text-anchor=\"middle\" fill=\"currentColor\"><path d=\"{}\" fill=\"none\" "
+        "stroke=\"currentColor\" stroke-width=\"2\"/>{}</g>\n",
+        k_svg_font, k_letters, ticks, numbers);
+    const double right = std::max(drawn.width - drawn.left, view.origin.x + radius + k_room);
+    drawn.left = std::max(drawn.left, radius + k_room - view.origin.x);
+    drawn.width = right + drawn.left;
+    drawn.top = std::max(0.0, radius + k_room - view.origin.y);
+    drawn.height = std::max(drawn.height, view.origin.y + radius + k_room) + drawn.top;
+}
+
 DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetPaint>& paint,
-                     bool focusable) {
+                     bool focusable, const IndexWheel& wheel = {}) {
     const FacetView view = view_of(solid, side, k_size);
     if (view.facets.empty()) return {};
     DrawnView result;
@@ -97,6 +141,7 @@ DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetP
     result.left = std::max(labels.left, labels.right);
     result.width = view.width + 2 * result.left;
     result.height = view.height;
+    add_wheel(view, side, wheel, result);
     return result;
 }
 
@@ -157,14 +202,14 @@ const char* caption_of(ViewSide side) {
     return "";
 }
 
-std::string draw_facets_svg(const Solid& solid, ViewSide side,
-                            const std::vector<FacetPaint>& paint) {
-    const DrawnView view = drawn_view(solid, side, paint, true);
+std::string draw_facets_svg(const Solid& solid, ViewSide side, const std::vector<FacetPaint>& paint,
+                            const IndexWheel& wheel) {
+    const DrawnView view = drawn_view(solid, side, paint, true, wheel);
     if (view.content.empty()) return {};
     return fmt::format(
-        "<svg class=\"stone\" viewBox=\"{:.0f} 0 {:.0f} {:.0f}\" role=\"group\" "
+        "<svg class=\"stone\" viewBox=\"{:.0f} {:.0f} {:.0f} {:.0f}\" role=\"group\" "
         "aria-label=\"{}\">{}</svg>",
-        0.0 - view.left, view.width, view.height, short_name(side), view.content);
+        0.0 - view.left, 0.0 - view.top, view.width, view.height, short_name(side), view.content);
 }
 
 std::string drawing_svg(const std::string& title, const std::string& subtitle, const Solid& solid,

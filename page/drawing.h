@@ -25,11 +25,17 @@ struct PaintLegend {
     std::string mark;  ///< of dashed outlines; empty: there are none
 };
 
+/// Index settings round a view from above or below.
+struct IndexWheel {
+    double gear = 0, offset = 0;  ///< as of Design; gear 0: none
+};
+
 /// SVG of the facets that face the viewer, 1000 units across and what names beside it need. `paint`
 /// has one entry a facet of the solid, or is empty. Each facet is a focusable group with its name
 /// and `about` as its title. Names are escaped. An empty string when no facet faces the viewer.
 std::string draw_facets_svg(const Solid& solid, ViewSide side,
-                            const std::vector<FacetPaint>& paint = {});
+                            const std::vector<FacetPaint>& paint = {},
+                            const IndexWheel& wheel = {});
 
 /// The three views on one sheet with title and legend: an SVG file of its own.
 std::string drawing_svg(const std::string& title, const std::string& subtitle, const Solid& solid,

@@ -69,6 +69,7 @@ FacetView view_of(const Solid& solid, ViewSide side, double size) {
     result.scale = (size - 2 * k_margin) / extent;
     result.width = result.scale * (high.x - low.x) + 2 * k_margin;
     result.height = result.scale * (high.y - low.y) + 2 * k_margin;
+    result.origin = {k_margin - result.scale * low.x, k_margin + result.scale * high.y};
     for (Placed& one : placed) {
         for (auto& c : one.seen.corners) {
             c = {k_margin + result.scale * (c.x - low.x), k_margin + result.scale * (high.y - c.y)};

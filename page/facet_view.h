@@ -23,7 +23,8 @@ struct SeenFacet {
 struct FacetView {
     std::vector<SeenFacet> facets;  ///< what is farther away first
     double width = 0, height = 0;
-    double scale = 0;  ///< picture units for one unit of the solid
+    double scale = 0;         ///< picture units for one unit of the solid
+    glm::dvec2 origin{0, 0};  ///< where the solid's origin lies
 };
 
 /// Orthographic projection of the facets that face the viewer, its longer side `size` less a small

@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
-#include <numbers>
 #include <set>
 
 #include "stone/errors.h"
 #include "stone/face_soup.h"
-#include "stone/units.h"
 
 namespace culet {
 
@@ -24,73 +21,22 @@ constexpr double k_same_plane = 1e-9;
 /// More planes than any stone has facets; the exact intersection takes seconds at this many.
 constexpr std::size_t k_most_planes = 5000;
 
-struct SinCos {
-    double sin = 0, cos = 1;
-};
-
-/// Of part / whole of a full turn. Reduced to an eighth of a turn about the nearest quarter,
-/// without rounding, so that settings that mirror each other give values that mirror each other
-/// exactly.
-SinCos of_turn(double part, double whole) {
-    part = std::fmod(part, whole);
-    const double rest = std::remainder(4 * part, whole);
-    const int quarter = static_cast<int>(std::lround((4 * part - rest) / whole));
-    const double s = std::sin(rest / whole * (std::numbers::pi / 2));
-    const double c = std::cos(rest / whole * (std::numbers::pi / 2));
-    switch (((quarter % 4) + 4) % 4) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
-    }
-}
-
 }  // namespace
 
-Plane plane_of(const CutSetting& setting, const CutSheet& sheet) {
-    const SinCos around = of_turn(setting.index - sheet.gear_offset, sheet.gear);
-    const SinCos tilt = of_turn(setting.angle_deg, 360);
-    const double up = setting.pavilion ? -tilt.cos : tilt.cos;
-    return {{tilt.sin * around.sin, tilt.sin * around.cos, up}, setting.distance};
-}
-
-CutSetting setting_of(const Plane& plane, const CutSheet& sheet) {
-    const Vec3& n = plane.normal;
-    const double level = std::hypot(n.x, n.y);
-    CutSetting setting;
-    setting.angle_deg = degrees(std::atan2(level, std::abs(n.z)));
-    setting.pavilion = n.z < 0;
-    setting.distance = plane.offset;
-    const double teeth = std::abs(sheet.gear);
-    double index = sheet.gear_offset;
-    // A table has every index; the offset's is as good as any.
-    if (level > 0) index += std::atan2(n.x, n.y) / (2 * std::numbers::pi) * sheet.gear;
-    index = std::fmod(index, teeth);
-    if (index <= 0) index += teeth;
-    setting.index = index;
-    return setting;
-}
-
-std::vector<std::string> tier_names(const std::vector<CutPlane>& planes) {
-    std::map<int, std::set<std::string>> names;
-    for (const CutPlane& p : planes) {
-        if (!p.name.empty()) names[p.tier].insert(p.name);
+std::vector<std::string> tier_labels(const Design& design) {
+    std::vector<std::string> labels;
+    for (const DesignTier& tier : design.tiers) {
+        std::set<std::string> own;
+        for (const DesignFacet& facet : tier.facets) {
+            if (!facet.label.empty()) own.insert(facet.label);
+        }
+        labels.push_back(own.size() == 1 ? *own.begin() : std::string());
     }
-    std::vector<std::string> of_plane;
-    for (const CutPlane& p : planes) {
-        const auto found = names.find(p.tier);
-        const bool one = p.tier >= 0 && found != names.end() && found->second.size() == 1;
-        of_plane.push_back(one ? *found->second.begin() : std::string());
-    }
-    return of_plane;
+    return labels;
 }
 
-void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutReading& how,
-                 const std::filesystem::path& file) {
+void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& planes,
+                 const CutReading& how, const std::filesystem::path& file) {
     if (planes.empty()) throw InputError(file, "holds no facets");
     if (planes.size() > k_most_planes) {
         throw InputError(file, fmt::format("holds {} facets; designs of more than {} are not read",
@@ -142,15 +88,22 @@ void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutRea
     }
 
     // The facets still carry the numbers of their planes.
-    const std::vector<std::string> tiers = tier_names(planes);
+    const std::vector<std::string> tiers = tier_labels(design);
     std::vector<std::string> names, of_tier;
+    std::vector<const CutPlane*> of_facet;
     for (const Facet& facet : cut.solid.facets) {
-        const CutPlane* const plane = origin[std::stoul(facet.name)];
-        names.push_back(plane->name);
-        of_tier.push_back(tiers[static_cast<std::size_t>(plane - planes.data())]);
+        of_facet.push_back(origin[std::stoul(facet.name)]);
+        names.push_back(of_facet.back()->name);
+        of_tier.push_back(tiers[std::size_t(of_facet.back()->tier)]);
     }
     names = told_apart(std::move(names), of_tier);
-    for (std::size_t i = 0; i < names.size(); ++i) cut.solid.facets[i].name = std::move(names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        DesignTier& tier = design.tiers[std::size_t(of_facet[i]->tier)];
+        tier.facets[std::size_t(of_facet[i]->facet)].facet = names[i];
+        cut.solid.facets[i].name = std::move(names[i]);
+    }
+    join_parted_tiers(cut.solid, design);
+    cut.solid.design = std::make_shared<const Design>(std::move(design));
 
     if (cut.contracted_edges > 0) {
         cut.details.push_back(fmt::format(

@@ -1,154 +1,200 @@
 #include "stone/cutting_list.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <set>
 
-#include "stone/checks.h"
-#include "stone/cut_planes.h"
+#include "stone/cut_depth.h"
+#include "stone/units.h"
 
 namespace culet {
 
 namespace {
 
-int order_of(StonePart part) {
-    switch (part) {
-        case StonePart::pavilion:
-            return 0;
-        case StonePart::culet:
-            return 1;
-        case StonePart::girdle:
-            return 2;
-        case StonePart::crown:
-            return 3;
-        case StonePart::table:
-            break;
-    }
-    return 4;
+// Designs give angles to 0.01 degrees.
+constexpr double k_same_deg = 0.005;
+// Teeth: what a design's own planes are off its index settings by rounding.
+constexpr double k_exact_index = 1e-3;
+
+double median_of(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-// Whether the facets meet over the middle, or would if nothing else were cut: as real designs miss.
-bool meet_over_the_middle(const Solid& solid, const std::vector<int>& facets) {
-    double least = 0, most = 0;
-    for (std::size_t i = 0; i < facets.size(); ++i) {
-        const Plane& plane = solid.facets[std::size_t(facets[i])].plane;
-        const double height = plane.offset / plane.normal.z;
-        least = i == 0 ? height : std::min(least, height);
-        most = i == 0 ? height : std::max(most, height);
-    }
-    return facets.size() >= 3 && most - least <= k_largest_miss * diameter(solid);
-}
-
-class Depths {
+class Lister {
 public:
-    Depths(const Solid& solid, const std::vector<CuttingStep>& list)
-        : solid_(solid), list_(list), step_of_(solid.facets.size()), at_(solid.vertices.size()) {
-        for (std::size_t s = 0; s < list.size(); ++s) {
-            for (const int f : list[s].facets) step_of_[std::size_t(f)] = s;
+    Lister(const Solid& solid, const CuttingOptions& options)
+        : solid_(solid),
+          options_(options),
+          design_(cutting_design(solid)),
+          teeth_(gear_of(solid, options)),
+          shown_teeth_(options.shown_deg * teeth_ / 360),
+          table_(table_facet(solid, {0, 0, 1})) {
+        // On the wheel that is asked for.
+        const double factor = teeth_ / std::abs(design_.gear);
+        design_.gear *= factor;
+        design_.gear_offset *= factor;
+        for (DesignTier& tier : design_.tiers) {
+            for (DesignFacet& facet : tier.facets) facet.index *= factor;
         }
-        for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-            for (const int c : solid.facets[f].corners) at_[std::size_t(c)].push_back(f);
-        }
+        for (std::size_t f = 0; f < solid.facets.size(); ++f)
+            facet_called_[solid.facets[f].name] = static_cast<int>(f);
+        find_turn();
     }
 
-    CutDepth of(std::size_t step) const {
-        const CuttingStep& cut = list_[step];
-        CutDepth best;
-        std::size_t most = 0;
-        for (const int corner : solid_.facets[std::size_t(cut.facets.front())].corners) {
-            std::set<std::size_t> tiers;
-            std::size_t before = 0, own = 0;
-            for (const std::size_t f : at_[std::size_t(corner)]) {
-                own += step_of_[f] == step;
-                if (step_of_[f] >= step) continue;
-                ++before;
-                tiers.insert(step_of_[f]);
+    std::vector<CuttingStep> steps() const {
+        std::vector<CuttingStep> list;
+        const std::vector<std::string> titles = tier_titles(design_);
+        std::vector<bool> done(solid_.facets.size(), false);
+        std::vector<Vec3> normals;
+        for (const Facet& facet : solid_.facets) normals.push_back(facet.plane.normal);
+        for (std::size_t t = 0; t < titles.size(); ++t) {
+            list.push_back(step_of(design_.tiers[t]));
+            list.back().tier = titles[t];
+            CutSetting cut = design_.tiers[t].setting;
+            cut.angle_deg = list.back().angle_deg;
+            for (const DesignFacet& own : design_.tiers[t].facets) {
+                const int f = facet_of(own);
+                if (f < 0) continue;
+                done[std::size_t(f)] = true;
+                cut.index = own.index;
+                normals[std::size_t(f)] = plane_of(cut, design_).normal;
             }
-            const bool meets = before >= 3, pairs = before == 2 && own >= 2;
-            if ((!meets && !pairs) || before <= most) continue;
-            most = before;
-            best.to = meets ? CutDepth::To::meet : CutDepth::To::pair;
-            best.at.clear();
-            for (const std::size_t tier : tiers) best.at.push_back(list_[tier].tier);
         }
-        if (best.to == CutDepth::To::meet) return best;
-        // An edge of the girdle alone fixes nothing: how much of the girdle is left is free.
-        const bool girdle_alone =
-            best.to == CutDepth::To::pair &&
-            std::all_of(list_.begin(), list_.end(), [&](const CuttingStep& other) {
-                return other.part == StonePart::girdle ||
-                       std::find(best.at.begin(), best.at.end(), other.tier) == best.at.end();
-            });
-        if (cut.part == StonePart::girdle) return {CutDepth::To::outline, {}};
-        if (girdle_alone) return {CutDepth::To::girdle_width, {}};
-        if (best.to == CutDepth::To::pair) return best;
-        if (step == 0 && cut.part == StonePart::pavilion &&
-            meet_over_the_middle(solid_, cut.facets))
-            return {CutDepth::To::centre, {}};
-        return {};
+        // What was cut into the stone after its design.
+        for (std::size_t f = 0; f < done.size(); ++f) {
+            if (done[f]) continue;
+            const Facet& facet = solid_.facets[f];
+            const CutSetting cut = setting_of(facet.plane, design_);
+            list.push_back(step_of({cut, {}, {{cut.index, facet.name, facet.name}}}));
+            list.back().tier = facet.name;
+        }
+        find_depths(solid_, normals, list);
+        return list;
     }
 
 private:
-    const Solid& solid_;
-    const std::vector<CuttingStep>& list_;
-    std::vector<std::size_t> step_of_;
-    std::vector<std::vector<std::size_t>> at_;  // facets by corner
-};
+    double wrapped(double teeth) const { return std::remainder(teeth, teeth_); }
+    double on_wheel(double index) const {
+        const double tooth = std::fmod(index, teeth_);
+        return tooth <= 0 ? tooth + teeth_ : tooth;
+    }
+    int facet_of(const DesignFacet& own) const {
+        const auto known = facet_called_.find(own.facet);
+        return own.facet.empty() || known == facet_called_.end() ? -1 : known->second;
+    }
+    CutSetting setting(int f) const {
+        return setting_of(solid_.facets[std::size_t(f)].plane, design_);
+    }
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
+    // By which most facets stand turned against the design.
+    void find_turn() {
+        std::vector<double> off;
+        double most = 0;
+        for (const DesignTier& tier : design_.tiers) {
+            for (const DesignFacet& own : tier.facets) {
+                const int f = facet_of(own);
+                if (f < 0 || tier.setting.angle_deg == 0) continue;
+                off.push_back(wrapped(setting(f).index - own.index));
+                most = std::max(most, std::abs(off.back()));
+            }
+        }
+        turn_ = most < k_exact_index ? 0 : median_of(std::move(off));
+    }
+
+    CuttingStep step_of(const DesignTier& tier) const {
+        CuttingStep step;
+        step.instruction = tier.instruction;
+        std::vector<double> angles;
+        for (const DesignFacet& own : tier.facets) {
+            const int f = facet_of(own);
+            if (f < 0) continue;
+            step.facets.push_back(f);
+            angles.push_back(setting(f).angle_deg);
+            step.indices.push_back(setting(f).index);
+        }
+        std::sort(step.indices.begin(), step.indices.end());
+        const bool as_designed = std::all_of(angles.begin(), angles.end(), [&](double angle) {
+            return std::abs(angle - tier.setting.angle_deg) < k_same_deg;
+        });
+        step.angle_deg = as_designed ? tier.setting.angle_deg : median_of(angles);
+        if (angles.empty()) angles.push_back(step.angle_deg);
+        step.least_angle_deg = *std::min_element(angles.begin(), angles.end());
+        step.most_angle_deg = *std::max_element(angles.begin(), angles.end());
+        step.part = part(tier, step);
+        step.settings = settings(tier, step.angle_deg);
+        return step;
+    }
+
+    StonePart part(const DesignTier& tier, const CuttingStep& step) const {
+        if (!step.facets.empty()) return part_of(solid_, step.facets.front(), table_, {0, 0, 1});
+        const Plane plane = plane_of(tier.setting, design_);
+        Solid alone;
+        alone.facets.push_back({"", plane, {}});
+        return part_of(alone, 0, -1, {0, 0, 1});
+    }
+
+    std::vector<IndexSetting> settings(const DesignTier& tier, double angle_deg) const {
+        struct Cut {
+            double cheater = 0;
+            IndexSetting::Tooth tooth;
+        };
+        // A turn about the axis tilts a facet by its sine: what is told apart is a tilt.
+        constexpr double k_flattest_deg = 5;
+        const double limit = shown_teeth_ / std::sin(radians(std::max(angle_deg, k_flattest_deg)));
+        std::vector<Cut> cuts;
+        for (const DesignFacet& own : tier.facets) {
+            const int f = facet_of(own);
+            double off = 0;
+            Cut cut;
+            if (f >= 0) {
+                off = wrapped(setting(f).index - own.index - turn_);
+                const double own_deg = setting(f).angle_deg;
+                if (std::abs(own_deg - angle_deg) > options_.shown_deg) cut.tooth.own_deg = own_deg;
+            }
+            const double index = own.index + (std::abs(off) > limit ? off : 0);
+            const double tooth = std::round(index);
+            cut.cheater = index - tooth;
+            cut.tooth.tooth = static_cast<int>(std::lround(on_wheel(tooth)));
+            cuts.push_back(cut);
+        }
+        std::stable_sort(cuts.begin(), cuts.end(),
+                         [](const Cut& a, const Cut& b) { return a.cheater < b.cheater; });
+        std::vector<IndexSetting> all;
+        double first = 0;
+        for (const Cut& cut : cuts) {
+            if (all.empty() || cut.cheater - first > limit) {
+                all.emplace_back();
+                first = cut.cheater;
+            }
+            IndexSetting& own = all.back();
+            own.teeth.push_back(cut.tooth);
+            own.cheater += (cut.cheater - own.cheater) / double(own.teeth.size());
+        }
+        for (IndexSetting& own : all) {
+            if (std::abs(own.cheater) < limit) own.cheater = 0;
+            std::sort(own.teeth.begin(), own.teeth.end(),
+                      [](const auto& a, const auto& b) { return a.tooth < b.tooth; });
+        }
+        return all;
+    }
+
+    const Solid& solid_;
+    const CuttingOptions& options_;
+    Design design_;
+    double teeth_ = 96, shown_teeth_ = 0, turn_ = 0;
+    int table_ = -1;
+    std::map<std::string, int> facet_called_;
+};
 
 }  // namespace
 
-const char* name_of(StonePart part) {
-    switch (part) {
-        case StonePart::table:
-            return "table";
-        case StonePart::crown:
-            return "crown";
-        case StonePart::girdle:
-            return "girdle";
-        case StonePart::pavilion:
-            return "pavilion";
-        case StonePart::culet:
-            break;
-    }
-    return "culet";
-}
-
-std::string depth_words(const CutDepth& depth) {
-    switch (depth.to) {
-        case CutDepth::To::meet:
-            return "meet " + joined(depth.at);
-        case CutDepth::To::pair:
-            return "meet its neighbour on " + joined(depth.at);
-        case CutDepth::To::centre:
-            return "centre point";
-        case CutDepth::To::outline:
-            return "the outline's size";
-        case CutDepth::To::girdle_width:
-            return "the girdle's width";
-        case CutDepth::To::size:
-            break;
-    }
-    return "size";
-}
-
-std::string index_settings(const CuttingStep& step, double gear) {
-    if (step.part == StonePart::table || step.part == StonePart::culet) return "any";
-    std::string text;
-    for (const double index : step.indices) {
-        const double tooth = std::round(100 * index) / 100;
-        text += fmt::format("{}{:g}", text.empty() ? "" : " ", tooth == 0 ? std::abs(gear) : tooth);
-    }
-    return text;
+double gear_of(const Solid& solid, const CuttingOptions& options) {
+    if (options.gear != 0) return std::abs(options.gear);
+    return solid.design ? std::abs(solid.design->gear) : Design{}.gear;
 }
 
 double least_girdle(const Solid& solid) {
@@ -169,34 +215,8 @@ double least_girdle(const Solid& solid) {
     return least;
 }
 
-std::vector<CuttingStep> cutting_list(const Solid& solid, const CutSheet& sheet,
-                                      bool steepest_first) {
-    std::vector<CuttingStep> list;
-    for (const FacetTier& tier : tiers_of(solid, {0, 0, 1})) {
-        CuttingStep step;
-        step.part = tier.part;
-        step.facets = tier.facets;
-        step.tier = tier.facets.size() == 1 || tier.name.empty()
-                        ? solid.facets[std::size_t(tier.facets[0])].name
-                        : tier.name;
-        step.least_angle_deg = 90;
-        for (const int f : tier.facets) {
-            const CutSetting setting = setting_of(solid.facets[std::size_t(f)].plane, sheet);
-            step.angle_deg += setting.angle_deg / double(tier.facets.size());
-            step.least_angle_deg = std::min(step.least_angle_deg, setting.angle_deg);
-            step.most_angle_deg = std::max(step.most_angle_deg, setting.angle_deg);
-            step.indices.push_back(setting.index);
-        }
-        std::sort(step.indices.begin(), step.indices.end());
-        list.push_back(std::move(step));
-    }
-    std::stable_sort(list.begin(), list.end(), [&](const CuttingStep& a, const CuttingStep& b) {
-        if (order_of(a.part) != order_of(b.part)) return order_of(a.part) < order_of(b.part);
-        return steepest_first && a.angle_deg > b.angle_deg;
-    });
-    const Depths depths(solid, list);
-    for (std::size_t s = 0; s < list.size(); ++s) list[s].depth = depths.of(s);
-    return list;
+std::vector<CuttingStep> cutting_list(const Solid& solid, const CuttingOptions& options) {
+    return Lister(solid, options).steps();
 }
 
 }  // namespace culet

@@ -31,6 +31,7 @@ struct FaceSoup {
     /// From the comments that `write_mesh` leaves, in the order of the faces.
     std::vector<NamedPlane> planes;
     std::optional<std::uint64_t> corner_hash;
+    std::string design;  ///< likewise: lines of GemCad's .asc
     std::vector<std::string> notes;
 };
 
@@ -69,8 +70,8 @@ std::vector<int> facet_of_face(const FaceSoup& soup, double tolerance);
 std::uint64_t corner_hash(const std::vector<Vec3>& vertices,
                           const std::vector<const std::vector<int>*>& outlines);
 
-/// Reads `culet plane NAME nx ny nz offset` and `culet corners HASH`; other comments are passed
-/// over. `comment` comes without its comment sign.
+/// Reads `culet plane NAME nx ny nz offset`, `culet corners HASH` and `culet asc LINE` of the
+/// design; other comments are passed over. `comment` comes without its comment sign.
 void read_comment(FaceSoup& soup, std::string_view comment);
 
 /// Those comments for a solid, one a line, each begun by `sign` (`# `, `comment `).

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "stone/design.h"
 #include "stone/face_soup.h"
 
 namespace culet {
@@ -110,6 +111,10 @@ void read_comment(FaceSoup& soup, std::string_view comment) {
             hash = hash * 16 + static_cast<std::uint64_t>(digit ? c - '0' : c - 'a' + 10);
         }
         soup.corner_hash = hash;
+    } else if (words[1] == "asc") {
+        const char* const line = words[2].data();
+        soup.design.append(line, static_cast<std::size_t>(comment.data() + comment.size() - line));
+        soup.design += '\n';
     } else if (words[1] == "plane" && words.size() >= 6) {
         double numbers[4];
         for (std::size_t i = 0; i < 4; ++i) {
@@ -147,6 +152,10 @@ std::string plane_comments(const Solid& solid, std::string_view sign) {
         text += fmt::format("{}culet plane {} {} {} {} {}\n", sign, writable_name(facet.name), n.x,
                             n.y, n.z, facet.plane.offset);
     }
+    if (!solid.design) return text;
+    const std::string design = design_text(*solid.design);
+    LineReader lines(design);
+    while (const auto line = lines.next()) text += fmt::format("{}culet asc {}\n", sign, *line);
     return text;
 }
 

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <unordered_map>
 #include <utility>
 
+#include "stone/design.h"
+#include "stone/errors.h"
 #include "stone/face_soup.h"
 
 namespace culet {
@@ -310,6 +313,14 @@ ReadSolid solid_from_faces(FaceSoup soup) {
         result.solid.facets.push_back(std::move(facet));
     }
     tell_turned_facets(outlines, result.solid, soup);
+    if (!soup.design.empty()) {
+        try {
+            result.solid.design = std::make_shared<const Design>(design_in(soup.design));
+        } catch (const InputError& error) {
+            soup.notes.push_back(
+                fmt::format("the design in its comments is left out: {}", error.what()));
+        }
+    }
     result.notes = std::move(soup.notes);
     result.planes_stated = stated == StatedPlanes::all;
     return result;

@@ -10,6 +10,7 @@
 #include "stone/cut_planes.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/repeating_gear.h"
 #include "stone/text_decoding.h"
 #include "stone/text_scan.h"
 
@@ -41,7 +42,8 @@ public:
         if (!has_gear_) suppose_gear();
     }
 
-    ReadCut cut;
+    ReadCut cut;  // what is noted
+    Design design;
     std::vector<CutPlane> planes;
 
 private:
@@ -50,17 +52,17 @@ private:
         const std::string_view keyword = words[0];
         const std::string_view rest = trimmed(line.substr(keyword.size()));
         const std::span<const std::string_view> values(words.begin() + 1, words.end());
-        if (goes_on_with_instruction(words)) return;
+        if (goes_on_with_instruction(words)) return instruct(line);
         if (keyword == "H") {
-            cut.sheet.headings.emplace_back(rest);
+            design.headings.emplace_back(rest);
         } else if (keyword == "F") {
-            cut.sheet.footnotes.emplace_back(rest);
+            design.footnotes.emplace_back(rest);
         } else if (keyword == "I") {
-            cut.sheet.refractive_index = number(values, 0, "the refractive index after I");
+            design.refractive_index = number(values, 0, "the refractive index after I");
         } else if (keyword == "y") {
             read_symmetry(values);
         } else if (keyword == "a") {
-            read_tier(values);
+            read_tier(values, line);
         } else if (keyword == "g") {
             read_gear(values);
         } else if (keyword.size() > 1 && keyword[0] == 'g' && number_in(keyword.substr(1))) {
@@ -73,7 +75,7 @@ private:
                              "a preform (p) is not read: take the line out if the preform is cut "
                              "away, or else give its facets as tiers (a)");
         } else if (in_tier_) {
-            read_settings(words);
+            read_settings(words, line);
         } else if (number_in(keyword)) {
             // A gear line that has lost its g.
             read_gear(words);
@@ -117,28 +119,28 @@ private:
             throw InputError(file_, lines_.line(), "the gear must stand before the first tier");
         }
         has_gear_ = true;
-        cut.sheet.gear = number(values, 0, "the count of the gear's teeth");
-        if (!(std::abs(cut.sheet.gear) >= 1 && std::abs(cut.sheet.gear) <= 1e6) ||
-            cut.sheet.gear != std::floor(cut.sheet.gear)) {
+        design.gear = number(values, 0, "the count of the gear's teeth");
+        if (!(std::abs(design.gear) >= 1 && std::abs(design.gear) <= 1e6) ||
+            design.gear != std::floor(design.gear)) {
             throw InputError(file_, lines_.line(),
                              fmt::format("a gear of {} teeth cannot be: write a whole number, such "
                                          "as 96",
-                                         cut.sheet.gear));
+                                         design.gear));
         }
-        cut.sheet.gear_offset =
+        design.gear_offset =
             values.size() > 1 ? number(values, 1, "the gear's offset in teeth") : 0;
-        if (!(std::abs(cut.sheet.gear_offset) <= 1e6)) {
+        if (!(std::abs(design.gear_offset) <= 1e6)) {
             throw InputError(file_, lines_.line(), "the gear's offset is beyond all teeth");
         }
     }
 
     void read_symmetry(std::span<const std::string_view> values) {
         const double order = number(values, 0, "the order of symmetry after y");
-        cut.sheet.symmetry = order >= 1 && order <= 1e6 ? static_cast<int>(order) : 1;
-        cut.sheet.mirror = values.size() > 1 && (values[1] == "y" || values[1] == "Y");
+        design.symmetry = order >= 1 && order <= 1e6 ? static_cast<int>(order) : 1;
+        design.mirror = values.size() > 1 && (values[1] == "y" || values[1] == "Y");
     }
 
-    void read_tier(std::span<const std::string_view> values) {
+    void read_tier(std::span<const std::string_view> values, std::string_view line) {
         end_tier();
         const double angle = number(values, 0, "an angle in degrees after a");
         const double distance = number(values, 1, "a distance after the angle");
@@ -155,15 +157,16 @@ private:
         tier_ = {std::abs(angle), std::signbit(angle) || (angle == 0 && std::signbit(distance)),
                  std::abs(distance), 0};
         ++tier_number_;
+        design.tiers.push_back({tier_, {}, {}});
         tier_line_ = lines_.line();
         in_tier_ = true;
-        read_settings(values.subspan(2));
+        read_settings(values.subspan(2), line);
     }
 
     /// A horizontal facet has no index, or any: its tier may go without.
     void end_tier() {
         if (!in_tier_) return;
-        const bool has_facet = !planes.empty() && planes.back().tier == tier_number_;
+        const bool has_facet = !design.tiers.back().facets.empty();
         if (!has_facet && tier_.angle_deg != 0) {
             throw InputError(file_, tier_line_,
                              fmt::format("the tier at {}{} degrees has no index: give those of its "
@@ -174,17 +177,22 @@ private:
         in_tier_ = awaits_name_ = instruction_ = false;
     }
 
-    void read_settings(std::span<const std::string_view> words) {
+    /// `words` are the last of `line`.
+    void read_settings(std::span<const std::string_view> words, std::string_view line) {
         for (const std::string_view word : words) {
-            if (instruction_) return;
             if (awaits_name_) {
                 awaits_name_ = false;
-                const bool has_facet = !planes.empty() && planes.back().tier == tier_number_;
-                (has_facet ? planes.back().name : name_) = word;
+                std::vector<DesignFacet>& facets = design.tiers.back().facets;
+                if (facets.empty()) {
+                    name_ = word;
+                } else {
+                    facets.back().label = planes.back().name = word;
+                }
             } else if (word == "n") {
                 awaits_name_ = true;
             } else if (word == "G") {
                 instruction_ = true;
+                return instruct(line.substr(std::size_t(word.data() + 1 - line.data())));
             } else if (const auto index = number_in(word); index && std::abs(*index) <= 1e9) {
                 add_facet(*index);
             } else {
@@ -195,71 +203,44 @@ private:
         }
     }
 
-    void add_facet(double index) {
-        tier_.index = index;
-        planes.push_back({plane_of(tier_, cut.sheet), std::exchange(name_, {}),
-                          fmt::format("tier {} ({}{} degrees), index {}", tier_number_,
-                                      tier_.pavilion ? "-" : "", tier_.angle_deg, index),
-                          tier_number_});
-        settings_.push_back(tier_);
+    void instruct(std::string_view words) {
+        std::string& text = design.tiers.back().instruction;
+        const std::string_view more = trimmed(words);
+        if (!text.empty() && !more.empty()) text += ' ';
+        text += more;
     }
 
-    /// The gear that the design does not state: 96 (GemCad's own), unless the tiers fail to repeat
-    /// about its axis and do so on one other gear of the trade alone.
+    void add_facet(double index) {
+        tier_.index = index;
+        DesignTier& tier = design.tiers.back();
+        planes.push_back({plane_of(tier_, design), name_,
+                          fmt::format("tier {} ({}{} degrees), index {}", tier_number_,
+                                      tier_.pavilion ? "-" : "", tier_.angle_deg, index),
+                          tier_number_ - 1, static_cast<int>(tier.facets.size())});
+        tier.facets.push_back({index, std::exchange(name_, {}), {}});
+    }
+
     void suppose_gear() {
-        constexpr double k_usual = 96;
-        constexpr std::size_t k_most_facets = 1000;  // of whom all pairs are looked at
-        std::vector<double> fitting;
-        if (planes.size() <= k_most_facets && !repeats_on(k_usual)) {
-            for (const double gear : {32, 36, 40, 48, 60, 64, 72, 77, 80, 84, 88, 90, 99, 100, 108,
-                                      112, 120, 128, 144}) {
-                if (repeats_on(gear)) fitting.push_back(gear);
-            }
+        const std::optional<double> repeating = repeating_gear(design);
+        design.gear = repeating.value_or(k_usual_gear);
+        design.gear_supposed = true;
+        for (CutPlane& plane : planes) {
+            const DesignTier& tier = design.tiers[std::size_t(plane.tier)];
+            CutSetting setting = tier.setting;
+            setting.index = tier.facets[std::size_t(plane.facet)].index;
+            plane.plane = plane_of(setting, design);
         }
-        cut.sheet.gear = fitting.size() == 1 ? fitting[0] : k_usual;
-        cut.sheet.gear_supposed = true;
-        for (std::size_t i = 0; i < planes.size(); ++i)
-            planes[i].plane = plane_of(settings_[i], cut.sheet);
         cut.notes.push_back(fmt::format(
             "the gear is not stated: {} teeth are supposed{}; if that is wrong, write a line such "
             "as \"g 96 0.0\" behind the first",
-            cut.sheet.gear,
-            fitting.size() == 1
-                ? fmt::format(", on which the indices repeat as the symmetry asks, not 96")
-                : ""));
+            design.gear,
+            repeating ? ", on which the indices repeat as the symmetry asks, not 96" : ""));
     }
-
-    /// True when a turn by the design's symmetry (where it states none, by any part of a turn from
-    /// a half to a sixteenth) takes the facets of every tier to one another on a wheel of `gear`
-    /// teeth, and no index is beyond it.
-    bool repeats_on(double gear) const {
-        const int stated = cut.sheet.symmetry;
-        for (int order = stated > 1 ? stated : 2; order <= (stated > 1 ? stated : 16); ++order) {
-            bool all = true;
-            for (std::size_t i = 0; all && i < settings_.size(); ++i) {
-                const CutSetting& one = settings_[i];
-                if (one.angle_deg == 0) continue;
-                all = one.index <= gear;
-                bool found = false;
-                for (std::size_t k = 0; all && !found && k < settings_.size(); ++k) {
-                    const double apart = settings_[k].index - one.index - gear / order;
-                    found = planes[k].tier == planes[i].tier &&
-                            std::abs(std::remainder(apart, gear)) < k_same_index;
-                }
-                all = all && found;
-            }
-            if (all) return true;
-        }
-        return false;
-    }
-
-    static constexpr double k_same_index = 0.01;  ///< of a tooth; files give two decimals or more
 
     LineReader lines_;
     const std::filesystem::path& file_;
     CutSetting tier_;
-    std::vector<CutSetting> settings_;  ///< of the planes
-    std::string name_;                  ///< given before the tier's first index
+    std::string name_;  ///< given before the tier's first index
     int tier_number_ = 0;
     long tier_line_ = 0;
     bool has_gear_ = false, in_tier_ = false, awaits_name_ = false, instruction_ = false;
@@ -272,8 +253,18 @@ ReadCut parse_gemcad_asc(std::string_view bytes, const CutReading& how,
     const std::string text = decoded_text(bytes, file);
     AscParser parser(text, file);
     parser.parse();
-    build_solid(parser.cut, parser.planes, how, file);
+    build_solid(parser.cut, std::move(parser.design), parser.planes, how, file);
     return std::move(parser.cut);
+}
+
+Design design_in(std::string_view text) {
+    const std::filesystem::path file = "design";
+    AscParser parser(text, file);
+    parser.parse();
+    for (DesignTier& tier : parser.design.tiers) {
+        for (DesignFacet& facet : tier.facets) facet.facet = facet.label;
+    }
+    return std::move(parser.design);
 }
 
 ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how) {

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <map>
 
 #include "stone/cut_planes.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/text_decoding.h"
+#include "stone/text_scan.h"
 
 namespace culet {
 
@@ -27,9 +30,11 @@ public:
             read_facet(first);
         }
         read_trailer();
+        settle_tiers();
     }
 
-    ReadCut cut;
+    ReadCut cut;  // what is noted
+    Design design;
     std::vector<CutPlane> planes;
 
 private:
@@ -73,9 +78,17 @@ private:
         const std::string_view label = text();
         CutPlane plane;
         plane.plane = {Vec3(x, y, z) / length, 1 / length};
-        plane.name = utf8_from_windows1252(label.substr(0, label.find('\t')));
+        const std::size_t tab = std::min(label.find('\t'), label.size());
+        plane.name = utf8_from_windows1252(label.substr(0, tab));
         plane.place = fmt::format("facet {} (tier {})", planes.size(), tier);
-        plane.tier = tier;
+        const auto [known, is_new] = tiers_.try_emplace(tier, int(design.tiers.size()));
+        if (is_new) design.tiers.emplace_back();
+        DesignTier& own = design.tiers[std::size_t(known->second)];
+        plane.tier = known->second;
+        plane.facet = static_cast<int>(own.facets.size());
+        own.facets.push_back({0, plane.name, {}});
+        if (own.instruction.empty())
+            own.instruction = utf8_from_windows1252(trimmed(label.substr(tab)));
         planes.push_back(std::move(plane));
         // The corners that follow are the meets of the planes, which are found afresh.
         while (integer() == 1) take(3 * 8);
@@ -84,28 +97,45 @@ private:
     void read_trailer() {
         where_ = "the trailer";
         const std::int32_t order = integer();
-        cut.sheet.symmetry = order >= 1 ? order : 1;
-        cut.sheet.mirror = integer() != 0;
+        design.symmetry = order >= 1 ? order : 1;
+        design.mirror = integer() != 0;
         const std::int32_t gear = integer();
         if (gear == 0) {
             cut.notes.push_back("the file gives a gear of 0 teeth: 96 are assumed");
         } else {
-            cut.sheet.gear = gear;
+            design.gear = gear;
         }
         const double refractive_index = number();
         if (refractive_index >= 1 && refractive_index < 10) {
-            cut.sheet.refractive_index = refractive_index;
+            design.refractive_index = refractive_index;
         }
         integer();  // 32767 in all files that we know
         const double offset = number();
-        if (std::isfinite(offset) && std::abs(offset) <= 1e6) cut.sheet.gear_offset = offset;
+        if (std::isfinite(offset) && std::abs(offset) <= 1e6) design.gear_offset = offset;
         for (int i = 0; i < 8; ++i) {
             std::string line = utf8_from_windows1252(text());
             if (line.empty()) continue;
-            (i < 4 ? cut.sheet.headings : cut.sheet.footnotes).push_back(std::move(line));
+            (i < 4 ? design.headings : design.footnotes).push_back(std::move(line));
         }
     }
 
+    /// Angles and indices, once the gear is known: without what is lost in rounding planes.
+    void settle_tiers() {
+        constexpr double k_step = 1e-4, k_rounding = 1e-6;
+        const auto plain = [](double value) {
+            const double near = k_step * std::round(value / k_step);
+            return std::abs(near - value) < k_rounding ? near : value;
+        };
+        for (const CutPlane& plane : planes) {
+            CutSetting setting = setting_of(plane.plane, design);
+            setting.angle_deg = plain(setting.angle_deg);
+            DesignTier& tier = design.tiers[std::size_t(plane.tier)];
+            tier.facets[std::size_t(plane.facet)].index = plain(setting.index);
+            if (plane.facet == 0) tier.setting = setting;
+        }
+    }
+
+    std::map<int, int> tiers_;  // of the design, by their numbers in the file
     std::string_view bytes_;
     std::size_t at_ = 0;
     const std::filesystem::path& file_;
@@ -119,7 +149,7 @@ ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how,
     if (bytes.empty()) throw InputError(file, "is empty");
     GemParser parser(bytes, file);
     parser.parse();
-    build_solid(parser.cut, parser.planes, how, file);
+    build_solid(parser.cut, std::move(parser.design), parser.planes, how, file);
     return std::move(parser.cut);
 }
 

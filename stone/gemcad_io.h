@@ -2,29 +2,16 @@
 // GemCad cut designs: .asc (text) and .gem (binary).
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/design.h"
 
 namespace culet {
 
-/// What a cut file says beside its facets.
-struct CutSheet {
-    double gear = 96;            ///< index teeth; negative counts the other way round
-    bool gear_supposed = false;  ///< the file does not state it
-    double gear_offset = 0;
-    int symmetry = 1;
-    bool mirror = false;
-    std::optional<double> refractive_index;
-    std::vector<std::string> headings, footnotes;
-};
-
 struct ReadCut {
-    Solid solid;
-    CutSheet sheet;
+    Solid solid;  ///< with its design
     std::vector<std::string> notes;
     std::vector<std::string> details;  ///< what nearly every file has done to it: said on request
     /// Planes of the file that bound nothing, and planes equal to an earlier one; each as
@@ -57,12 +44,16 @@ ReadCut parse_gemcad_asc(std::string_view bytes, const CutReading& how = {},
 ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.gem");
 
-/// Writes angle, distance and index of every facet so that its plane reads back to 1e-12. Facets of
-/// one angle and distance share a line, with one name where they are A, A.1, A.2, ... Blanks in
-/// names become `_`. The format measures distances from a point inside the stone: if the origin is
+/// Writes the solid as the design orders it: tier by tier, with its labels, index settings and
+/// instructions, and with what else it says, also of facets that bound nothing. Each plane reads
+/// back to 1e-12. Facets of a tier that differ in angle or distance have lines of their own, one
+/// after another. Facets that the design does not have follow; those of one angle and distance
+/// share a line, with one name where they are A, A.1, A.2, ... Blanks in names become `_`. Without
+/// a refractive index 1.54, GemCad's own, is written.
+/// The format measures distances from a point inside the stone: if the origin is
 /// not inside, the stone is moved to put its centroid there. Returns notes on what was changed.
 /// Throws InputError when the solid is not convex, for the format cannot hold it.
-std::vector<std::string> write_gemcad_asc(const Solid& solid, const CutSheet& sheet,
+std::vector<std::string> write_gemcad_asc(const Solid& solid, const Design& design,
                                           const std::filesystem::path& file);
 
 }  // namespace culet

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
+#include <set>
 
 #include "stone/checks.h"
 #include "stone/cut_planes.h"
 #include "stone/errors.h"
 #include "stone/face_soup.h"
+#include "stone/gemcad_lines.h"
 #include "stone/output_file.h"
 #include "stone/text_decoding.h"
 
@@ -19,6 +22,8 @@ namespace {
 
 /// A plane must read back this well: the direction in radians, the distance by the size.
 constexpr double k_reads_back = 2e-13;
+/// Quartz, as GemCad begins a design.
+constexpr double k_gemcads_index = 1.54;
 
 double difference(const Plane& a, const Plane& b, double size) {
     return std::max(glm::length(a.normal - b.normal), std::abs(a.offset - b.offset) / size);
@@ -35,10 +40,13 @@ std::string short_decimal(double value, int places, Good good) {
     return fmt::format("{}", value);
 }
 
-struct Tier {
+// Facets of one angle and distance.
+struct Line {
     CutSetting setting;  // as it reads back from the text
     std::string angle, distance;
-    std::vector<std::string> indices, names;  // of each facet
+    std::vector<std::string> indices, labels;
+    std::vector<int> facets;  // of the solid; -1: of the design alone
+    std::string instruction;
     int named_at = -1;  // the one facet whose name is the tier's; -1: each has its own
 };
 
@@ -48,104 +56,154 @@ double read_back(const std::string& text) {
 
 class AscWriter {
 public:
-    AscWriter(const Solid& solid, const CutSheet& sheet) : solid_(solid), sheet_(sheet) {}
+    AscWriter(const Solid& solid, const Design& design)
+        : solid_(solid), design_(design), size_(diameter(solid)) {
+        for (const Facet& facet : solid.facets) names_.push_back(gemcad_word(facet.name));
+        const bool any_named = std::any_of(names_.begin(), names_.end(),
+                                           [](const std::string& name) { return !name.empty(); });
+        if (any_named) names_ = told_apart(std::move(names_));
+        for (std::size_t f = 0; f < names_.size(); ++f) facet_called_[names_[f]] = int(f);
+    }
 
     std::string text() {
-        std::string out = "GemCad 5.0\n";
-        const bool whole = sheet_.gear_offset == std::round(sheet_.gear_offset);
-        out += fmt::format("g {} {}{}\n", sheet_.gear, sheet_.gear_offset, whole ? ".0" : "");
-        out += fmt::format("y {} {}\n", sheet_.symmetry, sheet_.mirror ? "y" : "n");
-        out += fmt::format("I {}\n", sheet_.refractive_index.value_or(1.54));
-        for (const std::string& line : sheet_.headings) out += note('H', line);
-        add_facets();
-        for (const Tier& tier : tiers_) {
-            std::string line = fmt::format("a {} {}", tier.angle, tier.distance);
-            for (std::size_t i = 0; i < tier.indices.size(); ++i) {
-                std::string setting = tier.indices[i];
-                const bool named =
-                    !tier.names[i].empty() && (tier.named_at < 0 || tier.named_at == int(i));
-                if (named) setting += " n " + tier.names[i];
-                // A line that begins with a number goes on with the tier.
-                if (line.size() + setting.size() > 100) {
-                    out += line + "\n";
-                    line.clear();
-                }
-                line += (line.empty() ? "" : " ") + setting;
-            }
-            out += line + "\n";
+        for (const DesignTier& tier : design_.tiers) add_tier(tier);
+        const std::size_t first = lines_.size();
+        for (std::size_t f = 0; f < names_.size(); ++f) {
+            if (!placed_.contains(int(f))) add_facet(int(f), first);
         }
-        for (const std::string& line : sheet_.footnotes) out += note('F', line);
-        return out;
+        if (!labels_read_back()) {
+            for (Line& line : lines_) {
+                for (std::size_t i = 0; i < line.facets.size(); ++i) {
+                    if (line.facets[i] >= 0) line.labels[i] = names_[std::size_t(line.facets[i])];
+                }
+            }
+        }
+        name_tiers_once();
+        std::string out = gemcad_head(design_, design_.refractive_index.value_or(k_gemcads_index));
+        for (const Line& line : lines_) out += text_of(line);
+        return out + gemcad_feet(design_);
     }
 
 private:
-    static std::string note(char keyword, const std::string& line) {
-        std::string text = windows1252_from_utf8(line);
-        for (char& c : text) {
-            if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    static std::string text_of(const Line& tier) {
+        std::string out, line = fmt::format("a {} {}", tier.angle, tier.distance);
+        const auto add = [&](const std::string& word) {
+            // A line that begins with a number goes on with the tier.
+            if (line.size() + word.size() > 100) {
+                out += line + "\n";
+                line.clear();
+            }
+            line += (line.empty() ? "" : " ") + word;
+        };
+        for (std::size_t i = 0; i < tier.indices.size(); ++i) {
+            const bool named =
+                !tier.labels[i].empty() && (tier.named_at < 0 || tier.named_at == int(i));
+            add(tier.indices[i] + (named ? " n " + tier.labels[i] : std::string()));
         }
-        return fmt::format("{} {}\n", keyword, text);
+        if (!tier.instruction.empty()) {
+            std::string words = gemcad_line('G', tier.instruction);
+            words.pop_back();
+            line += " " + words;
+        }
+        return out + line + "\n";
     }
 
-    void add_facets() {
-        const double size = diameter(solid_);
-        std::vector<std::string> names;
-        for (const Facet& facet : solid_.facets) {
-            std::string name = windows1252_from_utf8(trimmed(facet.name));
-            // A name is one word.
-            for (char& c : name) {
-                if (static_cast<unsigned char>(c) <= 0x20 || c == 0x7f) c = '_';
-            }
-            names.push_back(std::move(name));
-        }
-        const bool any_named = std::any_of(names.begin(), names.end(),
-                                           [](const std::string& name) { return !name.empty(); });
-        if (any_named) names = told_apart(std::move(names));
-        for (std::size_t f = 0; f < solid_.facets.size(); ++f) {
-            const Plane& plane = solid_.facets[f].plane;
-            const CutSetting wanted = setting_of(plane, sheet_);
-            Tier* tier = nullptr;
-            for (Tier& known : tiers_) {
-                CutSetting shared = known.setting;
-                shared.index = wanted.index;
-                if (difference(plane_of(shared, sheet_), plane, size) <= k_reads_back) {
-                    tier = &known;
-                    break;
+    void add_tier(const DesignTier& tier) {
+        const std::size_t first = lines_.size();
+        for (const DesignFacet& own : tier.facets) {
+            const auto known = facet_called_.find(gemcad_word(own.facet));
+            CutSetting setting = tier.setting;
+            setting.index = own.index;
+            const Plane plane = plane_of(setting, design_);
+            if (own.facet.empty() || known == facet_called_.end()) {
+                if (bounds_nothing(plane))
+                    add_index(line_for(plane, setting, first), own.index, own.label, -1);
+            } else if (placed_.insert(known->second).second) {
+                const Plane& cut = solid_.facets[std::size_t(known->second)].plane;
+                if (difference(plane, cut, size_) <= k_reads_back) {
+                    add_index(line_for(plane, setting, first), own.index, own.label, known->second);
+                } else {
+                    add_facet(known->second, first, own.label);
                 }
             }
-            if (tier == nullptr) tier = &tiers_.emplace_back(new_tier(plane, wanted, size));
-            CutSetting setting = tier->setting;
-            std::string word = short_decimal(wanted.index, 0, [&](const std::string& text) {
-                setting.index = read_back(text);
-                return setting.index > 0 &&
-                       difference(plane_of(setting, sheet_), plane, size) <= 2 * k_reads_back;
-            });
-            tier->indices.push_back(std::move(word));
-            tier->names.push_back(names[f]);
         }
-        name_tiers_once();
+        if (lines_.size() > first) lines_.back().instruction = tier.instruction;
+    }
+
+    // A plane of the design that the solid has no facet of: beyond it, it may stay.
+    bool bounds_nothing(const Plane& plane) const {
+        return std::all_of(solid_.vertices.begin(), solid_.vertices.end(), [&](const Vec3& v) {
+            return height_above(plane, v) <= k_largest_miss * size_;
+        });
+    }
+
+    Line& line_for(const Plane& plane, const CutSetting& wanted, std::size_t first) {
+        for (std::size_t i = first; i < lines_.size(); ++i) {
+            CutSetting shared = lines_[i].setting;
+            shared.index = wanted.index;
+            if (difference(plane_of(shared, design_), plane, size_) <= k_reads_back)
+                return lines_[i];
+        }
+        return lines_.emplace_back(new_line(plane, wanted));
+    }
+
+    static void add_index(Line& line, double index, const std::string& label, int facet) {
+        line.indices.push_back(fmt::format("{}", index));
+        line.labels.push_back(gemcad_word(label));
+        line.facets.push_back(facet);
+    }
+
+    // By its plane, on a line from `first` on.
+    void add_facet(int f, std::size_t first, const std::string& label = {}) {
+        const Plane& plane = solid_.facets[std::size_t(f)].plane;
+        const CutSetting wanted = setting_of(plane, design_);
+        Line& line = line_for(plane, wanted, first);
+        CutSetting setting = line.setting;
+        line.indices.push_back(short_decimal(wanted.index, 0, [&](const std::string& text) {
+            setting.index = read_back(text);
+            return setting.index > 0 &&
+                   difference(plane_of(setting, design_), plane, size_) <= 2 * k_reads_back;
+        }));
+        line.labels.push_back(gemcad_word(label));
+        line.facets.push_back(f);
+    }
+
+    // Whether the labels that the design has give every facet its name again.
+    bool labels_read_back() const {
+        std::vector<std::string> own, of_tier, wanted;
+        for (const Line& line : lines_) {
+            std::set<std::string> labels(line.labels.begin(), line.labels.end());
+            labels.erase("");
+            for (std::size_t i = 0; i < line.facets.size(); ++i) {
+                if (line.facets[i] < 0) continue;
+                own.push_back(line.labels[i]);
+                of_tier.push_back(labels.size() == 1 ? *labels.begin() : std::string());
+                wanted.push_back(names_[std::size_t(line.facets[i])]);
+            }
+        }
+        return told_apart(std::move(own), of_tier) == wanted;
     }
 
     // A tier A, A.1, A.2, ... is named once, as GemCad does, wherever all names read back so.
     void name_tiers_once() {
-        for (Tier& tier : tiers_) tier.named_at = named_at(tier.names);
+        for (Line& tier : lines_) tier.named_at = named_at(tier.labels);
         for (bool again = true; again;) {
             again = false;
             std::vector<std::string> own, of_tier;
-            for (const Tier& tier : tiers_) {
+            for (const Line& tier : lines_) {
                 const bool once = tier.named_at >= 0;
-                for (std::size_t i = 0; i < tier.names.size(); ++i) {
+                for (std::size_t i = 0; i < tier.labels.size(); ++i) {
                     const bool inherits = once && tier.named_at != int(i);
-                    own.push_back(inherits ? std::string() : tier.names[i]);
-                    of_tier.push_back(once ? tier.names[std::size_t(tier.named_at)]
+                    own.push_back(inherits ? std::string() : tier.labels[i]);
+                    of_tier.push_back(once ? tier.labels[std::size_t(tier.named_at)]
                                            : std::string());
                 }
             }
             const std::vector<std::string> read = told_apart(std::move(own), of_tier);
             std::size_t at = 0;
-            for (Tier& tier : tiers_) {
-                for (const std::string& name : tier.names) {
-                    if (read[at++] == name || tier.named_at < 0) continue;
+            for (Line& tier : lines_) {
+                for (const std::string& label : tier.labels) {
+                    if (read[at++] == label || tier.named_at < 0) continue;
                     tier.named_at = -1;
                     again = true;
                 }
@@ -167,11 +225,11 @@ private:
         return static_cast<int>(base - names.begin());
     }
 
-    Tier new_tier(const Plane& plane, const CutSetting& wanted, double size) const {
-        Tier tier;
+    Line new_line(const Plane& plane, const CutSetting& wanted) const {
+        Line tier;
         tier.setting = wanted;
         const auto good = [&] {
-            return difference(plane_of(tier.setting, sheet_), plane, size) <= k_reads_back / 2;
+            return difference(plane_of(tier.setting, design_), plane, size_) <= k_reads_back / 2;
         };
         tier.angle = short_decimal(wanted.angle_deg, 6, [&](const std::string& text) {
             tier.setting.angle_deg = read_back(text);
@@ -189,8 +247,12 @@ private:
     }
 
     const Solid& solid_;
-    const CutSheet& sheet_;
-    std::vector<Tier> tiers_;
+    const Design& design_;
+    double size_ = 0;
+    std::vector<std::string> names_;
+    std::map<std::string, int> facet_called_;
+    std::set<int> placed_;
+    std::vector<Line> lines_;
 };
 
 bool origin_is_inside(const Solid& solid) {
@@ -201,7 +263,7 @@ bool origin_is_inside(const Solid& solid) {
 
 }  // namespace
 
-std::vector<std::string> write_gemcad_asc(const Solid& solid, const CutSheet& sheet,
+std::vector<std::string> write_gemcad_asc(const Solid& solid, const Design& design,
                                           const std::filesystem::path& file) {
     if (!is_closed(solid)) {
         throw InputError(file,
@@ -213,12 +275,12 @@ std::vector<std::string> write_gemcad_asc(const Solid& solid, const CutSheet& sh
                          "cannot be written: a cut design holds a convex stone only, and this "
                          "one is not convex or inside out (see culet info)");
     }
-    if (!(std::abs(sheet.gear) >= 1)) {
+    if (!(std::abs(design.gear) >= 1)) {
         throw InputError(file, "cannot be written: the index gear needs at least one tooth");
     }
     std::vector<std::string> notes;
     if (origin_is_inside(solid)) {
-        write_text(file, AscWriter(solid, sheet).text());
+        write_text(file, AscWriter(solid, design).text());
         return notes;
     }
     const Vec3 middle = centroid(solid);
@@ -231,9 +293,9 @@ std::vector<std::string> write_gemcad_asc(const Solid& solid, const CutSheet& sh
         fmt::format("moved by ({}, {}, {}): GemCad measures from a point inside the "
                     "stone",
                     -middle.x, -middle.y, -middle.z));
-    CutSheet moved_sheet = sheet;
-    moved_sheet.footnotes.push_back(notes.back());
-    write_text(file, AscWriter(moved, moved_sheet).text());
+    Design moved_design = design;
+    moved_design.footnotes.push_back(notes.back());
+    write_text(file, AscWriter(moved, moved_design).text());
     return notes;
 }
 

@@ -43,9 +43,10 @@ ReadSolid parse_mesh(std::string_view bytes, MeshFormat format,
 
 /// Writes by extension: .obj .off .ply .stl. Every double reads back as it was. Facet planes ride
 /// along in comments of OBJ, OFF and PLY (`culet plane NAME nx ny nz offset`, after `culet corners
-/// HASH`), so that a design with near-miss meets comes back with the planes it had. In STL (text)
-/// each triangle has its facet's normal; offsets and names are lost. The file appears whole or not
-/// at all.
+/// HASH`), so that a design with near-miss meets comes back with the planes it had; so does the
+/// design that the solid was cut by (`culet asc LINE`). In STL (text)
+/// each triangle has its facet's normal; offsets, names and design are lost. The file appears whole
+/// or not at all.
 void write_mesh(const Solid& solid, const std::filesystem::path& file);
 
 /// The same for the mesh of a design, which a comment names: `culet design NAME`. In STL there is

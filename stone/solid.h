@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,8 @@
 namespace culet {
 
 using Vec3 = glm::dvec3;
+
+struct Design;  // design.h
 
 /// The plane normal . x = offset; the normal has unit length and points out of the stone.
 struct Plane {
@@ -35,6 +38,8 @@ struct Facet {
 struct Solid {
     std::vector<Vec3> vertices;
     std::vector<Facet> facets;
+    /// What its facets were cut by, or are to be; null: not known. Facets keep their names.
+    std::shared_ptr<const Design> design = nullptr;
 };
 
 /// Index of the facet of that name, or -1.

@@ -82,7 +82,6 @@ SolidInput solid_in(const std::filesystem::path& file, const CutReading& how, St
         input.solid = std::move(cut.solid);
         input.notes = std::move(cut.notes);
         input.details = std::move(cut.details);
-        input.sheet = std::move(cut.sheet);
         input.unused_planes = std::move(cut.unused_planes);
         input.repeated_planes = std::move(cut.repeated_planes);
         input.facets_are_whole = true;
@@ -113,7 +112,7 @@ bool is_solid_file(const std::filesystem::path& file) {
 
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
     SolidInput input = solid_in(file, how, Standing::upright);
-    if (std::string odd = doubtful_size(input.solid); !odd.empty() && !input.sheet)
+    if (std::string odd = doubtful_size(input.solid); !odd.empty() && !is_cut(input.format))
         input.notes.push_back(std::move(odd));
     return input;
 }

@@ -2,7 +2,6 @@
 // Any mesh or cut design, with all that its file says.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +11,10 @@
 namespace culet {
 
 struct SolidInput {
-    Solid solid;
+    Solid solid;         ///< with its design, of a cut or a mesh that culet wrote of one
     std::string format;  ///< obj, off, ply, stl, asc, gem
     std::vector<std::string> notes;
     std::vector<std::string> details;  ///< as in ReadCut
-    std::optional<CutSheet> sheet;     ///< of a cut design
     std::vector<std::string> unused_planes, repeated_planes;
     bool facets_are_whole = false;  ///< see Stone
     Vec3 file_up{0, 0, 1};          ///< see Stone

@@ -53,7 +53,7 @@ void write_solid(const Solid& solid, const std::filesystem::path& file) {
     if (mesh_format(file)) {
         write_mesh(solid, file);
     } else {
-        write_gemcad_asc(solid, {}, file);
+        write_gemcad_asc(solid, solid.design ? *solid.design : Design{}, file);
     }
 }
 

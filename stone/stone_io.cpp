@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "stone/design.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/perpendicular.h"
@@ -119,12 +121,28 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
     table.fail("", k_no_material);
 }
 
+// Tiers, index settings and words for the facets of a mesh, by their names.
+void take_design(const TomlTable& table, Solid& solid) {
+    const auto file = table.path("design");
+    if (!file) return;
+    solid.design = read_solid(*file).solid.design;
+    if (!solid.design)
+        table.fail("design", fmt::format("{} holds no design: name a GemCad .asc or .gem, or a "
+                                         "mesh of culet cut",
+                                         file->filename().string()));
+    const std::vector<DesignPlace> places = places_of(solid);
+    if (std::none_of(places.begin(), places.end(), [](const auto& at) { return at.tier >= 0; }))
+        table.fail("design", fmt::format("no facet of the mesh has a name of the design {}: give "
+                                         "the facets the design's names (culet info -v lists them)",
+                                         file->filename().string()));
+}
+
 StoneFile stone_of(const TomlTable& root) {
     root.refuse_unknown({"stone", "material", "reading", "silhouette", "fit"});
     const auto table = root.table("stone");
     if (!table) root.fail("", "there is no [stone] table");
     table->refuse_unknown({"name", "mesh", "unit", "material", "density", "optic_axis",
-                           "principal_axes", "up", "azimuth_zero", "readings", "convex"});
+                           "principal_axes", "up", "azimuth_zero", "readings", "convex", "design"});
     StoneFile result;
     Stone& stone = result.stone;
     stone.name = table->text("name").value_or(root.file().stem().string());
@@ -195,6 +213,7 @@ StoneFile stone_of(const TomlTable& root) {
     }
     stand_as_stated(table->has("optic_axis") || table->has("principal_axes"), result);
 
+    take_design(*table, stone.solid);
     if (const auto readings = table->path("readings")) result.readings_file = *readings;
     return result;
 }

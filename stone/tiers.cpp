@@ -8,6 +8,7 @@
 #include <set>
 
 #include "stone/checks.h"
+#include "stone/design.h"
 #include "stone/drawn_symmetry.h"
 #include "stone/stone.h"
 #include "stone/units.h"
@@ -166,6 +167,29 @@ public:
     }
     // Each sorted, in the order of their first facets.
     std::vector<std::vector<int>> tiers() const {
+        std::vector<int> root = roots_by_design(places_of(solid_));
+        if (root.empty()) root = roots_by_drawing();
+        std::map<int, std::vector<int>> by_root;
+        for (int f = 0; f < static_cast<int>(root.size()); ++f) {
+            by_root[root[static_cast<std::size_t>(f)]].push_back(f);
+        }
+        std::vector<std::vector<int>> all;
+        for (auto& [first, facets] : by_root) all.push_back(std::move(facets));
+        return all;
+    }
+
+private:
+    // The first facet of each one's tier; none where the design does not have them all.
+    static std::vector<int> roots_by_design(const std::vector<DesignPlace>& places) {
+        std::map<int, int> first;
+        std::vector<int> root;
+        for (const DesignPlace& place : places) {
+            if (place.tier < 0) return {};
+            root.push_back(first.try_emplace(place.tier, int(root.size())).first->second);
+        }
+        return root;
+    }
+    std::vector<int> roots_by_drawing() const {
         std::vector<int> root(solid_.facets.size());
         std::iota(root.begin(), root.end(), 0);
         const auto join = [&](int a, int b) {
@@ -194,16 +218,9 @@ public:
                 if (are_cut_alike(f, other) || are_one_name_and_near(f, other)) join(f, other);
             }
         }
-        std::map<int, std::vector<int>> by_root;
-        for (int f = 0; f < static_cast<int>(root.size()); ++f) {
-            by_root[root[static_cast<std::size_t>(f)]].push_back(f);
-        }
-        std::vector<std::vector<int>> all;
-        for (auto& [first, facets] : by_root) all.push_back(std::move(facets));
-        return all;
+        return root;
     }
 
-private:
     StonePart part(int facet) const { return part_of(solid_, facet, table_, up_); }
     // Names of several facets each tell tiers apart.
     bool may_belong(int a, int b) const {

@@ -22,7 +22,8 @@ int table_facet(const Solid& solid, const Vec3& up);
 /// (pavilion); where none does, those of the tier with the largest area. In the solid's order.
 std::vector<int> main_facets(const Solid& solid, const Vec3& up, bool crown);
 
-/// Facets of one part that belong together by the drawing itself: the symmetry about up that the
+/// Facets of one tier of the solid's design (design.h), where it has one with all its facets. Else
+/// those of one part that belong together by the drawing itself: the symmetry about up that the
 /// drawing has takes them into each other (drawn_symmetry.h), or they have the same angle (to 0.02
 /// degrees, as designs are written) and distance, or name, or they have one name and the drawing
 /// comes near to a symmetry that takes them into each other. Names alone make no tier; they part

@@ -55,7 +55,7 @@ TEST(OutsideDesigns, HaveThePublishedCountsAndRatios) {
             EXPECT_NEAR(*p.table_width / p.width, known["UW"].get<double>(), near);
         }
         EXPECT_NEAR(volume(solid) / known["volume"].get<double>(), 1, near);
-        EXPECT_EQ(cut.sheet.gear, known["gear"].get<double>());
+        EXPECT_EQ(cut.solid.design->gear, known["gear"].get<double>());
         EXPECT_TRUE(
             find_faults(solid, {.planarity = k_largest_miss, .must_be_convex = true}).empty());
     }
@@ -71,8 +71,8 @@ TEST(OutsideDesigns, GemAndAscAgree) {
         EXPECT_EQ(asc.solid.facets.size(), gem.solid.facets.size());
         EXPECT_EQ(asc.solid.vertices.size(), gem.solid.vertices.size());
         EXPECT_EQ(edge_count(asc.solid), edge_count(gem.solid));
-        EXPECT_EQ(asc.sheet.gear, gem.sheet.gear);
-        EXPECT_EQ(asc.sheet.refractive_index, gem.sheet.refractive_index);
+        EXPECT_EQ(asc.solid.design->gear, gem.solid.design->gear);
+        EXPECT_EQ(asc.solid.design->refractive_index, gem.solid.design->refractive_index);
         for (const Facet& facet : asc.solid.facets) {
             double best = 1;
             for (const Facet& other : gem.solid.facets) {

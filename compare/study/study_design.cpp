@@ -57,9 +57,9 @@ RenderSettings with_all(const Scene& scene, const std::string& engine, double to
     return settings;
 }
 
-class Design {
+class CandidateDesign {
 public:
-    explicit Design(const StudyGround& ground) : ground_(ground) {}
+    explicit CandidateDesign(const StudyGround& ground) : ground_(ground) {}
 
     void add(const std::string& sweep, const std::string& setting, const RenderSettings& settings,
              bool automatic = false, bool needed = false) {
@@ -183,11 +183,11 @@ RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
 }
 
 std::vector<StudyCandidate> study_design(const StudyGround& ground) {
-    Design design(ground);
-    design.automatic();
-    design.engines();
-    design.sweeps();
-    return design.take();
+    CandidateDesign candidates(ground);
+    candidates.automatic();
+    candidates.engines();
+    candidates.sweeps();
+    return candidates.take();
 }
 
 std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,

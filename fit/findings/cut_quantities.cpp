@@ -6,6 +6,8 @@
 #include <set>
 
 #include "fit/findings/plan_view.h"
+#include "stone/tiers.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -164,6 +166,44 @@ private:
     int table_ = -1;
 };
 
+// Mains that were drawn alike: by tiers, those of one angle together (0.02 degrees, as designs are
+// written, or what a rough drawing scatters by).
+std::vector<std::vector<int>> drawn_alike(const Stone& stone, const std::vector<int>& mains) {
+    constexpr double k_same_deg = 0.02, k_surely = 2;
+    struct Group {
+        double inclination = 0, scatter = 0;
+        std::vector<int> facets;
+    };
+    std::vector<Group> groups;
+    for (const FacetTier& tier : tiers_of(stone.solid, stone.up)) {
+        Group own{tier.inclination, tier.scatter, {}};
+        for (const int f : mains) {
+            if (std::find(tier.facets.begin(), tier.facets.end(), f) != tier.facets.end())
+                own.facets.push_back(f);
+        }
+        if (own.facets.empty()) continue;
+        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& other) {
+            const double limit =
+                std::max(radians(k_same_deg), k_surely * std::hypot(own.scatter, other.scatter));
+            return std::abs(own.inclination - other.inclination) < limit;
+        });
+        if (same == groups.end()) {
+            groups.push_back(std::move(own));
+        } else {
+            same->facets.insert(same->facets.end(), own.facets.begin(), own.facets.end());
+        }
+    }
+    std::vector<std::vector<int>> all;
+    for (Group& group : groups) all.push_back(std::move(group.facets));
+    return all;
+}
+
+std::string spaced_names(const Solid& solid, const std::vector<int>& facets) {
+    std::string text;
+    for (const int f : facets) text += " " + solid.facets[std::size_t(f)].name;
+    return text;
+}
+
 }  // namespace
 
 std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape,
@@ -173,7 +213,7 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
     const PlanView& plan = cut.plan();
     if (plan.hull().size() < 3) return all;
     const std::string unit(name_of(system.stone().unit));
-    const auto put = [&](const char* name, const std::string& in, const Quantity& q,
+    const auto put = [&](const std::string& name, const std::string& in, const Quantity& q,
                          double factor) {
         all.push_back({name, in, q, factor});
     };
@@ -214,10 +254,14 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
         put("girdle thickness", "%", ratio(girdle, across), 100);
         put("pavilion depth", "%", ratio(pavilion, across), 100);
     }
-    const std::vector<int> crown_mains = cut.mains(true), pavilion_mains = cut.mains(false);
-    if (!crown_mains.empty()) put("crown angle", "deg", cut.mean_angle(crown_mains), degrees(1));
-    if (!pavilion_mains.empty()) {
-        put("pavilion angle", "deg", cut.mean_angle(pavilion_mains), degrees(1));
+    for (const bool crown : {true, false}) {
+        const std::string name = crown ? "crown angle" : "pavilion angle";
+        const auto alike = drawn_alike(system.stone(), cut.mains(crown));
+        for (const std::vector<int>& facets : alike) {
+            const bool one = alike.size() == 1;
+            put(one ? name : name + spaced_names(system.stone().solid, facets), "deg",
+                cut.mean_angle(facets), degrees(1));
+        }
     }
     const Quantity inside = enclosed_volume(outline)(shape);
     const double mm3 = std::pow(system.scale() * mm_per(system.stone().unit), 3);

@@ -10,6 +10,7 @@
 #include "fit/report/assessment.h"
 #include "fit/report/findings.h"
 #include "fit/report/json_number.h"
+#include "stone/design.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -56,7 +57,19 @@ Json tier_angles(const FitResult& result) {
     return tiers;
 }
 
-Json facets_json(const std::vector<FittedFacet>& facets) {
+// Tier and index setting of the design that the stone was cut by, where it is known.
+void add_design(const Design& design, const std::string& facet, Json& json) {
+    const std::vector<std::string> titles = tier_titles(design);
+    for (std::size_t t = 0; t < titles.size(); ++t) {
+        for (const DesignFacet& own : design.tiers[t].facets) {
+            if (own.facet != facet) continue;
+            json["tier"] = titles[t];
+            json["index"] = own.index;
+        }
+    }
+}
+
+Json facets_json(const std::vector<FittedFacet>& facets, const Design* design) {
     Json json = Json::array();
     for (const FittedFacet& f : facets) {
         const Vec3& n = f.plane.normal;
@@ -74,6 +87,7 @@ Json facets_json(const std::vector<FittedFacet>& facets) {
                           {"offset", json_number(f.read_offset)}}},
                         {"area", f.area},
                         {"sigma_area", json_number(f.sigma_area)}});
+        if (design != nullptr) add_design(*design, f.name, json.back());
     }
     return json;
 }
@@ -189,7 +203,7 @@ std::string fit_report(const FitResult& result) {
     report["message"] = result.message;
     report["summary"] = fit_summary(result);
     report["unit"] = std::string(name_of(result.unit));
-    report["facets"] = facets_json(result.facets);
+    report["facets"] = facets_json(result.facets, result.solid.design.get());
     Json areas = Json::object();
     for (const FittedFacet& f : result.facets) areas[f.name] = f.area;
     report["areas"] = areas;

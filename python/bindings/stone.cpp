@@ -7,6 +7,7 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/python_stone.h"
 #include "python/bindings/rooms.h"
+#include "stone/design.h"
 #include "stone/facet_triangles.h"
 #include "stone/file_kind.h"
 #include "stone/material_io.h"
@@ -36,7 +37,7 @@ PythonStone load_stone(const fs::path& file, const std::vector<std::string>& ove
         result.stone.solid = std::move(input.solid);
         result.stone.name = file.stem().string();
         result.notes = std::move(input.notes);
-        if (input.sheet) result.index = input.sheet->refractive_index;
+        if (const auto& design = result.stone.solid.design) result.index = design->refractive_index;
     } else {
         StoneFile read = read_stone(file, overrides);
         result.has_material = read.has_material;

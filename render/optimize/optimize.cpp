@@ -201,6 +201,10 @@ double table_share(const Solid& solid) {
     return share;
 }
 
+Solid about_its_axis(const Optimized& result) {
+    return moved_inside(result.better, {.scale = 1, .shift = -result.axis});
+}
+
 Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
                        const Progress& progress) {
     const TierDesign design(solid);
@@ -225,6 +229,7 @@ Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
     if (options.recut) {
         const LargestInside inside = largest_inside(result.better, solid);
         result.better = moved_inside(result.better, inside);
+        result.axis = inside.shift;
         result.volume_ratio = inside.volume / volume(solid);
         result.gained = result.at_better.total >= result.at_start.total + options.recut->gain;
     } else {

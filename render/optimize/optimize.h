@@ -47,6 +47,7 @@ struct Optimized {
     std::vector<OptimizedTier> tiers;
     double volume_ratio = 1;  ///< better over start; of a recut what is left of the stone
     int evaluations = 0;
+    Vec3 axis{0};              ///< of a recut: where the better cut's origin, its axis, came to lie
     bool found = false;        ///< whether anything better was
     bool gained = true;        ///< of a recut: whether the wanted gain was reached
     bool interrupted = false;  ///< by `progress`: the best until then
@@ -57,6 +58,9 @@ struct Optimized {
 /// does not depend on the number of threads.
 Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
                        const Progress& progress = {});
+
+/// The better cut as a design is written: about its axis, wherever a recut stone has it.
+Solid about_its_axis(const Optimized& result);
 
 /// The table's width over the stone's, the mean of those along x and along y.
 double table_share(const Solid& solid);

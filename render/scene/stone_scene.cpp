@@ -8,9 +8,9 @@
 
 #include "render/scene/scene_io.h"
 #include "render/scene/view_presets.h"
+#include "stone/design.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
-#include "stone/gemcad_io.h"
 #include "stone/material.h"
 #include "stone/material_io.h"
 #include "stone/solid_input.h"
@@ -61,11 +61,10 @@ std::string materials_of_index(double index) {
 [[noreturn]] void ask_for_material(const std::filesystem::path& file, InputKind kind) {
     std::string hint = "e.g. --material diamond";
     if (kind == InputKind::cut) {
-        const CutSheet sheet =
-            (extension_of(file) == "asc" ? read_gemcad_asc(file) : read_gemcad_gem(file)).sheet;
-        if (sheet.refractive_index && *sheet.refractive_index > 1) {
-            hint = fmt::format("its index {:.4g} is that of {}", *sheet.refractive_index,
-                               materials_of_index(*sheet.refractive_index));
+        const auto index = read_solid(file).solid.design->refractive_index;
+        if (index && *index > 1) {
+            hint =
+                fmt::format("its index {:.4g} is that of {}", *index, materials_of_index(*index));
         }
     }
     throw InputError(file, fmt::format("names no material: say which with --material NAME ({}; "

@@ -43,6 +43,27 @@ TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
     }
 }
 
+// A cutter's words go through a mesh and back; the index is the material's (quartz, docs of
+// materials: 1.544 ordinary, 1.553 extraordinary), or said to be unknown.
+TEST_F(ConvertInfo, DesignKeepsItsWordsAndTheStonesIndex) {
+    write(
+        "words.asc",
+        "GemCad 5.0\ng 96 0.0\ny 4 y\nH Words\na -90 1 96 n G 24 48 72 G Level girdle\n"
+        "a -45 1.4142135623730951 96 n P 24 48 72 G TCP\na 0 0.5 96 n T G Leave frosted\nF Last\n");
+    const ProgramRun mesh = run_culet({"convert", file("words.asc"), file("words.obj")});
+    EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+    const ProgramRun cut =
+        run_culet({"convert", file("words.obj"), file("again.asc"), "--material", "quartz"});
+    EXPECT_EQ(cut.exit_code, 0) << cut.err;
+    const std::string again = text("again.asc");
+    for (const char* kept : {"\ny 4 y\n", "\nH Words\n", " G Level girdle\n", " G TCP\n",
+                             " G Leave frosted\n", "\nF Last\n"})
+        EXPECT_NE(again.find(kept), std::string::npos) << kept << again;
+    EXPECT_NEAR(std::stod(again.substr(again.find("\nI ") + 3)), 1.547, 0.004);
+    const ProgramRun unknown = run_culet({"convert", file("words.obj"), file("third.asc")});
+    EXPECT_NE(unknown.err.find("--material"), std::string::npos) << unknown.err;
+}
+
 // A float map of scale 2, which multiplies: a note of whichever command reads it.
 TEST_F(ConvertInfo, NotesOfAPictureAreSaidOnce) {
     const float light[3]{0.25f, 0.5f, 1};

@@ -58,6 +58,18 @@ TEST_F(BenchForm, CutFillInFit) {
     const auto report = nlohmann::json::parse(read_text(file("fit.json")));
     EXPECT_EQ(report.at("readings").size(), 21u);
     EXPECT_THAT(report.at("notes").dump(), HasSubstr("7 rows"));
+    // The fitted stone knows what it was cut by: main C2 looks to azimuth 45, tooth 12 of 96 (docs:
+    // 90 - 360 x 12/96), and the sheet lists the tiers of a brilliant.
+    for (const auto& facet : report.at("facets")) {
+        if (facet.at("name") != "C2") continue;
+        EXPECT_EQ(facet.at("tier"), "C");
+        EXPECT_NEAR(facet.at("index").get<double>(), 12, 1e-9);
+    }
+    const ProgramRun sheet = run_culet({"info", file("fitted.obj"), "--cutting-sheet", "-"});
+    EXPECT_EQ(sheet.exit_code, 0) << sheet.err;
+    for (const char* line :
+         {"57 \\+ 16 facets; 8-fold", " 1  L +pavilion", " 5  C +crown [^\n]+ 12 24 36"})
+        EXPECT_THAT(sheet.out, ::testing::ContainsRegex(line));
     EXPECT_TRUE(report.at("suspects").empty());
 }
 

@@ -16,7 +16,8 @@ CuttingSheet brilliant() {
     CuttingSheet sheet;
     sheet.name = "<b>brilliant</b>";
     sheet.solid = make_cut("round-brilliant");
-    sheet.steps = cutting_list(sheet.solid, CutSheet{}, true);
+    sheet.steps = cutting_list(sheet.solid);
+    sheet.design = cutting_design(sheet.solid);
     sheet.unit = "mm";
     return sheet;
 }
@@ -29,15 +30,22 @@ const CuttingStep& step_called(const CuttingSheet& sheet, const std::string& tie
 }
 
 TEST(CuttingSheet, TellsWhatEachTierOfABrilliantIsCutTo) {
-    // As textbooks cut a standard brilliant: halves to a point, mains between them, the girdle,
-    // upper halves to the girdle's width; then all is given by meets.
+    // As textbooks cut a standard brilliant: halves to a point, mains from it, the girdle where
+    // both meet, upper halves to the girdle's width; then all is given by meets. The mains meet
+    // each other on the halves' edges at any depth: that is no stop, so their depth is a length.
+    // Depths by the cut's proportions: a diameter of 6.5 mm, a pavilion main at 40.75 degrees from
+    // the girdle's edge to the middle, a girdle of 3 % (docs of culet cut).
     const CuttingSheet sheet = brilliant();
-    EXPECT_EQ(depth_words(step_called(sheet, "L").depth), "centre point");
-    EXPECT_EQ(depth_words(step_called(sheet, "P").depth), "meet its neighbour on L");
-    EXPECT_EQ(depth_words(step_called(sheet, "U").depth), "the girdle's width");
-    EXPECT_EQ(depth_words(step_called(sheet, "C").depth), "meet G, U");
-    EXPECT_EQ(depth_words(step_called(sheet, "S").depth), "meet U, C");
-    EXPECT_EQ(depth_words(step_called(sheet, "T").depth), "meet C, S");
+    const auto words = [&](const char* tier) {
+        return depth_words(step_called(sheet, tier), sheet.unit, 6.5);
+    };
+    EXPECT_THAT(words("L"), HasSubstr("centre point"));
+    EXPECT_THAT(words("P"), HasSubstr("centre point 2.8"));
+    EXPECT_EQ(words("G"), "meet L, P");
+    EXPECT_THAT(words("U"), ::testing::MatchesRegex("leave 0\\.[0-9]+ mm of G"));
+    EXPECT_EQ(words("C"), "meet G, U");
+    EXPECT_EQ(words("S"), "meet U, C");
+    EXPECT_EQ(words("T"), "meet C, S");
     std::vector<std::string> order;
     for (const CuttingStep& step : sheet.steps) order.push_back(step.tier);
     EXPECT_EQ(order, (std::vector<std::string>{"L", "P", "G", "U", "C", "S", "T"}));
@@ -55,7 +63,7 @@ TEST(CuttingSheet, OfADesignWithoutMeetsIsCutToSize) {
         }
     }
     sheet.solid = intersect_half_spaces(planes).solid;
-    for (const CuttingStep& step : cutting_list(sheet.solid, CutSheet{}, true))
+    for (const CuttingStep& step : cutting_list(sheet.solid))
         EXPECT_NE(step.depth.to, CutDepth::To::meet) << step.tier;
     EXPECT_DOUBLE_EQ(least_girdle(sheet.solid), 2);
 }
@@ -73,7 +81,8 @@ TEST(CuttingSheet, PageAndTextSayTheSame) {
     EXPECT_THAT(page, Not(HasSubstr("± 0.034")));
     sheet.name = test::hostile_name();
     test::keep_page("cutting-sheet", cutting_sheet_page(sheet));
-    for (const char* both : {"meet G, U", "12 24 36 48 60 72 84", "0.5700", "6.5 mm"}) {
+    for (const char* both :
+         {"meet G, U", "12 24 36 48 60 72 84", "0.5700", "6.5 mm", "57 + 16 facets", "8-fold"}) {
         EXPECT_THAT(page, HasSubstr(both));
         EXPECT_THAT(text, HasSubstr(both));
     }

@@ -147,8 +147,8 @@ TEST(ForeignDesigns, AGearThatIsNotStatedIsSupposedAndSaid) {
         SCOPED_TRACE(one.symmetry + one.sides);
         const ReadCut cut = parse_gemcad_asc("GemCad 5.0\n" + one.symmetry + "a 90 1 " + one.sides +
                                              "\na 0 1\na -0 1\n");
-        EXPECT_TRUE(cut.sheet.gear_supposed);
-        EXPECT_EQ(cut.sheet.gear, one.gear);
+        EXPECT_TRUE(cut.solid.design->gear_supposed);
+        EXPECT_EQ(cut.solid.design->gear, one.gear);
         EXPECT_NEAR(volume(cut.solid), 16 * (std::sqrt(2.0) - 1), 1e-12);
         ASSERT_EQ(cut.notes.size(), 1u);
         EXPECT_THAT(cut.notes[0], says("gear is not stated", std::to_string(int(one.gear))));
@@ -156,9 +156,9 @@ TEST(ForeignDesigns, AGearThatIsNotStatedIsSupposedAndSaid) {
     // Sides that repeat on no gear: 96, and said.
     const ReadCut uneven =
         parse_gemcad_asc("GemCad 5.0\na 90 1 96 11 24 35 48 60 72 84\na 0 1\na -0 1\n");
-    EXPECT_EQ(uneven.sheet.gear, 96);
+    EXPECT_EQ(uneven.solid.design->gear, 96);
     EXPECT_EQ(uneven.notes.size(), 1u);
-    EXPECT_FALSE(parse_gemcad_asc(cube_with("a 0 1")).sheet.gear_supposed);
+    EXPECT_FALSE(parse_gemcad_asc(cube_with("a 0 1")).solid.design->gear_supposed);
 }
 
 }  // namespace

@@ -47,12 +47,12 @@ TEST(GemCadAsc, BlockHasItsPlanesAndNames) {
     EXPECT_EQ(normal("T"), Vec3(0, 0, 1));
     EXPECT_EQ(normal("B"), Vec3(0, 0, -1));
     EXPECT_DOUBLE_EQ(volume(cut.solid), 2 * 2 * 0.75);
-    EXPECT_EQ(cut.sheet.gear, 96);
-    EXPECT_EQ(cut.sheet.symmetry, 4);
-    EXPECT_TRUE(cut.sheet.mirror);
-    EXPECT_EQ(cut.sheet.refractive_index, 1.76);
-    EXPECT_EQ(cut.sheet.headings, std::vector<std::string>{"A block"});
-    EXPECT_EQ(cut.sheet.footnotes, std::vector<std::string>{"done"});
+    EXPECT_EQ(cut.solid.design->gear, 96);
+    EXPECT_EQ(cut.solid.design->symmetry, 4);
+    EXPECT_TRUE(cut.solid.design->mirror);
+    EXPECT_EQ(cut.solid.design->refractive_index, 1.76);
+    EXPECT_EQ(cut.solid.design->headings, std::vector<std::string>{"A block"});
+    EXPECT_EQ(cut.solid.design->footnotes, std::vector<std::string>{"done"});
     EXPECT_TRUE(find_faults(cut.solid).empty());
 }
 
@@ -116,7 +116,7 @@ TEST(CutSettings, SettingAndPlaneAreInverse) {
     std::mt19937_64 generator(8);
     std::uniform_real_distribution<double> angle(0.1, 89.9), index(0.01, 95.99);
     for (const double gear : {96.0, -96.0, 80.0, 64.0}) {
-        CutSheet sheet;
+        Design sheet;
         sheet.gear = gear;
         sheet.gear_offset = gear < 0 ? 48 : 0;
         for (int i = 0; i < 200; ++i) {
@@ -131,7 +131,7 @@ TEST(CutSettings, SettingAndPlaneAreInverse) {
 }
 
 TEST(CutSettings, MirroredSettingsGiveMirroredPlanesExactly) {
-    const CutSheet sheet;
+    const Design sheet;
     for (int i = 1; i < 96; ++i) {
         const Plane a = plane_of({41.3, false, 1, static_cast<double>(i)}, sheet);
         const Plane b = plane_of({41.3, false, 1, static_cast<double>(96 - i)}, sheet);
@@ -173,7 +173,7 @@ TEST(GemCadDesigns, HaveTheCountsAndRatiosOfAnotherProgram) {
             EXPECT_NEAR(*p.table_width / p.width, known["UW"].get<double>(), near);
         }
         EXPECT_NEAR(volume(solid) / known["volume"].get<double>(), 1, near);
-        EXPECT_EQ(cut.sheet.gear, known["gear"].get<double>());
+        EXPECT_EQ(cut.solid.design->gear, known["gear"].get<double>());
         EXPECT_TRUE(
             find_faults(solid, {.planarity = k_largest_miss, .must_be_convex = true}).empty());
     }
@@ -184,13 +184,14 @@ TEST(GemCadDesigns, GemAndAscAgree) {
     for (const auto& design : committed_designs()) {
         SCOPED_TRACE(design.filename());
         const ReadCut asc = read_gemcad_asc(design);
-        const ReadCut gem = parse_gemcad_gem(gem_bytes(asc.solid, static_cast<int>(asc.sheet.gear),
-                                                       asc.sheet.refractive_index.value()));
+        const ReadCut gem =
+            parse_gemcad_gem(gem_bytes(asc.solid, static_cast<int>(asc.solid.design->gear),
+                                       asc.solid.design->refractive_index.value()));
         EXPECT_EQ(asc.solid.facets.size(), gem.solid.facets.size());
         EXPECT_EQ(asc.solid.vertices.size(), gem.solid.vertices.size());
         EXPECT_EQ(edge_count(asc.solid), edge_count(gem.solid));
-        EXPECT_EQ(asc.sheet.gear, gem.sheet.gear);
-        EXPECT_EQ(asc.sheet.refractive_index, gem.sheet.refractive_index);
+        EXPECT_EQ(asc.solid.design->gear, gem.solid.design->gear);
+        EXPECT_EQ(asc.solid.design->refractive_index, gem.solid.design->refractive_index);
         EXPECT_LT(plane_difference(asc.solid, gem.solid), 1e-12);
     }
 }
@@ -200,11 +201,11 @@ TEST(GemCadWriting, SharesTiersAndWritesPlainNumbers) {
     for (const auto& design : committed_designs()) {
         SCOPED_TRACE(design.filename());
         const ReadCut cut = read_gemcad_asc(design);
-        write_gemcad_asc(cut.solid, cut.sheet, folder / "a.asc");
+        write_gemcad_asc(cut.solid, *cut.solid.design, folder / "a.asc");
         const ReadCut again = read_gemcad_asc(folder / "a.asc");
         EXPECT_LT(plane_difference(cut.solid, again.solid), 1e-12);
-        EXPECT_EQ(again.sheet.headings, cut.sheet.headings);
-        EXPECT_EQ(again.sheet.gear, cut.sheet.gear);
+        EXPECT_EQ(again.solid.design->headings, cut.solid.design->headings);
+        EXPECT_EQ(again.solid.design->gear, cut.solid.design->gear);
         // As many tiers as the design has.
         const auto tiers = [](const std::string& text) {
             int count = 0;
@@ -224,7 +225,7 @@ TEST(GemCadWriting, RefusesWhatTheFormatCannotHold) {
     open.facets.pop_back();
     EXPECT_THROW(write_gemcad_asc(open, {}, folder / "a.asc"), InputError);
     EXPECT_THROW(write_gemcad_asc(turned_inside_out(cube()), {}, folder / "a.asc"), InputError);
-    CutSheet sheet;
+    Design sheet;
     sheet.gear = 0;
     EXPECT_THROW(write_gemcad_asc(cube(), sheet, folder / "a.asc"), InputError);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.asc"));

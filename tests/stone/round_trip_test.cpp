@@ -194,8 +194,8 @@ TEST(RoundTrip, AscOfAStoneAwayFromTheOriginIsMovedAndSaysSo) {
     EXPECT_EQ(write_gemcad_asc(solid, {}, folder / "a.asc").size(), 1u);
     const ReadCut read = read_gemcad_asc(folder / "a.asc");
     EXPECT_NEAR(volume(read.solid), volume(solid), 1e-9);
-    ASSERT_EQ(read.sheet.footnotes.size(), 1u);
-    EXPECT_EQ(read.sheet.footnotes[0].substr(0, 8), "moved by");
+    ASSERT_EQ(read.solid.design->footnotes.size(), 1u);
+    EXPECT_EQ(read.solid.design->footnotes[0].substr(0, 8), "moved by");
 }
 
 }  // namespace

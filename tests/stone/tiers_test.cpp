@@ -219,10 +219,10 @@ TEST(Caliper, OfALongStoneTurned) {
 // Read back what the design was made of: angles and teeth, on another wheel too.
 TEST(CuttingList, IsTheDesigns) {
     const ReadCut cut = parse_gemcad_asc(k_head + k_crown + k_rest);
-    const auto list = cutting_list(cut.solid, cut.sheet);
+    const auto list = cutting_list(cut.solid);
     ASSERT_EQ(list.size(), 4u);
-    const char* const tiers[] = {"1", "G", "A", "T"};
-    const double angles[] = {41, 90, 40, 0};
+    const char* const tiers[] = {"A", "G", "1", "T"};  // in the file's order
+    const double angles[] = {40, 90, 41, 0};
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(list[i].tier, tiers[i]);
         EXPECT_NEAR(list[i].angle_deg, angles[i], 1e-12);
@@ -231,9 +231,7 @@ TEST(CuttingList, IsTheDesigns) {
     ASSERT_EQ(list[0].indices.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_NEAR(list[0].indices[i], 24.0 * double(i + 1), 1e-12);
-    CutSheet sheet;
-    sheet.gear = 64;
-    EXPECT_NEAR(cutting_list(cut.solid, sheet)[2].indices[1], 32, 1e-12);
+    EXPECT_NEAR(cutting_list(cut.solid, {.gear = 64})[0].indices[1], 32, 1e-12);
 }
 
 TEST(WrittenNumbers, AreReadAsPeopleWriteThem) {

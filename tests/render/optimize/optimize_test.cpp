@@ -224,6 +224,18 @@ TEST(Optimize, CutsAStoneAnewInsideWhatIsThere) {
     EXPECT_NEAR(volume(result.better) / volume(stone), result.volume_ratio, 1e-12);
     EXPECT_GE(result.volume_ratio, 0.8);
     EXPECT_GE(result.at_better.total, result.at_start.total);
+    // The girdle stays where it is on the axis, its middle at height 0, but for the copy's scale.
+    double low = 0, high = 0;
+    const Solid design = about_its_axis(result);
+    for (const Facet& facet : design.facets) {
+        if (std::abs(facet.plane.normal.z) > 1e-9) continue;
+        for (const int c : facet.corners) {
+            low = std::min(low, design.vertices[std::size_t(c)].z);
+            high = std::max(high, design.vertices[std::size_t(c)].z);
+        }
+    }
+    EXPECT_GT(high, 0);
+    EXPECT_NEAR(low, -high, 1e-9);
 }
 
 TEST(Optimize, RefusesWordsThatItDoesNotKnow) {
