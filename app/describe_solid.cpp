@@ -176,6 +176,7 @@ Description describe_solid_file(const DescribeOptions& options) {
     about.notes = input.notes;
     about.notes.insert(about.notes.end(), input.details.begin(), input.details.end());
     about.object["format"] = input.format;
+    about.object["changed"] = input.changed;
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.solid.design) describe_design(*input.solid.design, about);
     describe_solid(input.solid, !options.may_be_concave, options.facet_table, about);

@@ -70,6 +70,7 @@ Description describe_stone_file(const DescribeOptions& options) {
     object["unit"] = name_of(stone.unit);
     object["up"] = {stone.up.x, stone.up.y, stone.up.z};
     object["up_facet"] = stone.up_facet;
+    object["changed"] = stone.changed;
     about.lines.push_back(fmt::format("{}: stone \"{}\", mesh {}, unit {}", options.file.string(),
                                       stone.name, file.mesh_file.string(), name_of(stone.unit)));
     if (file.has_material) {

@@ -108,6 +108,7 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         input.file = file.string();
         input.name = file.stem().string();
         input.stone.solid = std::move(solid.solid);
+        input.stone.changed = std::move(solid.changed);
         input.notes = std::move(solid.notes);
         const Design* const design = input.stone.solid.design.get();
         if (std::string ask = question_of_up(input.stone.solid); !ask.empty() && !design)

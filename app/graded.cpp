@@ -78,6 +78,7 @@ Graded grade_input(GradeInput input, const GradeOptions& options, int draws, boo
     if (input.uncertainty) context.sigma = &graded.sigma;
     context.costs = graded.costs;
     context.notes = input.notes;
+    context.changed = input.stone.changed;
     graded.json = grade_json(graded.grade, context);
     graded.input = std::move(input);
     return graded;

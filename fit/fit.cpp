@@ -42,7 +42,7 @@ void say_what_changed(const std::string& what, const FitResult& given, FitResult
     const std::string note =
         fmt::format("as everything was given, chi-square is {:.1f}; with this change ({}) {:.1f}",
                     before, what, after);
-    result.log.changed.push_back({what, result.message, before, after});
+    result.log.changed.push_back({what, result.message, before, after, "chi-square"});
     result.log.notes.push_back(note);
     result.message += "; " + note;
 }
@@ -80,7 +80,7 @@ FitResult with_changed_topology(const Problem& problem, FitResult result,
                          });
     if (!fitted.log.changes.empty()) {
         fitted.log.changed.push_back(
-            {"topology", fitted.log.changes.front(), before, fitted.statistics.chi2});
+            {"topology", fitted.log.changes.front(), before, fitted.statistics.chi2, "chi-square"});
     }
     return fitted;
 }
@@ -139,6 +139,8 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const Prior used = result.log.options.prior;
     result.log.options = options;
     result.log.options.prior = used;
+    result.log.changed.insert(result.log.changed.begin(), stone.changed.begin(),
+                              stone.changed.end());
     describe_outlines(readings, result);
     result.log.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -152,6 +154,7 @@ Stone fitted_stone(const Stone& drawn, const FitResult& result) {
     stone.unit = result.unit;
     stone.up_facet.clear();
     stone.up = {0, 0, 1};
+    stone.changed = result.log.changed;
     return stone;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -19,6 +20,7 @@ namespace {
 
 // Of one kind of fault so many are spelled out.
 constexpr int k_most_told = 20;
+constexpr int k_most_parts_told = 4;
 
 // Planes this close (angle in radians, and offset by the diameter) are one plane given twice:
 // rounding of doubles is far below, any facet that a cutter could tell apart far above.
@@ -111,15 +113,32 @@ private:
             add(FaultKind::not_manifold,
                 fmt::format("the facets round vertex v{} form more than one fan", vertex));
         }
-        int count = 0;
-        for (int f = 0; f < static_cast<int>(solid_.facets.size()); ++f) {
-            if (pieces.find(f) == f) ++count;
-        }
-        if (count > 1) {
-            add(FaultKind::several_pieces,
-                fmt::format("the facets form {} parts that share no edge", count));
-        }
+        check_pieces(pieces);
         return whole;
+    }
+
+    void check_pieces(Groups& pieces) {
+        // By the first facet of each part: how many facets it has.
+        std::map<int, int> first_of, sizes;
+        for (int f = 0; f < static_cast<int>(solid_.facets.size()); ++f)
+            ++sizes[first_of.try_emplace(pieces.find(f), f).first->second];
+        if (sizes.size() < 2) return;
+        is_one_piece_ = false;
+        std::string parts;
+        int told = 0;
+        for (const auto& [first, count] : sizes) {
+            if (++told > k_most_parts_told) {
+                parts += ", ...";
+                break;
+            }
+            parts += fmt::format("{}one of {} from facet {} on", told == 1 ? "" : ", ", count,
+                                 name(first));
+        }
+        add(FaultKind::several_pieces,
+            fmt::format(
+                "the facets form {} parts that share no edge ({}): keep the one that is the "
+                "stone",
+                sizes.size(), parts));
     }
 
     void check_names() {
@@ -179,10 +198,10 @@ private:
         if (whole_surface && volume(solid_) < 0) {
             add(FaultKind::inside_out,
                 "the facets run clockwise as seen from outside: the volume is negative");
-        } else if (whole_surface && limits_.must_be_convex && !is_convex(solid_)) {
+        } else if (whole_surface && is_one_piece_ && limits_.must_be_convex && !is_convex(solid_)) {
             tell_concave_edges();
         }
-        if (limits_.must_be_convex) check_repeated_planes(size);
+        if (limits_.must_be_convex && is_one_piece_) check_repeated_planes(size);
     }
 
     void tell_concave_edges() {
@@ -265,6 +284,7 @@ private:
     const Solid& solid_;
     const CheckLimits& limits_;
     std::vector<Fault> faults_;
+    bool is_one_piece_ = true;
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ struct FaceSoup {
     std::optional<std::uint64_t> corner_hash;
     std::string design;  ///< likewise: lines of GemCad's .asc
     std::vector<std::string> notes;
+    std::vector<Change> changed;
 };
 
 /// Welds vertices that coincide, merges faces of one plane, drops corners within straight edges,
@@ -61,6 +62,10 @@ void drop_repeated_faces(FaceSoup& soup);
 /// the fewer, and all of them where the volume is negative then. A surface that has an edge of one
 /// face or of more than two, or one side only, is left as it is.
 void orient_faces(FaceSoup& soup);
+
+/// Where a surface is open, corners that lie within `tolerance` of the side of a face that has none
+/// there become corners of that face, if that leaves fewer open sides.
+void close_t_junctions(FaceSoup& soup, double tolerance);
 
 /// For each face the facet that it is part of, numbered in the order of their first faces.
 std::vector<int> facet_of_face(const FaceSoup& soup, double tolerance);

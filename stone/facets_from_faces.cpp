@@ -242,22 +242,25 @@ void tell_turned_facets(const std::vector<Outline>& outlines, const Solid& solid
             names += (count == 1 ? "" : ", ") + shown(solid.facets[i].name);
     }
     if (count == 0) return;
+    std::string why;
     if (std::all_of(soup.faces.begin(), soup.faces.end(),
                     [](const SoupFace& face) { return face.turned; })) {
-        soup.notes.emplace_back(
+        why =
             "the mesh was inside out (its faces ran clockwise as seen from outside): all faces "
-            "were turned round");
+            "were turned round";
     } else if (count == 1) {
-        soup.notes.push_back(fmt::format(
+        why = fmt::format(
             "facet {} was inside out (it ran the other way round than its neighbours): it was "
             "turned round",
-            names));
+            names);
     } else {
-        soup.notes.push_back(fmt::format(
+        why = fmt::format(
             "{} facets were inside out (they ran the other way round than their neighbours): {}{} "
             "were turned round",
-            count, names, count > k_most_named ? ", ..." : ""));
+            count, names, count > k_most_named ? ", ..." : "");
     }
+    soup.notes.push_back(why);
+    soup.changed.push_back(facets_turned_round(why, count));
 }
 
 }  // namespace
@@ -281,6 +284,7 @@ ReadSolid solid_from_faces(FaceSoup soup) {
         weld_vertices(soup);
         drop_collapsed_faces(soup);
         drop_repeated_faces(soup);
+        close_t_junctions(soup, tolerance);
         orient_faces(soup);
         outlines = merge_faces(soup, tolerance);
         drop_straight_corners(soup, outlines, tolerance);
@@ -322,6 +326,7 @@ ReadSolid solid_from_faces(FaceSoup soup) {
         }
     }
     result.notes = std::move(soup.notes);
+    result.changed = std::move(soup.changed);
     result.planes_stated = stated == StatedPlanes::all;
     return result;
 }

@@ -321,14 +321,28 @@ void require_known_extensions(std::string_view json, const std::filesystem::path
     }
 }
 
+std::string_view chunk_at(std::string_view bytes, std::size_t at) {
+    constexpr std::size_t k_before = 8;
+    std::uint32_t length = 0;
+    if (bytes.size() < at + k_before) return {};
+    std::memcpy(&length, bytes.data() + at, sizeof length);
+    return bytes.substr(at + k_before, length);
+}
+
 std::string_view json_of(std::string_view bytes, bool binary) {
     if (!binary) return bytes;
-    // Header of 12 bytes, then the length and type of the JSON chunk (specification, 4.4).
-    constexpr std::size_t k_json = 20;
-    std::uint32_t length = 0;
-    if (bytes.size() < k_json) return {};
-    std::memcpy(&length, bytes.data() + 12, sizeof length);
-    return bytes.substr(k_json, length);
+    // A header of 12 bytes, then the length and type of each chunk: JSON, and the buffer without a
+    // name (specification, 4.4).
+    return chunk_at(bytes, 12);
+}
+
+// A buffer whose length is stated too short is taken as long as it is in the file, as other
+// programs take it.
+void take_whole_buffer(std::string_view bytes, tinygltf::Model& model) {
+    if (model.buffers.empty() || !model.buffers[0].uri.empty()) return;
+    const std::string_view whole = chunk_at(bytes, 20 + chunk_at(bytes, 12).size());
+    std::vector<unsigned char>& data = model.buffers[0].data;
+    if (whole.size() > data.size()) data.assign(whole.begin(), whole.end());
 }
 
 }  // namespace
@@ -353,6 +367,7 @@ TriangleMesh read_gltf(const std::filesystem::path& file) {
         // The first line of what tinygltf says; it may quote the file.
         throw InputError(file, "is no glTF that can be read: " + error.substr(0, error.find('\n')));
     }
+    if (binary) take_whole_buffer(bytes, model);
     return Reader(model, file).scene();
 }
 

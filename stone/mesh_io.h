@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "stone/change.h"
 #include "stone/solid.h"
 
 namespace culet {
@@ -19,6 +20,7 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& file);
 struct ReadSolid {
     Solid solid;
     std::vector<std::string> notes;  ///< repairs made on reading, one line each: welded, merged
+    std::vector<Change> changed;     ///< of what was given, which notes tell as well
     bool planes_stated = false;      ///< by the comments of `write_mesh`
 };
 

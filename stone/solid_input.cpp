@@ -58,15 +58,24 @@ ReadSolid solid_of_gltf(const std::filesystem::path& file) {
 void stand_up(SolidInput& input) {
     const std::optional<int> table = table_by_shape(input.solid);
     if (!table) return;
-    const Facet& facet = input.solid.facets[static_cast<std::size_t>(*table)];
+    const auto at = static_cast<std::size_t>(*table);
+    const Facet& facet = input.solid.facets[at];
     const Vec3 up = axis_near(facet.plane.normal);
     if (up == Vec3{0, 0, 1}) return;
-    input.notes.push_back(fmt::format(
-        "its table, facet {}, faces {}: the stone was turned so that it faces up (+z); should the "
-        "stone stand as the file has it, say so in a stone file: up = [0, 0, 1]",
-        shown(facet.name), words_for_direction(up)));
+    const std::string why =
+        fmt::format("its table, facet {}, faces {}: the stone was turned so that it faces up (+z)",
+                    shown(facet.name), words_for_direction(up));
+    input.notes.push_back(
+        why +
+        "; should the stone stand as the file has it, say so in a stone file: up = [0, 0, 1]");
+    const auto off_up = [&] {
+        return degrees(angle_between(input.solid.facets[at].plane.normal, {0, 0, 1}));
+    };
+    const double before = off_up();
     input.solid = turned(std::move(input.solid), turn_upright(up));
     input.file_up = up;
+    input.changed.push_back(
+        {"mesh turned upright", why, before, off_up(), "degrees of the table off +z"});
 }
 
 bool is_cut(const std::string& extension) {
@@ -98,6 +107,7 @@ SolidInput solid_in(const std::filesystem::path& file, const CutReading& how, St
     ReadSolid mesh = is_gltf(file) ? solid_of_gltf(file) : read_mesh(file);
     input.solid = std::move(mesh.solid);
     input.notes = std::move(mesh.notes);
+    input.changed = std::move(mesh.changed);
     input.facets_are_whole = mesh.planes_stated;
     require_sane_size(input.solid, file);
     if (standing == Standing::upright) stand_up(input);
@@ -120,7 +130,7 @@ SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) 
 SolidFile read_solid(const std::filesystem::path& file, Standing standing) {
     SolidInput input = solid_in(file, {}, standing);
     return {std::move(input.solid), std::move(input.notes), std::move(input.details),
-            input.facets_are_whole, input.file_up};
+            input.facets_are_whole, input.file_up,          std::move(input.changed)};
 }
 
 }  // namespace culet

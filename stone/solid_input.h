@@ -18,6 +18,7 @@ struct SolidInput {
     std::vector<std::string> unused_planes, repeated_planes;
     bool facets_are_whole = false;  ///< see Stone
     Vec3 file_up{0, 0, 1};          ///< see Stone
+    std::vector<Change> changed;    ///< see Stone
 };
 
 /// True for the extensions that `load_solid` reads.

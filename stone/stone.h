@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "stone/change.h"
 #include "stone/material.h"
 #include "stone/solid.h"
 #include "stone/units.h"
@@ -38,6 +39,7 @@ struct Stone {
     /// Facets NAME, NAME.1, ... are facets of a tier (a cut design, or a mesh that culet wrote);
     /// else they may be pieces of one facet that a hand drew.
     bool facets_are_whole = false;
+    std::vector<Change> changed;  ///< of its mesh, against what was given
 };
 
 /// Inclination of a facet, radians, 0 (table or culet) .. pi/2 (girdle), from an up direction.
@@ -53,6 +55,7 @@ struct SolidFile {
     std::vector<std::string> details;  ///< of cut files, as in ReadCut
     bool facets_are_whole = false;     ///< see Stone
     Vec3 file_up{0, 0, 1};             ///< see Stone
+    std::vector<Change> changed;       ///< see Stone
 };
 
 /// How a mesh is to stand: table up by its shape, or as the file has it.

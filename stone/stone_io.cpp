@@ -184,6 +184,7 @@ StoneFile stone_of(const TomlTable& root) {
     if (std::string odd = doubtful_size(stone.solid); !odd.empty() && !table->has("unit"))
         result.notes.push_back("the mesh " + odd);
     stone.facets_are_whole = file.facets_are_whole;
+    stone.changed = std::move(file.changed);
     result.details = std::move(file.details);
 
     switch (table->kind("up")) {

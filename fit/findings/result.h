@@ -134,11 +134,8 @@ struct FitFindings {
     std::optional<SymmetryReport> symmetry;  ///< when it was looked for
 };
 
-/// What was changed of the problem as it was given, since the fit is better so by the same measure.
-struct ProblemChange {
-    std::string what, why;
-    double before = 0, after = 0;  ///< chi-square as given, and as changed
-};
+/// Change::what of readings that a fit does without.
+inline constexpr const char* k_readings_left_out = "readings left out";
 
 /// How the result came about.
 struct FitLog {
@@ -148,7 +145,9 @@ struct FitLog {
     /// What was done to the mesh before it could be fitted: turned round, scaled, ...
     std::vector<std::string> notes;
     std::vector<std::string> changes;  ///< of the topology, in their order
-    std::vector<ProblemChange> changed;
+    /// What was changed against what was given: of the mesh, and of the problem where the fit is
+    /// better so by the same measure.
+    std::vector<Change> changed;
     int iterations = 0;
     double seconds = 0;
 };

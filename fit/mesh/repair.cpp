@@ -241,6 +241,7 @@ Repaired repaired(const Stone& stone, const std::vector<WrittenReading>& reading
             solid = std::move(turned);
             result.notes.push_back(fmt::format("{} facet{} drawn inside out: turned round", *count,
                                                *count == 1 ? " was" : "s were"));
+            result.stone.changed.push_back(facets_turned_round(result.notes.back(), *count));
         }
     }
     if (is_closed(solid) && !stone.facets_are_whole) {
@@ -256,6 +257,8 @@ Repaired repaired(const Stone& stone, const std::vector<WrittenReading>& reading
     if (is_closed(solid) && volume(solid) < 0 && lies_mirrored(solid, half_edges(solid))) {
         turn_round(solid);
         result.notes.push_back("the mesh was inside out: its facets were turned round");
+        result.stone.changed.push_back(
+            facets_turned_round(result.notes.back(), static_cast<int>(solid.facets.size())));
     }
     return result;
 }

@@ -116,13 +116,7 @@ void add_findings(const FitResult& result, Json& report) {
     }
     report["extra_facets"] = extra;
     report["changes"] = result.log.changes;
-    report["changed"] = Json::array();
-    for (const ProblemChange& change : result.log.changed) {
-        report["changed"].push_back({{"what", change.what},
-                                     {"why", change.why},
-                                     {"before", json_number(change.before)},
-                                     {"after", json_number(change.after)}});
-    }
+    report["changed"] = result.log.changed;
     if (result.findings.symmetry) report["symmetry"] = symmetry_of(*result.findings.symmetry);
 }
 

@@ -58,6 +58,7 @@ std::string grade_of(const PythonStone& python, const std::optional<double>& ind
         if (with_sigma) context.sigma = &sigma;
         context.costs = facet_costs(stone.solid, indices, options);
         context.notes = python.notes;
+        context.changed = stone.changed;
         return grade_json(grade, context);
     });
 }

@@ -35,6 +35,7 @@ PythonStone load_stone(const fs::path& file, const std::vector<std::string>& ove
     if (is_solid_file(file)) {
         SolidInput input = load_solid(file);
         result.stone.solid = std::move(input.solid);
+        result.stone.changed = std::move(input.changed);
         result.stone.name = file.stem().string();
         result.notes = std::move(input.notes);
         if (const auto& design = result.stone.solid.design) result.index = design->refractive_index;

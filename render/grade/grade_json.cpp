@@ -175,6 +175,7 @@ std::string grade_json(const Grade& grade, const GradeContext& context) {
                          {"off_deg", degrees(cost.off)}});
     json["costs"] = costs;
     json["notes"] = context.notes;
+    json["changed"] = context.changed;
     return json.dump(1) + "\n";
 }
 

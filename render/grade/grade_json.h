@@ -6,6 +6,7 @@
 
 #include "render/grade/grade.h"
 #include "render/grade/grade_sigma.h"
+#include "stone/change.h"
 
 namespace culet {
 
@@ -20,6 +21,7 @@ struct GradeContext {
     const GradeSigma* sigma = nullptr;  ///< none: no uncertainties are known
     std::vector<FacetCost> costs;
     std::vector<std::string> notes;
+    std::vector<Change> changed;  ///< of the stone, against what was given
 };
 
 /// What is known of the stone itself; the rest is left to be filled in. `material`: none, nullptr.

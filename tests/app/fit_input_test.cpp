@@ -68,19 +68,19 @@ void write_drawing(const Drawing& drawing, const fs::path& file) {
     }
 }
 
-using Change = std::function<void(Drawing&)>;
+using Edit = std::function<void(Drawing&)>;
 
-Change by_points(double xx, double xy, double yx, double yy, double z) {
+Edit by_points(double xx, double xy, double yx, double yy, double z) {
     return [=](Drawing& d) {
         for (auto& c : d.corners) c = {xx * c[0] + xy * c[1], yx * c[0] + yy * c[1], z * c[2]};
     };
 }
-Change scaled(double factor) {
+Edit scaled(double factor) {
     return by_points(factor, 0, 0, factor, factor);
 }
-const Change turned = by_points(0.8, -0.6, 0.6, 0.8, 1);
-const Change mirrored = by_points(-1, 0, 0, 1, 1);  // and with it inside out
-const Change each_facet_alone = [](Drawing& d) {
+const Edit turned = by_points(0.8, -0.6, 0.6, 0.8, 1);
+const Edit mirrored = by_points(-1, 0, 0, 1, 1);  // and with it inside out
+const Edit each_facet_alone = [](Drawing& d) {
     Drawing apart;
     for (const auto& [name, loop] : d.faces) {
         auto& face = apart.faces.emplace_back(name, std::vector<std::size_t>());
@@ -93,12 +93,12 @@ const Change each_facet_alone = [](Drawing& d) {
     }
     d = std::move(apart);
 };
-const Change every_third_inside_out = [](Drawing& d) {
+const Edit every_third_inside_out = [](Drawing& d) {
     for (std::size_t f = 0; f < d.faces.size(); f += 3) {
         std::reverse(d.faces[f].second.begin(), d.faces[f].second.end());
     }
 };
-const Change in_triangles = [](Drawing& d) {
+const Edit in_triangles = [](Drawing& d) {
     std::vector<std::pair<std::string, std::vector<std::size_t>>> pieces;
     for (const auto& [name, loop] : d.faces) {
         for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
@@ -143,14 +143,14 @@ protected:
 
 TEST_F(FitInput, BadlyMadeMeshesAreMendedAndFitted) {
     ASSERT_EQ(fit().exit_code, 0);
-    const std::vector<std::pair<const char*, std::vector<Change>>> cases{
+    const std::vector<std::pair<const char*, std::vector<Edit>>> cases{
         {"corners apart, turned, in another unit", {each_facet_alone, turned, scaled(10)}},
         {"mirrored, in inches", {mirrored, scaled(1 / 25.4)}},
         {"some facets inside out, in triangles", {every_third_inside_out, in_triangles, turned}},
     };
     for (const auto& [name, changes] : cases) {
         Drawing drawing = read_drawing(k_sample / "hand.obj");
-        for (const Change& change : changes) change(drawing);
+        for (const Edit& change : changes) change(drawing);
         write_drawing(drawing, file("hand.obj"));
         const ProgramRun run = fit();
         EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;

@@ -248,6 +248,10 @@ TEST(Mending, IsDoneByTheFit) {
     const FitResult result = fit_stone(fit_input(inside_out, read_by_instruments(truth, 17)));
     EXPECT_EQ(result.status, FitStatus::converged) << result.message;
     EXPECT_THAT(result.log.notes, ::testing::Contains(::testing::HasSubstr("inside out")));
+    ASSERT_FALSE(result.log.changed.empty());
+    EXPECT_EQ(result.log.changed[0].what, "facets turned round");
+    EXPECT_EQ(result.log.changed[0].before, double(truth.stone.solid.facets.size()));
+    EXPECT_EQ(result.log.changed[0].after, 0);
 }
 
 TEST(Mending, TurnsASurfaceRound) {

@@ -152,6 +152,10 @@ TEST_F(ForeignMeshes, AreTurnedTableUp) {
         ASSERT_EQ(read.notes.size(), 1u) << c.says;
         EXPECT_THAT(read.notes[0], says("faces", c.says, "turned", "up = [0, 0, 1]"));
         EXPECT_LT(glm::length(read.file_up - c.up), 1e-8) << c.says;
+        ASSERT_EQ(read.changed.size(), 1u) << c.says;
+        EXPECT_EQ(read.changed[0].what, "mesh turned upright");
+        EXPECT_NEAR(read.changed[0].before, degrees(angle_between(c.up, {0, 0, 1})), 1e-6);
+        EXPECT_NEAR(read.changed[0].after, 0, 1e-6) << c.says;
         // The least rotation undoes each of these.
         for (std::size_t v = 0; v < stone.vertices.size(); ++v)
             EXPECT_LT(glm::length(read.solid.vertices[v] - stone.vertices[v]), 1e-7) << c.says;
@@ -259,26 +263,39 @@ TEST(ForeignFaces, AreTurnedRoundOrLeftOutWhereEdgesAreSound) {
     const struct {
         const char* what;
         const char* says;
+        double inside_out;  // facets, of 17
         std::function<void(Mesh&)> change;
     } cases[] = {
-        {"as it is", "", [](Mesh&) {}},
-        {"all faces inside out", "all faces",
+        {"as it is", "", 0, [](Mesh&) {}},
+        {"all faces inside out", "all faces", 17,
          [&](Mesh& m) {
              for (Face& f : m.faces) f = reversed(f);
          }},
-        {"mirrored vertices", "all faces",
+        {"mirrored vertices", "all faces", 17,
          [](Mesh& m) {
              for (Vec3& v : m.vertices) v.x = -v.x;
          }},
-        {"one face", "f3", [&](Mesh& m) { m.faces[3] = reversed(m.faces[3]); }},
-        {"every third face", "6 facets",
+        {"one face", "f3", 1, [&](Mesh& m) { m.faces[3] = reversed(m.faces[3]); }},
+        {"every third face", "6 facets", 6,
          [&](Mesh& m) {
              for (std::size_t f = 0; f < m.faces.size(); f += 3) m.faces[f] = reversed(m.faces[f]);
          }},
-        {"the table twice", "left out 1 face", [](Mesh& m) { m.faces.push_back(m.faces[0]); }},
-        {"each face twice, both ways round", "left out 17 faces",
+        {"the table twice", "left out 1 face", 0, [](Mesh& m) { m.faces.push_back(m.faces[0]); }},
+        {"each face twice, both ways round", "left out 17 faces", 0,
          [&](Mesh& m) {
              for (std::size_t f = 0; f < 17; ++f) m.faces.push_back(reversed(m.faces[f]));
+         }},
+        {"a corner in the middle of a neighbour's edge", "a corner of a face lay", 0,
+         [](Mesh& m) {
+             m.vertices.push_back(0.5 * (m.vertices[0] + m.vertices[1]));
+             m.faces[1].insert(m.faces[1].begin() + 1, 17);
+         }},
+        {"an edge of two facets parted by each elsewhere, twice by one", "3 corners", 0,
+         [](Mesh& m) {
+             for (const double part : {0.2, 0.4, 0.7})
+                 m.vertices.push_back(glm::mix(m.vertices[0], m.vertices[1], part));
+             m.faces[1].insert(m.faces[1].begin() + 1, {17, 19});
+             m.faces[9].insert(m.faces[9].begin() + 2, 18);
          }},
     };
     for (const auto& c : cases) {
@@ -288,6 +305,7 @@ TEST(ForeignFaces, AreTurnedRoundOrLeftOutWhereEdgesAreSound) {
         EXPECT_THAT(find_faults(read.solid, {.planarity = 1e-6}), IsEmpty()) << c.what;
         EXPECT_EQ(read.solid.facets.size(), 17u) << c.what;
         EXPECT_NEAR(volume(read.solid), k_volume, 1e-6) << c.what;
+        EXPECT_EQ(read.changed.empty() ? 0 : read.changed[0].before, c.inside_out) << c.what;
         if (*c.says == 0) {
             EXPECT_THAT(read.notes, IsEmpty()) << c.what;
             continue;
@@ -334,8 +352,10 @@ protected:
         text.resize((text.size() + 3) / 4 * 4);
         return text;
     }
-    // The parts lie one after the other, each in a buffer view of its own.
-    static std::string glb(const std::string& json, const std::vector<std::string>& parts) {
+    // The parts lie one after the other, each in a buffer view of its own. The buffer is stated
+    // without the last `unstated` bytes.
+    static std::string glb(const std::string& json, const std::vector<std::string>& parts,
+                           std::size_t unstated = 0) {
         std::string views, data;
         for (const std::string& part : parts) {
             views += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}",
@@ -345,7 +365,7 @@ protected:
         std::string text = fmt::format(
             "{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{{\"byteLength\":{}}}],"
             "\"bufferViews\":[{}],{}}}",
-            data.size(), views, json);
+            data.size() - unstated, views, json);
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const auto word = [](std::size_t n) {
             return bytes(std::vector<std::uint32_t>{static_cast<std::uint32_t>(n)});
@@ -391,6 +411,9 @@ TEST_F(ForeignGltf, WhatContributesToTheSurfaceIsRead) {
                            "," + indices(12) + "]",
                        {bytes(moved), bytes(triangles_), bytes(std::vector<std::uint8_t>{0}),
                         bytes(std::vector<float>{0, 0, 0})})},
+        {"buffer stated shorter than it is",
+         glb(scene("", 4) + "\"accessors\":[" + float3 + "," + indices(12) + "]",
+             {bytes(corners_), bytes(triangles_)}, 16)},
         {"quantized",
          glb(scene(",\"scale\":[0.001,0.001,0.001]", 4) +
                  "\"extensionsRequired\":[\"KHR_mesh_quantization\"],\"accessors\":[" +

@@ -1,0 +1,28 @@
+#pragma once
+// What was changed of an input against what was given, as reports list it.
+
+#include <string>
+
+namespace culet {
+
+struct Change {
+    std::string what, why;
+    double before = 0, after = 0;
+    std::string measure;  ///< what `before` and `after` are
+};
+
+inline Change facets_turned_round(const std::string& why, int count) {
+    return {"facets turned round", why, double(count), 0, "facets inside out"};
+}
+
+/// For nlohmann's JSON of any kind.
+template <class Json>
+void to_json(Json& json, const Change& change) {
+    json = Json{{"what", change.what},
+                {"why", change.why},
+                {"before", change.before},
+                {"after", change.after},
+                {"measure", change.measure}};
+}
+
+}  // namespace culet
