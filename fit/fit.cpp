@@ -13,6 +13,7 @@
 #include "fit/take_outlines.h"
 #include "fit/uncertainty/prior_needed.h"
 #include "stone/errors.h"
+#include "stone/heed_stop.h"
 
 namespace culet {
 
@@ -121,7 +122,9 @@ FitResult fit_stone(const FitInput& input, const FitOptions& options, const Prog
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const auto begin = std::chrono::steady_clock::now();
+    StopsHeeded stops(progress);
     Problem given{stone, readings, options};
+    given.stone.changed.clear();  // listed once, in the end
     if (has_outlines(readings)) prepare_for_outlines(stone, given.options);
     // What a photograph tells leads away from the mesh's corners, as a stone's planes do.
     if (has_photographs(readings) && !options.meets_named)
@@ -130,7 +133,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     given.options.findings = options.findings || options.allow_topology;
     const bool asks = options.first_check || options.prior.source != Prior::Source::none;
     given.read_in_full = !asks || readings_hold_all(stone, readings, options);
-    FitResult result = solved(given, hypotheses(), progress);
+    FitResult result = solved(given, hypotheses(), stops.progress());
     result.solid.design = stone.solid.design;
     const bool is_design = options.prior.source == Prior::Source::catalogue;
     result.findings.named_tiers =

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "stone/errors.h"
+#include "stone/heed_stop.h"
 
 namespace culet {
 
@@ -148,6 +149,7 @@ std::vector<Automorphism> automorphisms(const Solid& solid) {
     all.push_back(found);
     for (const bool turns_over : {false, true}) {
         for (std::size_t d = 0; d < darts.size(); ++d) {
+            heed_stop();
             const int to = static_cast<int>(d);
             if (!turns_over && to == first) continue;
             if (propagation.follow(first, to, turns_over, found)) all.push_back(found);

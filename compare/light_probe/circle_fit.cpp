@@ -10,6 +10,7 @@
 
 #include "compare/photo/pixels.h"
 #include "stone/dense_algebra.h"
+#include "stone/heed_stop.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -240,8 +241,10 @@ FoundBall to_a_fraction_of_a_pixel(const cv::Mat& linear, FoundBall ball) {
 
 std::optional<FoundBall> fitted_in_steps(const cv::Mat& plane, const BallCircle& rough,
                                          double reach) {
+    heed_stop();
     auto found = fitted(plane, rough, reach);
     for (const double narrower : {reach / 3, reach / 8}) {
+        heed_stop();
         if (!found) return found;
         const auto next = fitted(plane, found->circle, narrower);
         if (!next) break;

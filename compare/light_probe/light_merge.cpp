@@ -13,6 +13,7 @@
 #include "render/colour/colour.h"
 #include "render/scene/environment_layout.h"
 #include "stone/errors.h"
+#include "stone/heed_stop.h"
 
 namespace culet {
 
@@ -150,6 +151,7 @@ struct PixelParts {
         column.resize(quality.size() * static_cast<std::size_t>(parts));
         row.resize(column.size());
         tbb::parallel_for(0, down, [&](int j) {
+            heed_stop();
             for (int i = 0; i < across; ++i) {
                 const std::size_t at = static_cast<std::size_t>(j) * across + i;
                 double sum = 0;
@@ -185,6 +187,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, const Pixe
         std::array<std::size_t, 64> texel{};
         std::array<float, 64> share{};
         for (int j = down * band / band_count; j < down * (band + 1) / band_count; ++j) {
+            heed_stop();
             for (int i = 0; i < across; ++i) {
                 const std::size_t at = static_cast<std::size_t>(j) * across + i;
                 const float quality = pixels.quality[at];

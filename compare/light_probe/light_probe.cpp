@@ -12,6 +12,7 @@
 #include "compare/light_probe/view_places.h"
 #include "render/scene/environment_layout.h"
 #include "stone/errors.h"
+#include "stone/heed_stop.h"
 #include "stone/quantile.h"
 #include "stone/units.h"
 
@@ -214,7 +215,9 @@ void in_stone_units(NearLight& light, const ProbeOptions& options) {
 }  // namespace
 
 LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
-                       const Progress& progress) {
+                       const Progress& asked) {
+    StopsHeeded stops(asked);
+    const Progress progress = stops.progress();
     if (views.empty()) throw InputError("no photograph of a ball was given");
     if (options.moved && views.size() < 2)
         throw InputError("--moved needs the ball at two places: one photograph was given");

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "stone/heed_stop.h"
+
 namespace culet {
 
 namespace {
@@ -19,6 +21,7 @@ constexpr std::size_t k_rings = 6;
 }  // namespace
 
 RimLook rim_look(const cv::Mat& light, const BallCircle& circle) {
+    heed_stop();
     double along = 0, across = 0;
     std::array<double, k_rings> outwards{};
     const double reach = std::min(k_outer * circle.radius, circle.radius - k_edge);

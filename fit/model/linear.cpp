@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "stone/heed_stop.h"
+
 namespace culet {
 
 namespace {
@@ -110,6 +112,7 @@ FunctionRow RowWriter::function(const Quantity& quantity) const {
 }
 
 FunctionRows RowWriter::functions(const std::vector<Quantity>& quantities) const {
+    heed_stop();
     JacobianRows rows;
     Parameters::Row sum = row();
     for (const Quantity& quantity : quantities) {

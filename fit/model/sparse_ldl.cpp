@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "stone/heed_stop.h"
+
 namespace culet {
 
 struct SparseLdl::Factors {
@@ -14,10 +16,12 @@ SparseLdl::SparseLdl() : factors_(std::make_unique<Factors>()) {}
 SparseLdl::~SparseLdl() = default;
 
 void SparseLdl::analyse(const Matrix& matrix) {
+    heed_stop();
     factors_->simplicial.analyzePattern(matrix);
 }
 
 bool SparseLdl::factor(const Matrix& matrix) {
+    heed_stop();
     factors_->simplicial.factorize(matrix);
     if (factors_->simplicial.info() != Eigen::Success) return false;
     factors_->pivots = factors_->simplicial.vectorD();
@@ -33,6 +37,7 @@ const SparseLdl::Matrix& SparseLdl::lower() const {
 }
 
 Eigen::VectorXd SparseLdl::solve(const Eigen::VectorXd& right) const {
+    heed_stop();
     return factors_->simplicial.solve(right);
 }
 

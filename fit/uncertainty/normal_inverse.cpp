@@ -5,6 +5,7 @@
 
 #include "fit/model/sparse_ldl.h"
 #include "stone/dense_algebra.h"
+#include "stone/heed_stop.h"
 
 namespace culet {
 
@@ -63,6 +64,7 @@ NormalInverse::NormalInverse() : factors_(std::make_unique<Factors>()) {}
 NormalInverse::~NormalInverse() = default;
 
 bool NormalInverse::compute(const NormalEquations& equations) {
+    heed_stop();
     const std::vector<Eigen::Index> apart = long_rows(equations.rows);
     factors_->compute(normal_matrix(equations, apart));
     if (factors_->info() != Eigen::Success) return false;
@@ -76,6 +78,7 @@ bool NormalInverse::compute(const NormalEquations& equations) {
 }
 
 NormalInverse::Half NormalInverse::half(const Eigen::SparseVector<double>& f) const {
+    heed_stop();
     Eigen::VectorXd ordered = factors_->permutationP() * Eigen::VectorXd(f);
     factors_->matrixL().solveInPlace(ordered);
     Half half{ordered.sparseView(), {}};  // not zero but up the elimination tree
@@ -96,6 +99,7 @@ double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
 }
 
 Eigen::VectorXd NormalInverse::solve(const Eigen::VectorXd& right) const {
+    heed_stop();
     Eigen::VectorXd solution = factors_->solve(right);
     if (wide_.cols() > 0) {
         solution -= wide_ * capacitance_->solve_one(wide_.transpose() * right);

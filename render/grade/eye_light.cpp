@@ -142,7 +142,8 @@ EyeFront front_of(const FrontFacet& seen, const Plane& plane, const Vec3& toward
 
 }  // namespace
 
-EyeLightTracer::EyeLightTracer(const Solid& convex) : net_(convex) {
+EyeLightTracer::EyeLightTracer(const Solid& convex, std::function<bool()> goes_on)
+    : net_(convex), goes_on_(std::move(goes_on)) {
     Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const Vec3& corner : net_.corners()) {
         low = glm::min(low, corner);
@@ -185,9 +186,13 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
     // Exact for an eye infinitely far away: one direction a front facet.
     beam_limits.refraction = Refraction::parallel;
     BeamTree tree;
-    build_beams(net_, view, n, beam_limits, tree);
+    const auto goes_on = [&](long long) { return !goes_on_ || goes_on_(); };
+    if (!build_beams(net_, view, n, beam_limits, tree, goes_on)) throw Interrupted();
     NodeCollector collector(net_, view, n, limits.regions, pixel_area, light);
-    for (std::size_t i = 0; i < tree.branch_count; ++i) collector.add_branch(tree.branches[i]);
+    for (std::size_t i = 0; i < tree.branch_count; ++i) {
+        if (!goes_on(0)) throw Interrupted();
+        collector.add_branch(tree.branches[i]);
+    }
     // What no beam covers, by rounding, was not followed.
     std::vector<double> covered(light.fronts.size(), 0);
     for (const EyeExit& exit : light.exits) {

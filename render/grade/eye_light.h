@@ -9,6 +9,7 @@
 // polarisation is not carried from face to face, as in the programs whose figures are compared
 // (docs/grade.md).
 
+#include <functional>
 #include <vector>
 
 #include "render/beams/beam_tree.h"
@@ -58,7 +59,9 @@ struct EyeLightLimits {
 class EyeLightTracer {
 public:
     /// Throws InputError when the planes bound no solid. `convex` must be.
-    explicit EyeLightTracer(const Solid& convex);
+    /// `goes_on` is asked now and then, from any thread: where it says no, `trace` throws
+    /// Interrupted.
+    explicit EyeLightTracer(const Solid& convex, std::function<bool()> goes_on = {});
 
     /// `towards_eye`: unit. `n`: index over the outside's, above 1. The result does not depend on
     /// the number of threads.
@@ -70,6 +73,7 @@ private:
     FacetNet net_;
     Vec3 middle_{0};
     double diameter_ = 1;
+    std::function<bool()> goes_on_;
 };
 
 }  // namespace culet

@@ -91,6 +91,27 @@ LightBalance operator*(double factor, LightBalance b) {
     return b;
 }
 
+// Tells progress from all threads, and asks it whether to go on.
+class Asking {
+public:
+    explicit Asking(const Progress& progress) : progress_(progress) {}
+    void expect(std::size_t jobs) { jobs_ = jobs; }
+    void job_done() { ++done_; }
+    bool goes_on() {
+        if (!progress_) return true;
+        const std::scoped_lock lock(telling_);
+        stopped_ = stopped_ || !progress_(static_cast<double>(done_) / static_cast<double>(jobs_));
+        return !stopped_;
+    }
+
+private:
+    const Progress& progress_;
+    std::size_t jobs_ = 1;
+    std::atomic<std::size_t> done_{0};
+    bool stopped_ = false;
+    std::mutex telling_;
+};
+
 // One thing to compute; all are independent of each other.
 struct Work {
     const Solid& solid;
@@ -99,8 +120,12 @@ struct Work {
     std::vector<bool> crown;
     Grade& grade;
 
-    Work(const Solid& s, const GradeOptions& o, Grade& g)
-        : solid(s), options(o), tracer(s), crown(crown_facets(s)), grade(g) {}
+    Work(const Solid& s, const GradeOptions& o, Grade& g, Asking& asking)
+        : solid(s),
+          options(o),
+          tracer(s, [&asking] { return asking.goes_on(); }),
+          crown(crown_facets(s)),
+          grade(g) {}
 
     int map_size() const { return options.coarse ? k_coarse_map : options.map_size; }
 
@@ -153,20 +178,14 @@ struct Work {
 };
 
 // Runs jobs on all threads; their order means nothing.
-void run_all(const std::vector<std::function<void()>>& jobs, const Progress& progress) {
-    std::atomic<std::size_t> done{0};
-    std::atomic<bool> stopped{false};
-    std::mutex telling;
+void run_all(const std::vector<std::function<void()>>& jobs, Asking& asking) {
+    asking.expect(jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-        if (stopped) return;
+        if (!asking.goes_on()) return;
         jobs[i]();
-        const std::size_t count = ++done;
-        if (!progress) return;
-        const std::scoped_lock lock(telling);
-        if (!progress(static_cast<double>(count) / static_cast<double>(jobs.size())))
-            stopped = true;
+        asking.job_done();
     });
-    if (stopped) throw Interrupted();
+    if (!asking.goes_on()) throw Interrupted();
 }
 
 }  // namespace
@@ -235,7 +254,8 @@ Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptio
     grade.index = index;
     grade.table = table_facet(solid, {0, 0, 1});
     grade.tilts = options.tilts;
-    Work work(solid, options, grade);
+    Asking asking(progress);
+    Work work(solid, options, grade, asking);
     const RandomSky sky(options.seed, index.n);
     std::vector<std::function<void()>> jobs{[&] { work.face_up(sky); }, [&] { work.from_below(); }};
     for (const double axis : options.tilt_axes)
@@ -266,7 +286,7 @@ Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptio
     std::vector<Work::FireAlong> fires(index.fire ? coloured.size() : 0);
     for (std::size_t i = 0; i < fires.size(); ++i)
         jobs.emplace_back([&, i] { fires[i] = work.fire_along(coloured[i]); });
-    on_threads(options.threads, [&] { run_all(jobs, progress); });
+    on_threads(options.threads, [&] { run_all(jobs, asking); });
 
     double area = 0;
     for (const Work::Cone& cone : balances) area += cone.area;

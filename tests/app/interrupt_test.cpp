@@ -1,12 +1,17 @@
 // SIGTERM while culet works: how soon it ends, with which exit code, and what it leaves.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
+#include "compare/photo/photo.h"
+#include "render/image/image_io.h"
 #include "tests/app/program_test.h"
+#include "tests/compare/light_probe/simulated_ball.h"
 
 namespace culet {
 namespace {
@@ -82,6 +87,64 @@ TEST_F(Interrupt, WhatIsPlannedEndsSoon) {
                         stop_at);
         }
     }
+}
+
+// 660 facets that all touch a sphere of radius 1, each tier's angle read once.
+TEST_F(Interrupt, AFitOfManyFacetsEndsSoon) {
+    constexpr int k_teeth = 60;
+    std::string design = fmt::format("GemCad 5.0\ng {} 0.0\ny 1 n\nI 1.54\n", k_teeth);
+    std::string readings = "kind,of,value,sigma\ndepth,,2.025,0.001\nwidth,0,2.003,0.001\n";
+    char tier = 'A';
+    for (const int angle : {-88, -80, -72, -64, -56, -48, -40, 90, 75, 60, 45}) {
+        design += fmt::format("a {} 1.0", angle);
+        for (int i = 0; i < k_teeth; ++i)
+            design += fmt::format(" {:g}", i + 1 - 0.5 * ((tier - 'A') % 2));
+        design += fmt::format(" n {}\n", tier);
+        readings += fmt::format("inclination,{}*,{},0.1\n", tier++, std::abs(angle));
+    }
+    write("ball.asc", design + "a 0.0 0.72 1 n T\n");
+    write("ball.csv", readings);
+    write("ball.toml",
+          "[stone]\nmesh = \"ball.asc\"\nmaterial = \"quartz\"\nup = \"T\"\n"
+          "readings = \"ball.csv\"\n");
+    for (const double stop_at : {0.1, 0.5, 1.0, 2.0})
+        expect_soon({"fit", file("ball.toml"), "-o", file("fitted.obj")}, stop_at);
+    for (const double stop_at : {0.2, 1.0, 2.0})
+        expect_soon({"grade", file("ball.asc"), "--json", file("grade.json")}, stop_at);
+}
+
+TEST_F(Interrupt, AGradeOfManyTiltsEndsSoon) {
+    for (const double stop_at : {0.2, 1.0})
+        expect_soon({"grade", file("stone.obj"), "--material", "diamond", "--tilts", "-30:30:0.2",
+                     "--json", file("grade.json")},
+                    stop_at);
+}
+
+// What is best until then is written.
+TEST_F(Interrupt, AnOptimisationEndsSoon) {
+    for (const double stop_at : {0.3, 1.0}) {
+        const ProgramRun run = run_culet({"optimize", file("stone.obj"), "--material", "diamond",
+                                          "-o", file("better.asc"), "--threads", "2"},
+                                         stop_at);
+        EXPECT_EQ(run.exit_code, 130) << run.err;
+        EXPECT_LT(run.cpu_after_stop, k_soon);
+    }
+}
+
+TEST_F(Interrupt, TheLightOfALargeBallEndsSoon) {
+    simulated::BallShot shot;
+    shot.width = shot.height = 1200;
+    shot.centre_x = shot.centre_y = 599.5;
+    shot.radius = 560;
+    shot.samples = 1;
+    const Photo photo = simulated::take(shot, simulated::room(5)).photo;
+    Picture picture;
+    picture.width = photo.width;
+    picture.height = photo.height;
+    picture.rgb = photo.rgb;
+    write_picture(picture, folder_ / "ball.exr");
+    for (const double stop_at : {0.4, 1.0, 3.0})
+        expect_soon({"light", file("ball.exr"), "-o", file("room.exr")}, stop_at);
 }
 
 TEST_F(Interrupt, ACrystalsPreviewEndsSoon) {
