@@ -51,6 +51,15 @@ std::size_t doubted_more(const FitResult& result) {
         std::max<std::ptrdiff_t>(0, left_out - std::ptrdiff_t(result.findings.doubts.size())));
 }
 
+// Of the fit with what the first check doubts, and without.
+std::string both_figures(const FitResult& result, bool one) {
+    const auto change = std::find_if(result.log.changed.begin(), result.log.changed.end(),
+                                     [](const Change& c) { return c.what == k_readings_left_out; });
+    if (change == result.log.changed.end()) return {};
+    return fmt::format(" (chi-square {:.1f} with {}, {:.1f} without)", change->before,
+                       one ? "it" : "them", change->after);
+}
+
 std::string verdict(const FitResult& result) {
     switch (result.status) {
         case FitStatus::converged:
@@ -62,8 +71,9 @@ std::string verdict(const FitResult& result) {
             if (!result.findings.doubts.empty()) {
                 const bool agrees = result.statistics.dof <= 0 ||
                                     result.statistics.chi2 <= result.statistics.chi2_limit;
+                const bool one = result.findings.doubts.size() == 1;
                 return fmt::format(
-                    "{} left out; {}.", result.findings.doubts.size() == 1 ? "It is" : "They are",
+                    "{} left out{}; {}.", one ? "It is" : "They are", both_figures(result, one),
                     agrees && result.findings.suspects.size() <=
                                   result.findings.doubts.size() + doubted_more(result)
                         ? "the other readings agree with this stone"

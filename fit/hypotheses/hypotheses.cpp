@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fit/hypotheses/angle_blunders.h"
+#include "fit/hypotheses/doubted_readings.h"
 #include "fit/hypotheses/leave_one_out.h"
 #include "fit/hypotheses/mirrored_mesh.h"
 #include "fit/hypotheses/turned_azimuths.h"
@@ -33,10 +34,12 @@ constexpr Hypothesis k_hypotheses[] = {
     {"mesh mirrored", mesh_mirrored, judge_mirrored_mesh},
     // The readings leave parts of the stone open.
     {"", with_prior, take_with_prior},
+    // What the first check doubts is wrong.
+    {k_readings_left_out, without_doubted, judge_doubted},
     // All azimuths count from another mark.
     {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},
     // Angles far off the mesh are wrong.
-    {"readings left out", without_far_angles, judge_far_angles},
+    {k_readings_left_out, without_far_angles, judge_far_angles},
     // The first suspect is wrong.
     {"reading left out", without_first_suspect, judge_first_suspect},
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "fit/findings/first_check.h"
 #include "fit/findings/fitted_parts.h"
 #include "fit/hypotheses/unread_size.h"
 #include "fit/readings/level_facets.h"
@@ -15,23 +14,6 @@ namespace {
 using PutBack = std::function<void(FitResult&)>;
 // Changes the problem where it applies, and says how its result becomes that of the problem before.
 using Preparation = std::optional<PutBack> (*)(Problem&);
-
-// Readings that hold the stone check each other, and better.
-std::optional<PutBack> leave_doubted_out(Problem& problem) {
-    if (!problem.options.first_check || problem.read_in_full) return std::nullopt;
-    problem.options.first_check = false;
-    const bool is_design = problem.options.prior.source == Prior::Source::catalogue;
-    std::vector<Doubt> doubts = first_check(problem.stone, problem.readings, is_design);
-    if (doubts.empty()) return std::nullopt;
-    std::vector<std::size_t> doubted;
-    for (const Doubt& d : doubts) doubted.push_back(d.reading);
-    std::sort(doubted.begin(), doubted.end());
-    std::vector<Reading> all = problem.readings;
-    problem.readings = without(all, doubted);
-    return [all = std::move(all), doubts = std::move(doubts)](FitResult& result) {
-        put_back_doubted(all, doubts, result);
-    };
-}
 
 std::optional<PutBack> leave_level_azimuths_out(Problem& problem) {
     std::vector<std::size_t> left_out = meaningless_azimuths(problem.readings);
@@ -49,8 +31,7 @@ std::optional<PutBack> take_size_of_mesh(Problem& problem) {
     return [size = problem.readings.back()](FitResult& result) { take_back_size(size, result); };
 }
 
-constexpr Preparation k_preparations[] = {leave_doubted_out, leave_level_azimuths_out,
-                                          take_size_of_mesh};
+constexpr Preparation k_preparations[] = {leave_level_azimuths_out, take_size_of_mesh};
 
 }  // namespace
 

@@ -15,9 +15,8 @@ struct Prepared {
     std::vector<std::function<void(FitResult&)>> put_back;
 };
 
-/// Leaves out readings that cannot be right (first_check.h) and azimuths of level facets, gives the
-/// stone the mesh's size when no length was read, and mirrors a mesh whose azimuths run the other
-/// way round.
+/// Leaves out azimuths of level facets, which mean nothing, and gives the stone the mesh's size
+/// when no length was read.
 Prepared prepared(Problem problem);
 
 }  // namespace culet

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "fit/findings/tier_findings.h"
+#include "fit/hypotheses/doubted_readings.h"
 #include "stone/cuts/cuts.h"
 #include "stone/tiers.h"
 #include "tests/fit/cutters.h"
@@ -133,8 +134,42 @@ TEST_F(FirstCheck, AFitGoesOnWithoutTheDoubtedReadingAndListsItFirst) {
         return r.line == evening.wrong_lines[0];
     });
     EXPECT_EQ(result.findings.suspects[0], wrong->id);
+    // By the same measure, and both figures are said.
+    ASSERT_EQ(result.log.changed.size(), 1u);
+    EXPECT_EQ(result.log.changed[0].what, "readings left out");
+    EXPECT_GT(result.log.changed[0].before, result.log.changed[0].after + 10.8);  // chi2, 1 in 1000
     EXPECT_TRUE(result.checks.closed && result.checks.convex &&
                 result.checks.missing_facets.empty());
+}
+
+TEST_F(FirstCheck, IsHeededOnlyWhereTheFitIsBetterWithoutTheReading) {
+    Problem given{stone_, mains(38.3), {}};
+    given.options.first_check = true;
+    given.options.prior.source = Prior::Source::catalogue;
+    given.read_in_full = false;
+    Attempt first;
+    const auto changed = without_doubted(given, first);
+    ASSERT_TRUE(changed);
+    EXPECT_EQ(changed->readings.size(), 7u);
+    // One reading brings more than 10.8 by chance once in a thousand times (chi-square of one).
+    const struct {
+        FitStatus with;
+        double chi2_with, chi2_without;
+        bool is_left_out;
+    } cases[] = {{FitStatus::converged, 15, 15, false},
+                 {FitStatus::converged, 15, 4.5, false},
+                 {FitStatus::converged, 15, 4, true},
+                 {FitStatus::not_converged, 15, 15, true}};
+    for (const auto& c : cases) {
+        first.result.status = c.with;
+        first.result.statistics.chi2 = c.chi2_with;
+        FitResult again;
+        again.status = FitStatus::converged;
+        again.statistics.chi2 = c.chi2_without;
+        again.readings.resize(7);
+        EXPECT_EQ(judge_doubted(given, first, *changed, again).explained.has_value(), c.is_left_out)
+            << c.chi2_without;
+    }
 }
 
 TEST_F(FirstCheck, TwoSteepMainsAreToldInOneSentence) {
