@@ -233,6 +233,8 @@ std::optional<Verdict> undetermined(const FitResult& result) {
 std::string too_good(const FitResult& result) {
     const FitStatistics& statistics = result.statistics;
     const double level = result.log.options.significance;
+    // Beside a prior readings count with more than their sigmas (count_beside_prior).
+    if (result.log.options.prior.source != Prior::Source::none) return {};
     if (!(statistics.dof > 0) || !(statistics.chi2_low_p < level)) return {};
     constexpr double k_exactly = 1e6;
     const double times = std::sqrt(statistics.dof / std::max(statistics.chi2, 1e-300));

@@ -16,8 +16,6 @@ namespace {
 
 // A hand-made mesh's inclinations are hardly further off.
 constexpr double k_slip_tolerance_deg = 12;
-// Beyond upright by more than this is no scatter of an instrument.
-constexpr double k_over_upright_deg = 2;
 
 }  // namespace
 

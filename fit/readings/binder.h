@@ -13,6 +13,9 @@
 
 namespace culet {
 
+/// Beyond upright by more than this is no scatter of an instrument.
+inline constexpr double k_over_upright_deg = 2;
+
 /// The whole text as a finite number, or nothing.
 std::optional<double> plain_number(std::string_view text);
 

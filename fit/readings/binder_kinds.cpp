@@ -22,6 +22,8 @@ void Binder::refuse_side_of_mesh(const Reading& reading, int f) const {
     const double drawn = degrees(std::acos(std::clamp(glm::dot(n, stone_up()), -1.0, 1.0)));
     const double read = reading.side > 0 ? degrees(reading.value) : 180 - degrees(reading.value);
     if (std::abs(read - drawn) < k_far_deg) return;
+    // A girdle facet that was read a little over 90 degrees: no side was meant.
+    if (written_->side.empty() && 90 - degrees(reading.value) < k_over_upright_deg) return;
     if (written_->side.empty()) refuse_inclination(*written_->value);
     fail(fmt::format("{} is on the {} in the mesh, not on the {}", facet_name(f),
                      drawn < 90 ? "crown" : "pavilion", written_->side));
