@@ -40,6 +40,18 @@ protected:
     Stone stone_ = stone_of(brilliant());
 };
 
+// Over upright by as little as an instrument is off, a girdle facet looks down whichever way a rough
+// mesh draws it; by more, the mesh must show that side.
+TEST_F(ReadingFiles, ALittleOverUprightIsNoReadingOfThePavilion) {
+    for (Facet& facet : stone_.solid.facets) {
+        if (facet.name == "G1") facet.plane.normal = {0.6, 0, 0.8};
+    }
+    const std::vector<Reading> readings = bind_csv("inclination,G1,90.2,0.1\n");
+    ASSERT_EQ(readings.size(), 1u);
+    EXPECT_NEAR(degrees(readings[0].value), 89.8, 1e-9);
+    EXPECT_THAT(complaint("inclination,G1,130,0.1\n"), HasSubstr("outside 0..90"));
+}
+
 TEST_F(ReadingFiles, CsvOfEveryKind) {
     const std::vector<Reading> readings = bind_csv(
         "inclination,C1,34.5,0.1\n"
