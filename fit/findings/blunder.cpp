@@ -12,18 +12,24 @@
 
 namespace culet {
 
+namespace {
+
+// Reading and estimate are trusted for so many of their sigmas.
+constexpr double k_trust = 3.5;
+
+}  // namespace
+
 double slip_tolerance(const Reading& reading, double sigma_of_estimate) {
-    // Both are trusted for so many of their sigmas.
-    constexpr double k_trust = 3.5;
     return k_trust * std::hypot(sigma_of_estimate, reading.sigma);
 }
 
 void explain_by_slip(const Reading& reading, Proposal& proposal) {
     // Slips are made in the unit of files.
     const double unit = is_angle(reading.kind) ? degrees(1) : 1;
+    const double within = unit * slip_tolerance(reading, proposal.sigma);
     if (const auto slip =
-            find_slip(unit * reading.value, unit * proposal.estimate,
-                      unit * slip_tolerance(reading, proposal.sigma), measured_by(reading.kind))) {
+            find_slip(unit * reading.value, {unit * proposal.estimate, within / k_trust, within},
+                      measured_by(reading.kind))) {
         proposal.slip = slip->what;
         proposal.corrected = slip->corrected / unit;
     }

@@ -29,14 +29,44 @@ std::string place_of(const Reading& r) {
 }
 
 std::string of_whom(const Reading& r) {
+    const bool is_across = r.kind == ReadingKind::width || r.kind == ReadingKind::table_width;
+    if (is_across && !r.has_direction) {
+        return fmt::format(" at {:.4g} degrees:", degrees(r.azimuth));
+    }
     std::string text;
     for (const std::string& name : r.of) text += (text.empty() ? " of " : "/") + name;
     return text;
 }
 
-// Slips that any digit may suffer explain nearly every number, and are no evidence.
-bool is_telling(const std::string& slip) {
-    return slip != "one digit wrong" && slip != "one digit lost" && slip != "one digit too many";
+std::string slip_words(const Doubt& doubt, bool in_radians) {
+    if (doubt.slip.empty()) return {};
+    return fmt::format("; {:g}? ({})", in_radians ? degrees(doubt.corrected) : doubt.corrected,
+                       doubt.slip);
+}
+
+// The fit without the reading knows better what it should be than the first look did. Of several
+// facets the least sure one's sigma is no less than that of their mean.
+void ask_the_fit(const Reading& r, const FitResult& result, Doubt& doubt) {
+    if (r.kind != ReadingKind::inclination || r.facets.empty() || doubt.of_tier ||
+        r.datum.kind != Datum::Kind::up || result.status == FitStatus::not_converged) {
+        return;
+    }
+    double mean = 0, sigma = 0;
+    for (const int f : r.facets) {
+        const FittedFacet& facet = result.facets[std::size_t(f)];
+        mean += facet.inclination / double(r.facets.size());
+        sigma = std::max(sigma, facet.sigma_inclination);
+    }
+    sigma = std::hypot(sigma, r.sigma);
+    if (!(sigma < doubt.sigma)) return;
+    doubt.expected = mean;
+    doubt.sigma = sigma;
+    // What the first look let through may be too far now: it may be slips of sigmas, too.
+    const auto slip =
+        find_slip(degrees(r.value), {degrees(mean), degrees(sigma), degrees(k_doubted * sigma)},
+                  Measured::angle);
+    doubt.slip = slip ? slip->what : "";
+    doubt.corrected = slip ? radians(slip->corrected) : 0;
 }
 
 std::string unit_words(ReadingKind kind) {
@@ -103,16 +133,19 @@ void doubt_if_far(const std::vector<Reading>& readings, const Row& row, const Ex
     const double off = row.value - expected.value, strength = std::abs(off) / sigma;
     if (!(strength > k_doubted_with_slip)) return;
     const double unit = is_angle(first.kind) ? degrees(1) : 1;
-    const auto slip = find_slip(unit * row.value, unit * expected.value, unit * k_explained * sigma,
-                                measured_by(first.kind));
-    if (!(strength > k_doubted) && !(slip && is_telling(slip->what))) return;
+    const std::vector<Slip> slips = find_slips(
+        unit * row.value, {unit * expected.value, unit * sigma, unit * k_explained * sigma},
+        measured_by(first.kind));
+    const bool tells =
+        std::any_of(slips.begin(), slips.end(), [](const Slip& slip) { return slip.telling; });
+    if (!(strength > k_doubted) && !tells) return;
     Doubt doubt;
     doubt.expected = expected.value;
     doubt.sigma = sigma;
     doubt.strength = strength;
-    if (slip) {
-        doubt.slip = slip->what;
-        doubt.corrected = slip->corrected / unit;
+    if (!slips.empty()) {
+        doubt.slip = slips.front().what;
+        doubt.corrected = slips.front().corrected / unit;
     }
     const std::string by =
         is_angle(first.kind)
@@ -121,7 +154,6 @@ void doubt_if_far(const std::vector<Reading>& readings, const Row& row, const Ex
                           off > 0 ? "more" : "less", expected.by);
     doubt.what = fmt::format("{}: {}{} {:g}{} is {}", place_of(first), name_of(first.kind),
                              of_whom(first), unit * row.value, unit_words(first.kind), by);
-    if (slip) doubt.what += fmt::format("; {:g}? ({})", slip->corrected, slip->what);
     for (const std::size_t i : row.readings) {
         doubt.reading = i;
         doubts.push_back(doubt);
@@ -138,8 +170,9 @@ std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& r
     return doubts;
 }
 
-void put_back_doubted(const std::vector<Reading>& readings, const std::vector<Doubt>& doubts,
+void put_back_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
                       FitResult& result) {
+    for (Doubt& d : doubts) ask_the_fit(readings[d.reading], result, d);
     std::vector<const Doubt*> by_place;
     for (const Doubt& d : doubts) by_place.push_back(&d);
     std::sort(by_place.begin(), by_place.end(),
@@ -162,7 +195,8 @@ void put_back_doubted(const std::vector<Reading>& readings, const std::vector<Do
         const Reading& r = readings[d.reading];
         suspects.push_back(r.id);
         proposals.push_back({r.id, is_angle(r.kind), d.expected, d.sigma, d.slip, d.corrected, {}});
-        if (std::find(words.begin(), words.end(), d.what) == words.end()) words.push_back(d.what);
+        const std::string line = d.what + slip_words(d, is_angle(r.kind));
+        if (std::find(words.begin(), words.end(), line) == words.end()) words.push_back(line);
     }
     result.findings.suspects.insert(result.findings.suspects.begin(), suspects.begin(),
                                     suspects.end());

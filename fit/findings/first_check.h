@@ -18,22 +18,25 @@ struct Doubt {
     double strength = 0;      ///< by how many of these sigmas the reading is off
     std::string slip;         ///< that explains it, or empty
     double corrected = 0;     ///< with a slip: the value without it
-    std::string what;         ///< one line for people, file and line first
+    bool of_tier = false;     ///< with all of its tier
+    std::string what;         ///< one line for people, file and line first; without the slip
 };
 
 /// The readings that cannot be right, the surest first. The sigmas are those of off-standard
 /// stones: facets of a tier differ by 0.3 degrees, tiers from the mesh by 1 degree, calipers'
 /// widths by 0.7 % among each other, and more where the readings themselves scatter more (median
 /// absolute deviation, Rousseeuw & Croux 1993). A reading is doubted beyond 4.5 sigmas, beyond 3.5
-/// where a common slip leads to within two sigmas of what was expected. Readings of one row of a
-/// file stand or fall together. `is_design`: the mesh has the proportions that the stone was cut
-/// after; else it was drawn by hand, and is trusted for less.
+/// where a common slip leads to within two sigmas of what was expected. All readings of a tier are
+/// doubted together where they are off the mesh as no other tier is (first_check_tiers.cpp).
+/// Readings of one row of a file stand or fall together. `is_design`: the mesh has the proportions
+/// that the stone was cut after; else it was drawn by hand, and is trusted for less.
 std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& readings,
                                bool is_design);
 
 /// Lists the doubted readings in a result of a fit without them, as its first suspects; the status
-/// is `contradictory` at best.
-void put_back_doubted(const std::vector<Reading>& readings, const std::vector<Doubt>& doubts,
+/// is `contradictory` at best. What an inclination should be, and by which slip it became what was
+/// written, is what the fit says.
+void put_back_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
                       FitResult& result);
 
 }  // namespace culet

@@ -1,4 +1,4 @@
-// Angles beside those of their tier and of the mesh.
+// ReadAngles beside those of their tier and of the mesh.
 
 #include <fmt/format.h>
 
@@ -21,48 +21,28 @@ constexpr double k_sisters_deg = 0.3, k_from_mesh_deg = 1, k_from_drawing_deg = 
 constexpr std::size_t k_fewest_azimuths = 4;
 constexpr double k_no_azimuth_deg = 5;
 
-std::string count_words(std::size_t n) {
-    static constexpr std::array<const char*, 13> words{"no",   "one",    "two",   "three", "four",
-                                                       "five", "six",    "seven", "eight", "nine",
-                                                       "ten",  "eleven", "twelve"};
-    return n < words.size() ? words[n] : std::to_string(n);
-}
-
 bool is_of_one_facet(const Reading& r, ReadingKind kind) {
     return r.kind == kind && r.aggregate == Aggregate::single && r.facets.size() == 1 &&
            r.datum.kind == Datum::Kind::up && !r.exact;
 }
 
-struct Angle {
-    Row row;
-    int facet = -1;
-    double mesh = 0;  ///< what it is in the mesh
-    double off() const { return row.value - mesh; }
-};
-
-std::string range_of(const std::vector<double>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const std::string low = fmt::format("{:.1f}", degrees(*least)),
-                      high = fmt::format("{:.1f}", degrees(*most));
-    return low == high ? low : low + " to " + high;
-}
-
 // How far inclinations of this mesh are off, tiers' own differences and all: a design's tiers by a
 // degree, a drawing by hand by more.
-double mesh_sigma(const std::vector<Angle>& all, bool is_design) {
+double mesh_sigma(const std::vector<ReadAngle>& all, bool is_design) {
     std::vector<double> off;
-    for (const Angle& a : all) off.push_back(a.off());
+    for (const ReadAngle& a : all) off.push_back(a.off());
     return std::max(radians(is_design ? k_from_mesh_deg : k_from_drawing_deg), robust_sigma(off));
 }
 
-Expected expected_of(const Angle& own, const std::vector<const Angle*>& sisters, double from_mesh) {
+Expected expected_of(const ReadAngle& own, const std::vector<const ReadAngle*>& sisters,
+                     double from_mesh) {
     // Two that differ do not say which of them is wrong.
     constexpr std::size_t k_fewest_sisters = 2;
     if (sisters.size() < k_fewest_sisters) {
         return {own.mesh, from_mesh, fmt::format("the mesh ({:.1f})", degrees(own.mesh))};
     }
     std::vector<double> values, off;
-    for (const Angle* a : sisters) {
+    for (const ReadAngle* a : sisters) {
         values.push_back(a->row.value);
         off.push_back(a->off());
     }
@@ -81,7 +61,7 @@ void check_inclinations(const Stone& stone, const std::vector<Reading>& readings
                              r.aggregate == Aggregate::mean && r.datum.kind == Datum::Kind::up;
         if (is_mean || is_of_one_facet(r, ReadingKind::inclination)) asked.push_back(i);
     }
-    std::vector<Angle> all, means;
+    std::vector<ReadAngle> all, means;
     for (Row& row : rows_of(readings, asked)) {
         const Reading& r = readings[row.readings.front()];
         double mesh = 0;
@@ -98,10 +78,10 @@ void check_inclinations(const Stone& stone, const std::vector<Reading>& readings
         for (const int f : tiers[t].facets) tier_of[std::size_t(f)] = int(t);
     }
     const double from_mesh = mesh_sigma(all, is_design);
-    for (const Angle& own : all) {
+    for (const ReadAngle& own : all) {
         const int tier = tier_of[std::size_t(own.facet)];
-        std::vector<const Angle*> sisters;
-        for (const Angle& other : all) {
+        std::vector<const ReadAngle*> sisters;
+        for (const ReadAngle& other : all) {
             if (&other != &own && tier >= 0 && tier_of[std::size_t(other.facet)] == tier &&
                 other.facet != own.facet) {
                 sisters.push_back(&other);
@@ -110,9 +90,12 @@ void check_inclinations(const Stone& stone, const std::vector<Reading>& readings
         doubt_if_far(readings, own.row, expected_of(own, sisters, from_mesh), doubts);
     }
     // A mean has no sisters.
-    for (const Angle& own : means) {
+    for (const ReadAngle& own : means) {
         doubt_if_far(readings, own.row, expected_of(own, {}, from_mesh), doubts);
     }
+    all.insert(all.end(), means.begin(), means.end());
+    check_tiers(readings, all, tier_of, tiers,
+                radians(is_design ? k_from_mesh_deg : k_from_drawing_deg), doubts);
 }
 
 double wrapped(double angle) {
@@ -170,6 +153,20 @@ void check_azimuths(const Stone& stone, const std::vector<Reading>& readings, co
 }
 
 }  // namespace
+
+std::string count_words(std::size_t n) {
+    static constexpr std::array<const char*, 13> words{"no",   "one",    "two",   "three", "four",
+                                                       "five", "six",    "seven", "eight", "nine",
+                                                       "ten",  "eleven", "twelve"};
+    return n < words.size() ? words[n] : std::to_string(n);
+}
+
+std::string range_of(const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const std::string low = fmt::format("{:.1f}", degrees(*least)),
+                      high = fmt::format("{:.1f}", degrees(*most));
+    return low == high ? low : low + " to " + high;
+}
 
 void check_angles(const Stone& stone, const std::vector<Reading>& readings, bool is_design,
                   std::vector<Doubt>& doubts) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fit/findings/first_check.h"
+#include "fit/readings/named_tiers.h"
 
 namespace culet {
 
@@ -36,6 +37,23 @@ double median(std::vector<double> values);
 /// Adds the row's readings where it is too far off what is expected of it. Angles in radians.
 void doubt_if_far(const std::vector<Reading>& readings, const Row& row, const Expected& expected,
                   std::vector<Doubt>& doubts);
+
+/// An inclination of one facet, or the mean of some.
+struct ReadAngle {
+    Row row;
+    int facet = -1;   ///< the first of them
+    double mesh = 0;  ///< what it is in the mesh
+    double off() const { return row.value - mesh; }
+};
+
+std::string count_words(std::size_t n);  ///< `seven`, `28`
+/// `33.7 to 33.9`, of radians.
+std::string range_of(const std::vector<double>& values);
+
+/// Doubts all rows of a tier that is off the mesh as a whole. `tier_of`: of each facet, or -1.
+void check_tiers(const std::vector<Reading>& readings, const std::vector<ReadAngle>& angles,
+                 const std::vector<int>& tier_of, const std::vector<NamedTier>& tiers,
+                 double from_mesh, std::vector<Doubt>& doubts);
 
 void check_angles(const Stone& stone, const std::vector<Reading>& readings, bool is_design,
                   std::vector<Doubt>& doubts);

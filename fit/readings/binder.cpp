@@ -219,8 +219,10 @@ std::string Binder::meant_inclination(double value) const {
     const auto found = facet_of_name_.find(written_->of[0]);
     if (found == facet_of_name_.end()) return {};
     const Vec3& normal = stone_.solid.facets[std::size_t(found->second)].plane.normal;
-    const auto slip = find_slip(value, degrees(inclination(normal, stone_up())),
-                                k_slip_tolerance_deg, Measured::angle);
+    const auto slip = find_slip(
+        value,
+        {degrees(inclination(normal, stone_up())), k_slip_tolerance_deg / 3, k_slip_tolerance_deg},
+        Measured::angle);
     return slip ? fmt::format(" ({}: {:g}?)", slip->what, slip->corrected) : std::string();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace culet {
@@ -26,6 +27,11 @@ double chi2_tail(double chi2, double dof) {
 double chi2_lower_tail(double chi2, double dof) {
     if (!(dof > 0) || std::isinf(chi2)) return 1;
     return boost::math::cdf(ChiSquared(dof), std::max(0.0, chi2));
+}
+
+double student_tail(double t, double dof) {
+    if (!std::isfinite(t)) return 0;
+    return 2 * boost::math::cdf(complement(boost::math::students_t(dof), std::abs(t)));
 }
 
 double chi2_quantile(double level, double dof) {

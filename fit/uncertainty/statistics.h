@@ -12,6 +12,9 @@ double chi2_lower_tail(double chi2, double dof);
 /// The chi2 whose tail is `level`; 0 for dof <= 0.
 double chi2_quantile(double level, double dof);
 
+/// P(|T| > t) for Student's T.
+double student_tail(double t, double dof);
+
 /// The z with P(|Z| > z) = level for a standard normal Z.
 double two_sided_normal_quantile(double level);
 

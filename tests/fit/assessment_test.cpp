@@ -177,23 +177,35 @@ TEST(Slips, AreRecognised) {
     };
     for (const Row& row : {Row{344, 34.4, "decimal point moved"}, Row{43.5, 34.5, "swapped"},
                            Row{55.5, 34.5, "other side"}}) {
-        const auto slip = find_slip(row.written, row.meant + 0.03, 0.2, Measured::angle);
+        const auto slip = find_slip(row.written, {row.meant + 0.03, 0.1, 0.2}, Measured::angle);
         ASSERT_TRUE(slip) << row.written;
         EXPECT_NEAR(slip->corrected, row.meant, 1e-9);
         EXPECT_THAT(slip->what, HasSubstr(row.what));
     }
-    const auto inch = find_slip(0.2559, 6.5, 0.02, Measured::length);
+    const auto inch = find_slip(0.2559, {6.5, 0.01, 0.02}, Measured::length);
     ASSERT_TRUE(inch);
     EXPECT_EQ(inch->what, "inches for mm");
-    EXPECT_NEAR(find_slip(1.24, 1.42, 0.01, Measured::length)->corrected, 1.42, 1e-12);
+    EXPECT_NEAR(find_slip(1.24, {1.42, 0.005, 0.01}, Measured::length)->corrected, 1.42, 1e-12);
     // A stone of 1.2 ct, weighed as 0.24 g.
-    const auto grams = find_slip(0.24, 1.203, 0.01, Measured::weight);
+    const auto grams = find_slip(0.24, {1.203, 0.005, 0.01}, Measured::weight);
     ASSERT_TRUE(grams);
     EXPECT_EQ(grams->what, "grams for carats");
     EXPECT_NEAR(grams->corrected, 1.2, 1e-12);
-    EXPECT_FALSE(find_slip(34.5, 34.52, 0.1, Measured::angle));
-    EXPECT_FALSE(find_slip(NAN, 1, 0.1, Measured::angle));
-    EXPECT_FALSE(find_slip(77.77, 34.5, 0.01, Measured::length));
+    EXPECT_FALSE(find_slip(34.5, {34.52, 0.05, 0.1}, Measured::angle));
+    EXPECT_FALSE(find_slip(NAN, {1, 0.05, 0.1}, Measured::angle));
+    EXPECT_FALSE(find_slip(77.77, {34.5, 0.005, 0.01}, Measured::length));
+}
+
+// What was meant is known in these: a width of an oval, and angles whose tiers say where they lie.
+TEST(Slips, OfSeveralTheOneNearestToWhatWasMeantIsNamed) {
+    // 9.59 has two digits swapped, two sigmas off; 9.45 one digit wrong, and is what others say.
+    EXPECT_NEAR(find_slip(9.95, {9.45, 0.066, 0.132}, Measured::length)->corrected, 9.45, 1e-12);
+    // Swapped digits where both are as near.
+    EXPECT_EQ(find_slip(43.5, {34.5, 0.3, 1}, Measured::angle)->what, "two digits swapped");
+    // 30.3 typed as 03.3: a spreadsheet keeps 3.3.
+    EXPECT_NEAR(find_slip(3.3, {30.2, 0.3, 1}, Measured::angle)->corrected, 30.3, 1e-12);
+    // None is better than one that leads far away.
+    EXPECT_FALSE(find_slip(40.8, {37.4, 0.15, 0.5}, Measured::angle));
 }
 
 TEST(Slips, OfAReadingAreNamedWithTheirCorrection) {

@@ -106,6 +106,46 @@ TEST_F(FirstCheck, ARowForAWholeTierDoesNotVouchForItself) {
     EXPECT_EQ(first_check(stone_, readings, true).size(), 8u);
 }
 
+// One row or value for each of five tiers: as drawn, but for what each test makes of the pavilion
+// mains.
+std::vector<Reading> tiers_as_drawn(const Stone& stone, double mains, double others) {
+    std::vector<WrittenReading> rows;
+    long line = 2;
+    double sign = 1;
+    for (const Facet& facet : stone.solid.facets) {
+        const char tier = facet.name[0];
+        const bool is_main = tier == 'C' || tier == 'P';
+        if (tier == 'T' || (!is_main && facet.name.size() > 1 && facet.name.substr(1) != "1")) {
+            continue;
+        }
+        const double drawn = degrees(inclination(facet.plane.normal, {0, 0, 1}));
+        if (!is_main) sign = -sign;
+        rows.push_back(row("inclination", {is_main ? facet.name : facet.name.substr(0, 1) + "*"},
+                           tier == 'P' ? mains : std::min(90.0, drawn + sign * others), 0.1,
+                           line++));
+    }
+    return bind_readings(rows, stone);
+}
+
+TEST_F(FirstCheck, ATierTypedWithTheValueOfAnotherIsNamedAsAWhole) {
+    // The crown mains' angle by design; they were read 0.3 degrees flatter. Seven degrees off,
+    // where the others are within 0.3.
+    const std::vector<Doubt> doubts = first_check(stone_, tiers_as_drawn(stone_, 33.8, 0.3), true);
+    ASSERT_EQ(doubts.size(), 8u);
+    EXPECT_THAT(doubts[0].what, says("pavilion mains", "than the mesh", "within 0.3",
+                                     "33.5 is the value of the crown mains"));
+}
+
+TEST_F(FirstCheck, ATierThatIsOffAsOthersAreIsNoSlip) {
+    const double drawn = degrees(inclination(
+        stone_.solid.facets[std::size_t(find_facet(stone_.solid, "P1"))].plane.normal, {0, 0, 1}));
+    EXPECT_TRUE(first_check(stone_, tiers_as_drawn(stone_, drawn + 1, 0.3), true).empty());
+    // Where the others are off by two degrees, three are no wonder.
+    EXPECT_TRUE(first_check(stone_, tiers_as_drawn(stone_, drawn + 3.1, 2), true).empty());
+    // Five degrees where the others are within 0.1, by no other tier's value.
+    EXPECT_EQ(first_check(stone_, tiers_as_drawn(stone_, drawn + 5, 0.1), true).size(), 8u);
+}
+
 TEST_F(FirstCheck, ATierWhoseFacetsDifferByDesignIsNoSlip) {
     Stone oval;
     oval.solid = make_cut("oval", {{"ratio", 1.4}});
