@@ -18,7 +18,7 @@ namespace {
 struct Tally {
     int sets = 0, named_first = 0, alarms = 0, sound = 0, steep_named = 0, steep_asked = 0;
     int within = 0, unread = 0, within_azimuth = 0, unread_azimuth = 0;
-    double read_squares = 0;
+    double read_squares = 0, error_squares = 0;  ///< over sigma; degrees
     int read = 0;
     double seconds = 0, longest = 0;
 
@@ -34,18 +34,24 @@ struct Tally {
         within_azimuth += t.within_azimuth;
         unread_azimuth += t.unread_azimuth;
         read_squares += t.read_squares;
+        error_squares += t.error_squares;
         read += t.read;
         seconds += t.seconds;
         longest = std::max(longest, t.longest);
     }
 };
 
-double soft_meets = 0;
+// As the stone file would have them; empty: it says nothing.
+std::string meets_asked;
 
 FitResult fit_evening(const Evening& evening) {
     FitOptions options;
-    if (soft_meets != 0) options.meets = MeetTreatment::soft;
-    if (soft_meets > 0) options.meet_sigma = soft_meets;
+    for (const MeetTreatment how :
+         {MeetTreatment::exact, MeetTreatment::soft, MeetTreatment::released}) {
+        if (meets_asked != name_of(how)) continue;
+        options.meets = how;
+        options.meets_named = true;
+    }
     options.prior.source = Prior::Source::catalogue;
     options.first_check = true;
     return fit_stone(evening.design, bind_readings(evening.rows, evening.design), options);
@@ -72,6 +78,7 @@ void count_facets(const Evening& evening, const FitResult& result, Tally& tally)
             (fitted.inclination - inclination(n, {0, 0, 1})) / fitted.sigma_inclination;
         if (evening.was_read[f]) {
             tally.read_squares += off * off;
+            tally.error_squares += std::pow(off * degrees(fitted.sigma_inclination), 2);
             ++tally.read;
         } else {
             tally.within += std::abs(off) < 1;
@@ -132,9 +139,10 @@ void print(const std::string& what, const Tally& t, bool clean) {
     fmt::print("  false alarms {:.1f} %  two mains named {:.1f} %\n", percent(t.alarms, t.sets),
                percent(t.steep_named, t.steep_asked));
     fmt::print(
-        "{:34} inclinations read: {:.2f} sigma rms; not read: {:.1f} % within one sigma; "
-        "azimuths (none read): {:.1f} %\n",
-        "", std::sqrt(t.read_squares / std::max(1, t.read)), percent(t.within, t.unread),
+        "{:34} inclinations read: {:.3f} degrees rms, {:.2f} sigma; not read: {:.1f} % within one "
+        "sigma; azimuths (none read): {:.1f} %\n",
+        "", std::sqrt(t.error_squares / std::max(1, t.read)),
+        std::sqrt(t.read_squares / std::max(1, t.read)), percent(t.within, t.unread),
         percent(t.within_azimuth, t.unread_azimuth));
     std::fflush(stdout);
 }
@@ -158,12 +166,13 @@ int main(int argc, char** argv) {
     app.add_option("--tiers", population.tier_deg, "tiers off the design, degrees");
     app.add_option("--two", population.two_deg, "two mains off, degrees");
     app.add_option("--meets", population.meets, "the stone's meets are exact");
-    app.add_option("--soft", soft_meets, "meets within this, mm; negative: estimated");
+    app.add_option("--treat", meets_asked, "meets as the stone file has them; else by evidence")
+        ->check(CLI::IsMember({"exact", "soft", "released"}));
     app.add_flag("--verbose", verbose, "what was said of sets that went wrong");
     app.add_flag("--clean", clean_only, "no slips");
     CLI11_PARSE(app, argc, argv);
     Tally all, all_clean;
-    for (const char* cut : {"round-brilliant", "oval", "cushion", "step"}) {
+    for (const char* cut : {"round-brilliant", "oval", "cushion", "step", "pear", "trillion"}) {
         if (std::string(cut).find(only) == std::string::npos) continue;
         Tally clean, slips;
         for (int i = 0; i < sets; ++i) {

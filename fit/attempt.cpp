@@ -18,6 +18,7 @@
 #include "fit/starts/refit.h"
 #include "fit/starts/robust.h"
 #include "fit/uncertainty/diagnostics.h"
+#include "fit/uncertainty/meet_evidence.h"
 #include "fit/uncertainty/meet_sigmas.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/errors.h"
@@ -70,7 +71,8 @@ void fill_in_search(const System& system, const Multistart& multistart, FitResul
     result.log.iterations = best.finished.iterations;
     result.findings.vanishing_edges = edges_kept_open(system, best.held);
     result.findings.vanishing_chi2 = best.cost_of_holding;
-    for (std::string note : {other_turn(system), other_size(system)}) {
+    const bool has_size = result.log.options.mesh_has_size;
+    for (std::string note : {other_turn(system), has_size ? other_size(system) : std::string()}) {
         if (!note.empty()) result.log.notes.push_back(std::move(note));
     }
 }
@@ -87,6 +89,43 @@ void fill_in_statistics(const Diagnosis& diagnosis, FitResult& result) {
     result.statistics.rank_defect = diagnosis.rank_defect;
 }
 
+bool asks_for_evidence(const System& system, const FitOptions& options) {
+    return !options.meets_named && options.meets == MeetTreatment::exact &&
+           options.prior.source != Prior::Source::none && options.loss == Loss::none &&
+           !options.free_corners && !system.has_outlines();
+}
+
+// Beside a prior nothing else would contradict exact meets: they would pull planes off good
+// readings. The system and the stone that the readings make likelier.
+void decide_meets(const Problem& problem, FitOptions& options, std::optional<System>& system,
+                  Candidate& best) {
+    if (!best.is_an_end() || !asks_for_evidence(*system, options)) return;
+    FitOptions other = options;
+    other.meets = MeetTreatment::soft;
+    std::optional<System> changed(std::in_place, problem.stone, problem.readings, other);
+    std::optional<MeetEvidence> evidence = weigh_meets(*changed, best.finished, other);
+    if (!evidence) return;
+    Candidate candidate = best;
+    if (evidence->exact) {
+        other = options;
+        other.meets_shown = true;
+        changed.emplace(problem.stone, problem.readings, other);
+        candidate = finish_from(*changed, best.finished.shape, options.iterations);
+        candidate.start = best.start;
+    } else {
+        candidate.finished = std::move(evidence->finished);
+        candidate.held.clear();
+        candidate.cost_of_holding = 0;
+        candidate.binding = 0;
+        const System::Enclosed enclosed = changed->enclosed(candidate.finished.shape);
+        candidate.sound = enclosed.closed && enclosed.missing.empty();
+    }
+    if (!candidate.is_an_end()) return;
+    options = other;
+    system.emplace(std::move(*changed));
+    best = std::move(candidate);
+}
+
 void tell(const Progress& progress, double done) {
     if (progress && !progress(done)) throw Interrupted();
 }
@@ -99,19 +138,21 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     FitOptions& options = result.log.options = problem.options;
     if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
     result.unit = problem.stone.unit;
-    System system(problem.stone, problem.readings, options);
-    made.mesh_turn = system.mesh_turn();
-    made.far_from_mesh = angles_far_from_mesh(system);
+    std::optional<System> taken(std::in_place, problem.stone, problem.readings, options);
+    made.mesh_turn = taken->mesh_turn();
+    made.far_from_mesh = angles_far_from_mesh(*taken);
 
-    Multistart multistart = search(system, options, progress);
+    Multistart multistart = search(*taken, options, progress);
     made.work = multistart.work;
     Candidate& best = multistart.best;
+    decide_meets(problem, options, taken, best);
+    System& system = *taken;
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);
     fill_in_search(system, multistart, result);
     tell(progress, 0.7);
-    if (system.has_estimated_groups()) {
+    if (system.has_estimated_groups() && problem.options.meets != MeetTreatment::exact) {
         result.statistics.meets.ends =
             estimate_meet_sigmas(system, best.finished, options, progress);
     }

@@ -139,9 +139,10 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     result.findings.named_tiers =
         tier_findings(stone, readings, result.findings.suspects, is_design);
     // As they were asked for; the prior as it was used.
-    const Prior used = result.log.options.prior;
+    const FitOptions used = result.log.options;
     result.log.options = options;
-    result.log.options.prior = used;
+    result.log.options.prior = used.prior;
+    result.log.options.meets = used.meets;
     result.log.changed.insert(result.log.changed.begin(), stone.changed.begin(),
                               stone.changed.end());
     describe_outlines(readings, result);

@@ -38,7 +38,11 @@ const char* name_of(Prior::Source source);
 struct FitOptions {
     /// Of meets of more than three facets that no `meet` reading speaks of.
     MeetTreatment meets = MeetTreatment::exact;
-    bool meets_named = false;  ///< the stone file says so
+    /// The stone file says so. If not, beside a prior the readings decide whether meets are exact
+    /// or soft (meet_evidence.h).
+    bool meets_named = false;
+    /// Exact meets, and the readings do not contradict them: nothing is allowed for.
+    bool meets_shown = false;
     /// The stone is what its planes enclose, whichever corners that gives: so beside outlines.
     bool free_corners = false;
     /// Of soft meets, in the stone's unit; nothing: estimated from the data by variance components
@@ -56,6 +60,8 @@ struct FitOptions {
     /// Hold every reading against its tier and the mesh first (first_check.h), where the readings
     /// do not check each other: they leave parts of the stone open.
     bool first_check = false;
+    /// False: the mesh is a cut design, whose size says nothing.
+    bool mesh_has_size = true;
     /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
     /// and looks for no other start, unless it cannot get there.
     std::optional<Solid> start;

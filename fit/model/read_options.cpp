@@ -48,9 +48,13 @@ const char* name_of(Prior::Source source) {
 
 namespace {
 
-Prior::Source source_of(const TomlTable& file) {
+std::optional<std::filesystem::path> mesh_of(const TomlTable& file) {
     const auto stone = file.table("stone");
-    const auto mesh = stone ? stone->path("mesh") : std::nullopt;
+    return stone ? stone->path("mesh") : std::nullopt;
+}
+
+Prior::Source source_of(const TomlTable& file) {
+    const auto mesh = mesh_of(file);
     return mesh && design_of(*mesh) ? Prior::Source::catalogue : Prior::Source::mesh;
 }
 
@@ -91,6 +95,8 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
     const TomlTable file = read_toml(stone_file, overrides);
     options.prior.source = source_of(file);
     options.first_check = true;
+    const auto mesh = mesh_of(file);
+    options.mesh_has_size = !mesh || design_of(*mesh) != "GemCad";
     const auto table = file.table("fit");
     if (!table) return options;
     table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss",

@@ -49,7 +49,7 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     if (options.prior.source != Prior::Source::none) {
         prior_ = make_prior(options.prior, solid_, up_facet_, half_width(), mesh_shape_);
         estimate_angle_sigmas(solid_, readings_, prior_);
-        const bool exact = options.meets == MeetTreatment::exact;
+        const bool exact = options.meets == MeetTreatment::exact && !options.meets_shown;
         count_beside_prior(
             mesh_shape_, solid_, exact ? k_meet_miss * 2 * half_width() : 0,
             [&](const Reading& r) { return unit_of(r); }, readings_);

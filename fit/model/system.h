@@ -81,6 +81,8 @@ public:
     bool splits() const { return splits_; }
     bool has_common_meets() const;
 
+    /// Of the mesh, the widest in plan, in the scale of the fit.
+    double half_width() const;
     /// How soft meets miss, where no uncertainty is given: group 0 by polished facets, group 1 by
     /// girdle facets (the girdle is shaped before the facets and by other means).
     const std::array<double, 2>& group_sigmas() const { return group_sigmas_; }
@@ -194,7 +196,6 @@ private:
     std::vector<int> mirror_partners(const Reading& reading) const;
     void find_exchanges();
     void list_exact_motions();
-    double half_width() const;
 
     const Stone& stone_;
     std::vector<Reading> readings_;

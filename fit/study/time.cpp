@@ -101,6 +101,7 @@ std::vector<Way> ways(const std::vector<Reading>& readings, const FitOptions& as
           std::pair("released", MeetTreatment::released)}) {
         Way& way = add("meets", name, meets == asked.meets);
         way.options.meets = meets;
+        way.options.meets_named = asked.meets_named || meets != asked.meets;
         way.same_equations = false;
     }
     const auto symmetry = std::find_if(readings.begin(), readings.end(),

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "fit/solve/kkt_solver.h"
-#include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/diagnostics.h"
+#include "fit/uncertainty/meet_likelihood.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -23,7 +21,7 @@ constexpr double k_better = 1;
 constexpr double k_same_end = 0.05;
 constexpr int k_most_ends = 4;
 
-using Sigmas = std::array<double, 2>;
+using Sigmas = MeetSigmas;
 
 // Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
 // redundancy, repeated until it agrees with the one they were weighted by.
@@ -57,64 +55,6 @@ void agree_with_residuals(System& system, Finished& finished, const FitOptions& 
     finished.iterations += steps;
 }
 
-void append(const FunctionRows& from, const Eigen::VectorXd& variance, JacobianRows& to) {
-    for (Eigen::Index i = 0; i < from.rows(); ++i) {
-        for (FunctionRows::InnerIterator it(from, i); it; ++it) to.add(int(it.col()), it.value());
-        to.close(0, variance(i));
-    }
-}
-
-// Twice the negative logarithm of the restricted likelihood, but for a constant, as a function of
-// the sigmas, in the linear model about one shape: log det V + log det A'V^-1 A + r'V^-1 r, the
-// first two of which are the determinant of the saddle system [P A'; A -V].
-class RestrictedLikelihood {
-public:
-    RestrictedLikelihood(const System& system, const Finished& at)
-        : linear_(linearise(system, at.shape, at.outline)),
-          stiffness_(linear_.metric / k_unheld_variance) {
-        for (const Equation& e : linear_.soft) {
-            if (e.group >= 0) present_[std::size_t(e.group)] = true;
-        }
-    }
-
-    bool has(std::size_t group) const { return present_[group]; }
-
-    double operator()(const Sigmas& sigmas) {
-        const Eigen::Index count = linear_.soft_rows.rows();
-        Eigen::VectorXd variance = Eigen::VectorXd::Ones(count);
-        double logarithms = 0;
-        for (Eigen::Index i = 0; i < count; ++i) {
-            const Equation& e = linear_.soft[std::size_t(i)];
-            if (e.group < 0) continue;
-            // Rows are over the sigmas of the linear model.
-            variance(i) = std::pow(sigmas[std::size_t(e.group)] / e.sigma, 2);
-            logarithms += 2 * std::log(e.sigma);
-        }
-        JacobianRows rows;
-        append(linear_.hard_rows, Eigen::VectorXd::Zero(linear_.hard_rows.rows()), rows);
-        for (const Eigen::VectorXd& gauge : linear_.gauge_rows) {
-            append(FunctionRows(gauge.transpose().sparseView()), Eigen::VectorXd::Zero(1), rows);
-        }
-        append(linear_.soft_rows, variance, rows);
-        constexpr double k_none = std::numeric_limits<double>::infinity();
-        if (!solver_.factor(rows, stiffness_)) return k_none;
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.count());
-        right.tail(count) = -linear_.soft_residuals;
-        const auto solved = solver_.solve(Eigen::VectorXd::Zero(linear_.layout.size()), right);
-        if (!solved.good) return k_none;
-        const Eigen::VectorXd left = linear_.soft_residuals + linear_.soft_rows * solved.unknowns;
-        return solver_.log_determinant() + logarithms +
-               left.cwiseAbs2().cwiseQuotient(variance).sum() +
-               solved.unknowns.cwiseAbs2().dot(stiffness_);
-    }
-
-private:
-    Linearised linear_;
-    Eigen::VectorXd stiffness_;
-    KktSolver solver_;  // keeps its pattern
-    std::array<bool, 2> present_{};
-};
-
 struct End {
     Sigmas sigmas;
     Finished finished;
@@ -122,7 +62,7 @@ struct End {
 };
 
 // The likeliest place of a scan: each group alone, then both together.
-Sigmas best_of_scan(RestrictedLikelihood& likelihood, const Sigmas& from, double& least) {
+Sigmas best_of_scan(MeetLikelihood& likelihood, const Sigmas& from, double& least) {
     Sigmas best = from;
     const auto try_at = [&](const Sigmas& sigmas) {
         const double value = likelihood(sigmas);
@@ -165,7 +105,7 @@ int estimate_meet_sigmas(System& system, Finished& finished, const FitOptions& o
         if (!ends[at].finished.outline) break;
         system.set_group_sigma(0, ends[at].sigmas[0]);
         system.set_group_sigma(1, ends[at].sigmas[1]);
-        RestrictedLikelihood likelihood(system, ends[at].finished);
+        MeetLikelihood likelihood(system, ends[at].finished);
         ends[at].likelihood = likelihood(ends[at].sigmas);
         if (ends[at].likelihood < ends[best].likelihood) best = at;
         double least = ends[at].likelihood - 2 * k_better;

@@ -29,8 +29,17 @@ bool is_step(const std::string& cut) {
     return cut == "step";
 }
 
+// Those named by this letter and a number.
+std::vector<std::string> numbered(const Solid& design, const std::string& letter) {
+    std::vector<std::string> names;
+    for (int i = 1; find_facet(design, letter + std::to_string(i)) >= 0; ++i) {
+        names.push_back(letter + std::to_string(i));
+    }
+    return names;
+}
+
 // The mains of which two are steep, and which are read one by one.
-std::vector<std::vector<std::string>> main_tiers(const std::string& cut) {
+std::vector<std::vector<std::string>> main_tiers(const std::string& cut, const Solid& design) {
     std::vector<std::vector<std::string>> tiers;
     if (is_step(cut)) {
         for (const char* tier : {"C1", "C2", "C3", "P1", "P2", "P3"}) {
@@ -43,7 +52,7 @@ std::vector<std::vector<std::string>> main_tiers(const std::string& cut) {
     }
     for (const char* tier : {"C", "P"}) {
         tiers.emplace_back();
-        for (int i = 1; i <= 8; ++i) tiers.back().push_back(tier + std::to_string(i));
+        tiers.back() = numbered(design, tier);
     }
     return tiers;
 }
@@ -141,7 +150,7 @@ std::vector<CutterRow> read_rows(const std::string& cut, Evening& evening, Rando
     constexpr double k_goniometer = 0.1, k_small_facet = 0.5, k_scale = 0.005;
     std::vector<CutterRow> rows;
     std::set<std::string> read;
-    for (const std::vector<std::string>& tier : main_tiers(cut)) {
+    for (const std::vector<std::string>& tier : main_tiers(cut, evening.design.solid)) {
         for (const std::string& name : tier) {
             rows.push_back(bench.angle(name, name, k_goniometer));
             read.insert(name);
@@ -154,8 +163,7 @@ std::vector<CutterRow> read_rows(const std::string& cut, Evening& evening, Rando
                 bench.angle(tier + std::string("1"), tier + std::string("*"), k_small_facet));
         }
     } else if (!is_step(cut)) {
-        for (int i = 1; i <= 8; ++i) {
-            const std::string name = "S" + std::to_string(i);
+        for (const std::string& name : numbered(evening.design.solid, "S")) {
             rows.push_back(bench.angle(name, name, k_goniometer));
             read.insert(name);
         }
@@ -192,7 +200,7 @@ Evening cutters_evening(const std::string& cut, const Population& population, Sl
     evening.design.solid = make_cut(cut, proportions);
     evening.design.up_facet = "T";
     evening.design.material.density_g_cm3 = 3.52;
-    const auto tiers = main_tiers(cut);
+    const auto tiers = main_tiers(cut, evening.design.solid);
     const auto& tier = tiers[one_of(random, tiers.size())];
     const std::size_t first = one_of(random, tier.size());
     evening.steep = {tier[first]};

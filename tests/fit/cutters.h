@@ -47,7 +47,8 @@ struct Evening {
     std::vector<bool> was_read;      ///< of each facet: its inclination was, by itself
 };
 
-/// `cut`: round-brilliant, oval, cushion or step. The same seed makes the same evening.
+/// `cut`: step, or a cut whose mains are C1, C2 .. and P1, P2 .., such as an oval. The same seed
+/// makes the same evening.
 Evening cutters_evening(const std::string& cut, const Population& population, Slipped slip,
                         std::uint64_t seed);
 

@@ -71,6 +71,36 @@ TEST_P(PriorOfCut, SigmasHoldForFacetsThatNobodyRead) {
     EXPECT_GT(squares / count, 0.3);
 }
 
+// Stones whose planes meet, and stones whose planes miss each other by some 0.02 mm. What was read
+// is itself the standard: the fit must not lead away from it, and must not be surer than it is. Of
+// 100 facets that hang together a ratio of 1.2 is two standard errors over 1.
+TEST_P(PriorOfCut, FacetsThatWereReadAreNoFurtherOffThanTheirReadings) {
+    for (const bool meets : {true, false}) {
+        double errors = 0, own = 0, over_sigma = 0;
+        int count = 0;
+        bench::Population population;
+        population.meets = meets;
+        for (std::uint64_t seed = 21; seed <= 25; ++seed) {
+            const Evening evening = cutters_evening(GetParam(), population, Slipped::none, seed);
+            const std::vector<Reading> readings = bind_readings(evening.rows, evening.design);
+            const FitResult result = fit_stone(evening.design, readings, with_prior());
+            for (const Reading& r : readings) {
+                if (r.kind != ReadingKind::inclination || !evening.was_read[r.facets[0]]) continue;
+                const FittedFacet& fitted = result.facets[std::size_t(r.facets[0])];
+                const int there = find_facet(evening.truth, fitted.name);
+                const double is =
+                    inclination(evening.truth.facets[std::size_t(there)].plane.normal, {0, 0, 1});
+                errors += std::pow(fitted.inclination - is, 2);
+                own += std::pow(r.value - is, 2);
+                over_sigma += std::pow((fitted.inclination - is) / fitted.sigma_inclination, 2);
+                ++count;
+            }
+        }
+        EXPECT_LT(std::sqrt(errors / own), 1.1) << meets;
+        EXPECT_LT(std::sqrt(over_sigma / count), 1.2) << meets;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cuts, PriorOfCut,
                          testing::Values("round-brilliant", "oval", "cushion", "step"));
 
