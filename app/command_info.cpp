@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/readings_form.h"
 #include "app/terminal.h"
+#include "stone/design.h"
 #include "stone/errors.h"
 #include "stone/file_kind.h"
 #include "stone/output_file.h"
@@ -34,13 +35,21 @@ struct InfoOptions {
 // The form for the stone of a file: a mesh, a cut design or a stone file.
 std::vector<std::string> form_of(const InfoOptions& options) {
     const std::filesystem::path& file = options.describe.file;
+    FormOptions form = options.form;
+    const auto take_gear = [&](const Solid& solid) {
+        // A wheel that is turned against the stone has teeth of its own: none are told.
+        if (solid.design) form.gear = solid.design->gear_offset == 0 ? solid.design->gear : 0;
+        if (options.describe.cutting.gear != 0) form.gear = options.describe.cutting.gear;
+    };
     if (is_solid_file(file)) {
         Stone stone;
         stone.name = file.stem().string();
         stone.convex = !options.describe.may_be_concave;
-        stone.solid = load_solid(file, options.describe.cut).solid;
+        SolidInput input = load_solid(file, options.describe.cut);
+        stone.solid = std::move(input.solid);
+        take_gear(stone.solid);
         if (options.describe.width_mm > 0) scale_to_width(stone.solid, options.describe.width_mm);
-        std::vector<std::string> lines = write_form(options.form, std::move(stone), false, file);
+        std::vector<std::string> lines = write_form(form, std::move(stone), false, file);
         if (options.describe.width_mm > 0 && !options.form.stone.empty()) {
             lines.push_back(fmt::format(
                 "{} names the mesh as it is: the fit scales it to the lengths that were read "
@@ -58,7 +67,8 @@ std::vector<std::string> form_of(const InfoOptions& options) {
     if (!options.form.stone.empty())
         throw InputError(file, "--stone: this is a stone file already");
     StoneFile read = read_stone(file, options.common.set);
-    return write_form(options.form, read.stone, read.has_material, read.mesh_file);
+    take_gear(read.stone.solid);
+    return write_form(form, read.stone, read.has_material, read.mesh_file);
 }
 
 int info(InfoOptions options) {
@@ -71,7 +81,8 @@ int info(InfoOptions options) {
         }
         options.describe.width_mm = length_mm(options.width, "--width");
     }
-    if (options.describe.cutting.gear != 0 && options.sheet.out.empty())
+    if (options.describe.cutting.gear != 0 && options.sheet.out.empty() &&
+        options.form.readings.empty())
         options.describe.cutting_list = true;
     if (!options.sheet.report.empty() && options.sheet.out.empty())
         throw InputError("--report is of a cutting sheet: give --cutting-sheet too");
@@ -199,7 +210,7 @@ void add_command_info(CLI::App& program, int& exit_code) {
         ->type_name("FIT.json");
     command
         ->add_option("--gear", options->describe.cutting.gear,
-                     "teeth of the index wheel of the cutting list (the design's own, or 96)")
+                     "teeth of the index wheel of cutting list and form (the design's own, or 96)")
         ->check(CLI::Range(1.0, 1e6))
         ->type_name("TEETH");
     command

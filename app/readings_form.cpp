@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include "fit/readings/readings_template.h"
+#include "page/form_page.h"
 #include "stone/errors.h"
+#include "stone/file_kind.h"
+#include "stone/index_names.h"
 #include "stone/output_file.h"
 #include "stone/proportions.h"
 #include "stone/written_number.h"
@@ -16,6 +19,11 @@ void add_form_options(CLI::App& command, FormOptions& options) {
                     "a form of the readings that a bench can take, values empty (- is stdout)")
         ->type_name("FORM.csv");
     command
+        .add_option("--form", options.page,
+                    "the form of --readings to be printed: drawings with the facets' names, and a "
+                    "table to write in")
+        ->type_name("FORM.html");
+    command
         .add_option("--stone", options.stone,
                     "a stone file of mesh and form: fill the form in, then culet fit")
         ->type_name("STONE.toml");
@@ -26,12 +34,35 @@ void require_form(const FormOptions& options) {
     if (!options.stone.empty() && (options.readings.empty() || options.readings == "-")) {
         throw InputError("--stone names the form of --readings: give both, as files");
     }
+    if (!options.page.empty() && (options.readings.empty() || options.readings == "-")) {
+        throw InputError("--form prints the form of --readings: give both, as files");
+    }
+    if (!options.page.empty() && extension_of(options.page) != "html") {
+        throw InputError(options.page, "the printed form is a page: name it FORM.html");
+    }
     if (!options.stone.empty() && options.stone == options.readings) {
         throw InputError("--stone and --readings name the same file");
     }
     require_writable(options.readings);
+    require_writable(options.page);
     require_writable(options.stone);
 }
+
+namespace {
+
+std::string printed(const FormOptions& options, const Stone& stone, const ReadingsForm& form) {
+    PrintedForm page;
+    page.name = stone.name;
+    page.version = CULET_VERSION;
+    page.solid = stone.solid;
+    const std::vector<std::string> names = index_names(stone.solid, options.gear);
+    for (std::size_t f = 0; f < names.size(); ++f) page.solid.facets[f].name = names[f];
+    for (const FormRow& row : form.rows) page.rows.push_back({row.kind, row.of, row.note});
+    page.readings = options.readings.filename().string();
+    return form_page(page);
+}
+
+}  // namespace
 
 std::vector<std::string> write_form(const FormOptions& options, Stone stone, bool has_material,
                                     const std::filesystem::path& mesh) {
@@ -41,15 +72,20 @@ std::vector<std::string> write_form(const FormOptions& options, Stone stone, boo
         stone.material = catalogue_material(options.material);
         has_material = true;
     }
-    const ReadingsForm form = readings_form(stone, has_material);
+    const ReadingsForm form = readings_form(stone, has_material, options.gear);
     write_text(options.readings, form.csv);
     lines.push_back(fmt::format("{}: {} rows to fill in; rows that stay empty are skipped",
-                                options.readings.string(), form.rows));
+                                options.readings.string(), form.rows.size()));
+    if (!options.page.empty()) {
+        write_text(options.page, printed(options, stone, form));
+        lines.push_back(fmt::format("{}: the same to be printed, with drawings of the facets",
+                                    options.page.string()));
+    }
     if (options.stone.empty()) return lines;
     write_text(options.stone, stone_file_text(stone, options.stone, mesh, options.readings,
                                               options.material, form.up_facet));
-    lines.push_back(fmt::format("{}: when the form is filled in, culet fit {} -o fitted.obj",
-                                options.stone.string(), options.stone.string()));
+    lines.push_back(fmt::format("next: fill in {}, then culet fit {} -o fitted.obj",
+                                options.readings.string(), options.stone.string()));
     return lines;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// --readings and --stone of `cut` and `info`: a form for the bench, and a stone file beside it.
+// --readings, --form and --stone of `cut` and `info`: a form for the bench, to be printed too, and
+// a stone file beside it.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -11,11 +12,12 @@
 namespace culet {
 
 struct FormOptions {
-    std::filesystem::path readings, stone;
+    std::filesystem::path readings, page, stone;
     std::string material;
+    double gear = 96;  ///< teeth of the index wheel, the design's
 };
 
-/// Adds --readings and --stone; --material is the command's own.
+/// Adds --readings, --form and --stone; --material is the command's own.
 void add_form_options(CLI::App& command, FormOptions& options);
 
 /// Throws InputError for what could not be written, and for a stone file without a form.

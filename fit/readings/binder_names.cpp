@@ -6,8 +6,10 @@
 #include <array>
 
 #include "fit/readings/binder.h"
+#include "fit/readings/spreadsheet_losses.h"
 #include "fit/readings/unknown_facet.h"
 #include "stone/errors.h"
+#include "stone/index_names.h"
 #include "stone/tiers.h"
 #include "stone/toml_file.h"
 
@@ -35,6 +37,13 @@ int Binder::facet(const std::string& name) const {
     const auto found = facet_of_name_.find(name);
     if (found == facet_of_name_.end()) {
         if (const int other = facet_in_other_case(name); other >= 0) return other;
+        const std::vector<int> at_index = facets_at_index(stone_.solid, name);
+        if (at_index.size() == 1) return at_index.front();
+        if (at_index.size() > 1) {
+            fail(fmt::format("'{}' is {} and {} of the mesh: name one of them", name,
+                             facet_name(at_index[0]), facet_name(at_index[1])));
+        }
+        if (const std::string date = date_words(name); !date.empty()) fail(date);
         fail(fmt::format("the mesh has no facet '{}' (near: {}){}", name,
                          near_names(stone_.solid, name), where_it_may_lie(name, all_, stone_)));
     }

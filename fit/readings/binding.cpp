@@ -10,6 +10,7 @@
 #include "fit/readings/copied_rows.h"
 #include "fit/readings/level_facets.h"
 #include "fit/readings/reading_sizes.h"
+#include "fit/readings/spreadsheet_losses.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -22,6 +23,7 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
                          "no row has a value yet: write what was read into the column `value`; "
                          "rows that stay empty are skipped");
     }
+    refuse_lost_zeros(written, stone);
     Binder binder(stone, written);
     std::set<std::string> given;
     for (const WrittenReading& w : written) given.insert(w.id);

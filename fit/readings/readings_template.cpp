@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stone/caliper.h"
+#include "stone/index_names.h"
 #include "stone/tiers.h"
 #include "stone/units.h"
 
@@ -40,13 +41,16 @@ bool can_be_read(const std::string& name) {
 
 class FormWriter {
 public:
-    FormWriter(const Stone& stone, bool has_material, const BenchSigmas& sigmas)
+    FormWriter(const Stone& stone, bool has_material, double gear, const BenchSigmas& sigmas)
         : stone_(stone),
           solid_(stone.solid),
           has_material_(has_material),
           sigmas_(sigmas),
           frame_(plan_frame(stone.up)),
-          table_(table_facet(stone.solid, stone.up)) {}
+          table_(table_facet(stone.solid, stone.up)),
+          names_(index_names(stone.solid, gear)),
+          teeth_(index_teeth(stone.solid, gear)),
+          gear_(gear) {}
 
     ReadingsForm form() {
         const std::vector<FacetTier> tiers = tiers_of(solid_, stone_.up);
@@ -59,8 +63,12 @@ public:
         for (const FacetTier& tier : tiers) add_tier(tier, mains);
         add_lengths(crown);
         ReadingsForm form;
-        form.csv = instructions() + "kind,of,value,sigma,note\n" + rows_;
-        form.rows = count_;
+        form.csv = instructions() + "kind,of,value,sigma,note\n";
+        for (const FormRow& r : rows_) {
+            form.csv +=
+                fmt::format("{},{},,{:.4g},{}\n", r.kind, quoted(r.of), r.sigma, quoted(r.note));
+        }
+        form.rows = std::move(rows_);
         if (table_ >= 0) form.up_facet = solid_.facets[table_].name;
         return form;
     }
@@ -70,8 +78,7 @@ private:
 
     void row(const std::string& kind, const std::string& of, double sigma,
              const std::string& note) {
-        rows_ += fmt::format("{},{},,{:.4g},{}\n", kind, quoted(of), sigma, quoted(note));
-        ++count_;
+        rows_.push_back({kind, of, sigma, note});
     }
 
     double tilt_deg(int facet) const {
@@ -89,9 +96,11 @@ private:
     }
 
     void add_facet(int facet) {
-        const std::string& name = solid_.facets[facet].name;
+        const std::string &name = names_[std::size_t(facet)], &tooth = teeth_[std::size_t(facet)];
         if (!can_be_read(name)) return;
-        row("inclination", name, sigma_of(facet), fmt::format("expected {:.2f}", tilt_deg(facet)));
+        row("inclination", name, sigma_of(facet),
+            fmt::format("expected {:.2f}{}{}", tilt_deg(facet), tooth.empty() ? "" : " at index ",
+                        tooth));
     }
 
     // Of a pear only some facets of a tier may reach the table: the others are read as they are.
@@ -117,7 +126,7 @@ private:
         std::vector<int> facets;
         for (const int f : tier.facets) {
             const bool main = std::find(mains.begin(), mains.end(), f) != mains.end();
-            if (!main && can_be_read(solid_.facets[f].name)) facets.push_back(f);
+            if (!main && can_be_read(names_[std::size_t(f)])) facets.push_back(f);
         }
         if (facets.empty()) return;
         if (facets.size() == 1) return add_facet(facets[0]);
@@ -128,7 +137,7 @@ private:
             sigma = std::max(sigma, sigma_of(f));
             least = std::min(least, tilt_deg(f));
             most = std::max(most, tilt_deg(f));
-            names += (names.empty() ? "" : "/") + solid_.facets[f].name;
+            names += (names.empty() ? "" : "/") + names_[std::size_t(f)];
         }
         const std::string expected = most - least < 0.05
                                          ? fmt::format("expected {:.2f}", degrees(tier.inclination))
@@ -147,7 +156,7 @@ private:
             const double size = area(solid_, solid_.facets[f]);
             if (std::abs(std::remainder(azimuth_deg(f) - azimuth, 360)) < k_across_deg &&
                 size > largest) {
-                name = solid_.facets[f].name;
+                name = names_[std::size_t(f)];
                 largest = size;
             }
         }
@@ -237,6 +246,12 @@ private:
         text +=
             "# sigma: what your instrument may be off by (one standard deviation); change it where "
             "you know better. note: what the mesh would read.\n";
+        if (gear_ == 0) return text;
+        text += fmt::format(
+            "# index: the tooth under the facet on a wheel of {:g}, as GemCad counts. Facets may "
+            "be "
+            "named by tier and index, such as A@76.\n",
+            std::abs(gear_));
         return text;
     }
 
@@ -246,14 +261,16 @@ private:
     BenchSigmas sigmas_;
     PlanFrame frame_;
     int table_;
-    std::string rows_;
-    int count_ = 0;
+    std::vector<std::string> names_, teeth_;  // by index
+    double gear_;
+    std::vector<FormRow> rows_;
 };
 
 }  // namespace
 
-ReadingsForm readings_form(const Stone& stone, bool has_material, const BenchSigmas& sigmas) {
-    return FormWriter(stone, has_material, sigmas).form();
+ReadingsForm readings_form(const Stone& stone, bool has_material, double gear,
+                           const BenchSigmas& sigmas) {
+    return FormWriter(stone, has_material, gear, sigmas).form();
 }
 
 }  // namespace culet

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "stone/stone.h"
 
@@ -23,9 +24,15 @@ struct BenchSigmas {
     double large_facet_deg = 0.1, small_facet_deg = 0.2, tiny_facet_deg = 0.3, tier_deg = 0.3;
 };
 
+struct FormRow {
+    std::string kind, of;
+    double sigma = 0;
+    std::string note;  ///< what the mesh would read, and at which index
+};
+
 struct ReadingsForm {
     std::string csv;
-    int rows = 0;
+    std::vector<FormRow> rows;
     std::string up_facet;  ///< the table; empty: the mesh has none
 };
 
@@ -34,8 +41,9 @@ struct ReadingsForm {
 /// in two directions, the weight. `note` tells what the mesh would read: the catalogue's value of a
 /// standard cut. Names that a reading cannot hold are left out. The first lines say how the form
 /// is filled in. `stone.up` is up; lengths are in `stone.unit`. `has_material`: without one the
-/// weight's value is not known.
-ReadingsForm readings_form(const Stone& stone, bool has_material, const BenchSigmas& sigmas = {});
+/// weight's value is not known. Facets of a design's tier are named by its index (index_names.h).
+ReadingsForm readings_form(const Stone& stone, bool has_material, double gear = 96,
+                           const BenchSigmas& sigmas = {});
 
 /// A stone file for `culet fit`, of a mesh and a form that lie where these paths say, as seen from
 /// `file`'s folder. `material` may be empty.

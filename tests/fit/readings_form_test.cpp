@@ -13,9 +13,12 @@
 
 #include "fit/fit.h"
 #include "stone/cuts/cuts.h"
+#include "stone/errors.h"
 #include "stone/gemcad_io.h"
+#include "stone/index_names.h"
 #include "stone/stone_io.h"
 #include "tests/folder_test.h"
+#include "tests/says.h"
 
 namespace culet {
 namespace {
@@ -67,7 +70,7 @@ protected:
 TEST_F(Form, OfABrilliantHasARowForEveryMain) {
     const ReadingsForm form = readings_form(stone_of_cut(make_cut("round-brilliant")), true);
     const auto written = read(form.csv);
-    EXPECT_EQ(written.size(), std::size_t(form.rows));
+    EXPECT_EQ(written.size(), form.rows.size());
     EXPECT_EQ(skipped_readings(written), written.size());
     EXPECT_EQ(form.up_facet, "T");
     std::map<std::string, int> rows;
@@ -93,8 +96,8 @@ TEST_F(Form, OfEveryCutReadsEveryFacet) {
         const ReadingsForm form = readings_form(stone, true);
         stone.up_facet = form.up_facet;
         const auto readings = bind_readings(read(filled_in(form.csv)), stone);
-        EXPECT_GE(form.rows, 20) << kind.name;
-        EXPECT_LE(form.rows, 46) << kind.name << form.csv;
+        EXPECT_GE(form.rows.size(), 20u) << kind.name;
+        EXPECT_LE(form.rows.size(), 46u) << kind.name << form.csv;
         std::vector<bool> is_read(stone.solid.facets.size(), false);
         for (const Reading& r : readings) {
             if (r.kind != ReadingKind::inclination) continue;
@@ -135,9 +138,12 @@ Solid design(bool named) {
 // GemCad's tiers: the mains one by one, the others by the names that the design has; without names,
 // as lists.
 TEST_F(Form, OfADesignMeansItsTiers) {
-    const auto written = read(readings_form(stone_of_cut(design(true)), true).csv);
-    for (const char* name : {"B", "B.7", "2", "2.7", "A*", "1*", "C*", "G*"}) {
-        EXPECT_TRUE(reads(written, name)) << name;
+    const Solid solid = design(true);
+    const auto written = read(readings_form(stone_of_cut(solid), true).csv);
+    for (const char* name : {"A*", "1*", "C*", "G*"}) EXPECT_TRUE(reads(written, name)) << name;
+    const std::vector<std::string> names = index_names(solid, 96);
+    for (const char* name : {"B", "B.7", "2", "2.7"}) {
+        EXPECT_TRUE(reads(written, names[std::size_t(find_facet(solid, name))])) << name;
     }
     Stone unnamed = stone_of_cut(design(false));
     const ReadingsForm form = readings_form(unnamed, true);
@@ -145,6 +151,63 @@ TEST_F(Form, OfADesignMeansItsTiers) {
     EXPECT_THAT(form.csv, HasSubstr("each(f"));
     // All 72 facets but the table, and 8 of lengths and weight.
     EXPECT_EQ(bind_readings(read(filled_in(form.csv)), unnamed).size(), 72u + 8);
+}
+
+// 12, 24, .. of 96 are the eighths of a turn that the design's lines give the tier B.
+TEST_F(Form, FacetsOfADesignAreCalledByTierAndIndex) {
+    const Stone stone = stone_of_cut(design(true));
+    const std::vector<std::string> names = index_names(stone.solid, 96);
+    for (std::size_t f = 0; f < names.size(); ++f) {
+        if (names[f].find('@') == std::string::npos) continue;
+        EXPECT_THAT(facets_at_index(stone.solid, names[f]), testing::ElementsAre(int(f)))
+            << names[f];
+    }
+    WrittenReading w;
+    w.kind = "inclination";
+    w.of = {names[std::size_t(find_facet(stone.solid, "B.3"))]};
+    EXPECT_THAT(w.of[0], testing::MatchesRegex("B@[0-9]+"));
+    w.value = 30;
+    w.sigma = 0.1;
+    const std::vector<Reading> bound = bind_readings({w}, stone);
+    EXPECT_EQ(stone.solid.facets[std::size_t(bound.at(0).facets[0])].name, "B.3");
+    EXPECT_EQ(bound[0].of, w.of);
+    // Another wheel, and the name of a facet that a standard cut has: C1 looks along x, a quarter
+    // of a turn from where indices begin.
+    EXPECT_THAT(
+        facets_at_index(stone.solid,
+                        index_names(stone.solid, 64)[std::size_t(find_facet(stone.solid, "B.3"))]),
+        testing::ElementsAre(find_facet(stone.solid, "B.3")));
+    const Solid brilliant = make_cut("round-brilliant");
+    for (const char* name : {"C1@24", "C@24", "C1@16of64"}) {
+        EXPECT_THAT(facets_at_index(brilliant, name),
+                    testing::ElementsAre(find_facet(brilliant, "C1")))
+            << name;
+    }
+    EXPECT_TRUE(facets_at_index(brilliant, "C1@36").empty());
+}
+
+// What a spreadsheet does to 1.10 and 1-2.
+TEST_F(Form, LostZerosAndDatesAreToldWithTheirLine) {
+    Stone stone = stone_of_cut(make_cut("round-brilliant"));
+    for (int i = 1; i <= 16; ++i) {
+        const int f = find_facet(stone.solid, "U" + std::to_string(i));
+        stone.solid.facets[std::size_t(f)].name = "1." + std::to_string(i);
+    }
+    const auto refusal = [&](const std::string& rows) -> std::string {
+        try {
+            bind_readings(read("kind,of,value,sigma\n" + rows), stone);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    const std::string lost =
+        refusal("inclination,1.1,40,0.1\ninclination,1.2,40,0.1\ninclination,1.1,41,0.1\n");
+    EXPECT_THAT(lost, test::says("form.csv:4", "line 2", "1.10"));
+    // Read twice, and so is 1.10: no slip.
+    EXPECT_EQ(refusal("inclination,1.1,40,0.1\ninclination,1.1,40,0.1\ninclination,1.10,40,0.1\n"),
+              "");
+    EXPECT_THAT(refusal("inclination,1-Feb,40,0.1\n"), test::says("form.csv:2", "date", "text"));
 }
 
 TEST_F(Form, NamesThatReadingsCannotHoldAreLeftOut) {
@@ -173,7 +236,7 @@ TEST_F(Form, StoneFileIsReadyForTheFit) {
     EXPECT_EQ(back.stone.up_facet, "T");
     EXPECT_TRUE(back.stone.azimuth_from_mesh);
     EXPECT_TRUE(back.stone.facets_are_whole);  // culet wrote the mesh
-    EXPECT_EQ(read_readings(file).size(), std::size_t(form.rows));
+    EXPECT_EQ(read_readings(file).size(), form.rows.size());
     EXPECT_EQ(skipped_readings(read_readings(file)), 0u);
 }
 
