@@ -42,11 +42,15 @@ int run_camera(const CameraArguments& a) {
     for (const std::string& note : found.notes) say("note: " + note, a.common.quiet);
     const Lens& lens = found.lens;
     say(fmt::format("focal length {:.1f} ± {:.1f} px, principal point {:.1f}, {:.1f} ± {:.1f} px, "
-                    "residual {:.2f} px over {} pictures",
+                    "corners of the board {:.2f} px off over {} pictures (rms)",
                     lens.focal_x, found.focal_sigma_px, lens.principal_x, lens.principal_y,
                     found.principal_sigma_px, lens.residual_px, lens.pictures),
         a.common.quiet);
-    if (found.doubt.empty()) return exit_good;
+    if (found.doubt.empty()) {
+        say(fmt::format("next: culet photo PHOTO... -o stone.exr --camera {}", a.out),
+            a.common.quiet);
+        return exit_good;
+    }
     say("not to be trusted: " + found.doubt, a.common.quiet);
     return exit_untrusted;
 }

@@ -164,8 +164,14 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
     return result;
 }
 
+// As one says it: name_of is the word of files.
+std::string verdict_words(Verdict verdict) {
+    return verdict == Verdict::no_evidence ? "no evidence that it is this stone" : name_of(verdict);
+}
+
 void say_result(const CompareArguments& a, const Comparison& comparison) {
-    say(fmt::format("{}: {}", name_of(comparison.verdict), comparison.reason), a.common.quiet);
+    say(fmt::format("{}: {}", verdict_words(comparison.verdict), comparison.reason),
+        a.common.quiet);
     if (comparison.within)
         say(fmt::format(
                 "{:.0f} % of the pixels are within one sigma of what the readings leave open, "
@@ -237,7 +243,8 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         if (!a.json.empty()) write_text(a.json, one.json);
         write_text(page_file, page);
         say_result(a, one.comparison);
-        say(fmt::format("report: {}", page_file.string()), a.common.quiet);
+        say(fmt::format("report: {}; next: open it in a browser", page_file.string()),
+            a.common.quiet);
         return one.comparison.usable() ? exit_good : exit_untrusted;
     }
 
@@ -263,8 +270,8 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         write_text(fs::path(a.folder) / rows[i].page, pages[i]);
     }
     write_text(page_file, page);
-    say(fmt::format("{}: {}", name_of(several.verdict), several.reason), a.common.quiet);
-    say(fmt::format("report: {}", page_file.string()), a.common.quiet);
+    say(fmt::format("{}: {}", verdict_words(several.verdict), several.reason), a.common.quiet);
+    say(fmt::format("report: {}; next: open it in a browser", page_file.string()), a.common.quiet);
     return several.verdict == Verdict::refused ? exit_untrusted : exit_good;
 }
 

@@ -136,7 +136,16 @@ int run_cut(const std::string& name, const CutOptions& options) {
                     solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
                     volume(solid)),
         options.common.quiet || options.json == "-");
-    if (options.form.readings.empty()) return exit_good;
+    if (options.form.readings.empty()) {
+        if (!options.out.empty() && options.out != "-")
+            say(fmt::format(
+                    "next: culet render {0} --material diamond -o stone.png (a picture), or "
+                    "culet info {0} --readings form.csv --form form.html --stone stone.toml "
+                    "(a form for your readings)",
+                    options.out),
+                options.common.quiet);
+        return exit_good;
+    }
     Stone stone;
     stone.name = name;
     // STL keeps no names: the form is of the mesh as it will be read.

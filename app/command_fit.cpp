@@ -43,6 +43,20 @@ void draw(const FitCommand& command, const std::string& title, const FitResult& 
                            result.solid, paint.facets, paint.legend));
 }
 
+std::string next_step(const FitCommand& command, const FitResult& result) {
+    if (result.status == FitStatus::not_converged)
+        return fmt::format("correct what is named above, then culet fit {} again", command.stone);
+    if (result.status == FitStatus::undetermined)
+        return fmt::format("read what is named above, then culet fit {} again", command.stone);
+    if (result.status == FitStatus::contradictory)
+        return fmt::format("correct the readings named above, then culet fit {} -o {} --from {}",
+                           command.stone, command.output, command.output);
+    return fmt::format(
+        "culet grade {0} (how it returns light), culet info {0} --cutting-sheet sheet.html (to cut "
+        "it again), or culet render {0} --material NAME -o stone.png (a picture)",
+        command.output);
+}
+
 int run_fit(const FitCommand& command) {
     require_solid_name(command.output);
     require_writable(command.output);
@@ -83,6 +97,7 @@ int run_fit(const FitCommand& command) {
                     result.checks.planarity_max, name_of(result.unit), result.log.iterations,
                     result.log.seconds),
         !command.common.verbose);
+    say("next: " + next_step(command, result), command.common.quiet);
     return result.usable() ? exit_good : exit_untrusted;
 }
 

@@ -94,7 +94,8 @@ void write_page(const GradeCommand& command, const std::vector<Graded>& all) {
     }
     write_text(folder / "report.html", grade_page(view));
     write_text(folder / "grade.json", json_of(all));
-    say(fmt::format("page: {}", (folder / "report.html").string()), command.common.quiet);
+    say(fmt::format("page: {}; next: open it in a browser", (folder / "report.html").string()),
+        command.common.quiet);
 }
 
 int run_grade(GradeCommand command) {

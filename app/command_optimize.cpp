@@ -218,6 +218,8 @@ int run_optimize(OptimizeCommand command) {
         say(fmt::format("a gain of {:g} was not reached: ask for less, or allow more --range",
                         command.gain),
             command.common.quiet);
+    say(fmt::format("next: culet info {} --cutting-sheet sheet.html (to cut it)", command.out),
+        command.common.quiet);
     return input.trusted && result.gained ? exit_good : exit_untrusted;
 }
 

@@ -197,6 +197,7 @@ int run_photo(const PhotoArguments& a) {
                         a.plot),
             a.common.quiet);
     if (!photo.photometric) say("note: for shapes only: " + photo.not_photometric, a.common.quiet);
+    say(fmt::format("next: culet register {} scene.toml -o posed.toml", a.out), a.common.quiet);
     return exit_good;
 }
 

@@ -110,6 +110,9 @@ int run_refine(const RefineArguments& a) {
             say(line, a.common.quiet);
         }
     }
+    say(fmt::format("next: culet render {0} --material NAME -o stone.png, or culet grade {0}",
+                    a.output),
+        a.common.quiet);
     return result.after.usable() ? exit_good : exit_untrusted;
 }
 

@@ -91,6 +91,8 @@ int run_register(const RegisterArguments& a) {
     if (!a.json.empty()) write_text(a.json, json);
     write_text(out, text);
     say_result(a, pose);
+    if (pose.usable())
+        say(fmt::format("next: culet compare {} {} -o report", a.photo, a.out), a.common.quiet);
     return pose.usable() ? exit_good : exit_untrusted;
 }
 

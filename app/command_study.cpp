@@ -107,7 +107,8 @@ int run_study(const StudyCommand& command) {
                         study.left_out.size(), options.budget_seconds),
             command.common.quiet);
     }
-    say(fmt::format("pages: {}", (folder / "report.html").string()), command.common.quiet);
+    say(fmt::format("pages: {}; next: open it in a browser", (folder / "report.html").string()),
+        command.common.quiet);
     return study.usable() ? exit_good : exit_untrusted;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace culet {
 
 std::string bench_words(const NextReading& reading) {
@@ -30,6 +32,17 @@ std::string bench_words(const NextReading& reading) {
             break;
     }
     return std::string("read the ") + name_of(reading.kind) + " of " + of;
+}
+
+std::string told_reading(const std::vector<Reading>& readings, const std::string& id) {
+    const auto found = std::find_if(readings.begin(), readings.end(),
+                                    [&](const Reading& r) { return r.id == id; });
+    if (found == readings.end()) return id;
+    const std::string what = fmt::format(
+        "{}{}{}", name_of(found->kind), found->of.empty() ? "" : " of ", fmt::join(found->of, "/"));
+    if (found->line <= 0) return fmt::format("{} ({})", id, what);
+    return fmt::format("{} line {} ({}, {})", found->file.filename().string(), found->line, what,
+                       id);
 }
 
 }  // namespace culet

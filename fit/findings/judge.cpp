@@ -29,23 +29,30 @@ std::string names(const std::vector<std::string>& list) {
     return text;
 }
 
+std::string told_all(const System& system, const std::vector<std::string>& ids) {
+    std::vector<std::string> words;
+    for (const std::string& id : ids) words.push_back(told_reading(system.readings(), id));
+    return names(words);
+}
+
 // Who is to blame, as far as one can tell.
-std::string contradiction(const FitResult& result) {
+std::string contradiction(const System& system, const FitResult& result) {
     std::string text;
     if (!result.findings.extra_facets.empty() &&
         result.findings.extra_facets.front().or_wrong.empty()) {
         text = "; " + result.findings.extra_facets.front().what;
     } else if (!result.findings.suspects.empty()) {
-        text = "; look at " + names(result.findings.suspects);
+        text = "; look at " + told_all(system, result.findings.suspects);
         const Proposal& first = result.findings.proposals.front();
         if (!first.slip.empty()) {
             text += fmt::format(" ({}: {:g}?)", first.slip,
                                 first.in_radians ? degrees(first.corrected) : first.corrected);
         } else if (!first.alternatives.empty()) {
-            text += " (or at " + names(first.alternatives) + " instead)";
+            text += " (or at " + told_all(system, first.alternatives) + " instead)";
         }
     } else if (!result.findings.disagreeing.empty()) {
-        text = "; readings that cannot hold together: " + names(result.findings.disagreeing);
+        text = "; readings that cannot hold together: " +
+               told_all(system, result.findings.disagreeing);
     }
     return text;
 }
@@ -141,8 +148,9 @@ std::optional<Verdict> denied_topology(const Finished& finished, const FitResult
             result.log.options.significance) {
         return Verdict{
             FitStatus::not_converged,
-            fmt::format("the readings want edge {} to have no length, and agree with the "
-                        "mesh's facets only at a loss (chi2 {:.1f} more)",
+            fmt::format("by the readings these neighbours in the mesh do not touch: {} (with the "
+                        "edge between them chi-square is larger by {:.1f}); draw the ends of the "
+                        "edge as one corner, or allow the topology to change",
                         names(findings.vanishing_edges), findings.vanishing_chi2)};
     }
     return {};
@@ -194,7 +202,7 @@ std::optional<Verdict> unsettled(const System& system, const Finished& finished,
             : fmt::format("the fit does not settle ({} steps): {}", finished.iterations, edge)};
 }
 
-std::optional<Verdict> disagreement(const FitResult& result) {
+std::optional<Verdict> disagreement(const System& system, const FitResult& result) {
     const FitStatistics& statistics = result.statistics;
     if (statistics.dof > 0 && statistics.chi2_p < result.log.options.significance) {
         return Verdict{
@@ -202,11 +210,11 @@ std::optional<Verdict> disagreement(const FitResult& result) {
             fmt::format("the readings do not agree within their uncertainties (chi-square "
                         "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
                         statistics.chi2, statistics.dof, statistics.chi2_limit,
-                        result.log.options.significance, contradiction(result))};
+                        result.log.options.significance, contradiction(system, result))};
     }
     if (!result.findings.suspects.empty()) {
         return Verdict{FitStatus::contradictory,
-                       "readings that cannot belong to the others" + contradiction(result)};
+                       "readings that cannot belong to the others" + contradiction(system, result)};
     }
     if (!result.findings.extra_facets.empty()) {
         return Verdict{FitStatus::contradictory, result.findings.extra_facets.front().what};
@@ -254,11 +262,12 @@ Verdict verdict_on(const System& system, const Finished& finished, const Diagnos
     if (auto verdict = denied_topology(finished, result)) return *verdict;
     if (auto verdict = unsound_solid(system, result)) return *verdict;
     if (auto verdict = unsettled(system, finished, result)) return *verdict;
-    if (auto verdict = disagreement(result)) return *verdict;
+    if (auto verdict = disagreement(system, result)) return *verdict;
     if (auto verdict = undetermined(result)) return *verdict;
-    return {FitStatus::converged,
-            fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)",
-                        result.statistics.chi2, result.statistics.dof)};
+    return {
+        FitStatus::converged,
+        fmt::format("the readings agree within their sigmas (chi-square {:.1f}, {:.0f} expected)",
+                    result.statistics.chi2, result.statistics.dof)};
 }
 
 }  // namespace
@@ -274,8 +283,10 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
         }
     }
     if (!result.findings.vanishing_edges.empty() && verdict.status != FitStatus::not_converged) {
-        result.message += fmt::format("; the readings want edge {} to have no length",
-                                      names(result.findings.vanishing_edges));
+        result.message += fmt::format(
+            "; by the readings these neighbours hardly touch: {} (their edge is kept, without "
+            "length)",
+            names(result.findings.vanishing_edges));
     }
     for (const std::string& note : result.log.notes) result.message += "; " + note;
     if (!diagnosis.analysed) {

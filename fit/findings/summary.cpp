@@ -60,13 +60,23 @@ std::string both_figures(const FitResult& result, bool one) {
                        one ? "it" : "them", change->after);
 }
 
+// What chi-square says, in the readings' own measure.
+std::string misfit_words(const FitStatistics& statistics) {
+    return fmt::format(
+        "{:.2f} times as far off as their sigmas say (chi-square {:.1f}; {:.1f} expected, up to "
+        "{:.1f} by chance)",
+        std::sqrt(statistics.chi2 / statistics.dof), statistics.chi2, statistics.dof,
+        statistics.chi2_limit);
+}
+
 std::string verdict(const FitResult& result) {
     switch (result.status) {
         case FitStatus::converged:
-            return fmt::format(
-                "The readings agree with this stone: chi-square {:.1f}, where {:.1f} is expected "
-                "and up to {:.1f} no surprise.",
-                result.statistics.chi2, result.statistics.dof, result.statistics.chi2_limit);
+            return result.statistics.dof > 0
+                       ? fmt::format("The readings agree with this stone: they are {}.",
+                                     misfit_words(result.statistics))
+                       : "This stone has these readings: there are no more than it needs, so that "
+                         "none checks another.";
         case FitStatus::contradictory:
             if (!result.findings.doubts.empty()) {
                 const bool agrees = result.statistics.dof <= 0 ||
@@ -81,10 +91,8 @@ std::string verdict(const FitResult& result) {
             }
             if (result.statistics.dof > 0 &&
                 result.statistics.chi2 > result.statistics.chi2_limit) {
-                return fmt::format(
-                    "The readings contradict each other: chi-square {:.1f}, where {:.1f} is "
-                    "expected and up to {:.1f} no surprise.",
-                    result.statistics.chi2, result.statistics.dof, result.statistics.chi2_limit);
+                return fmt::format("The readings contradict each other: they are {}.",
+                                   misfit_words(result.statistics));
             }
             return fmt::format("The readings contradict each other: {}.", result.message);
         case FitStatus::undetermined:
@@ -253,9 +261,8 @@ std::string next_reading(const FitResult& result) {
     if (!best.closes && best.reduces < 0.1) return {};
     return fmt::format("What would help most: {} ({}).", bench_words(best),
                        best.closes ? "it would settle something that is open"
-                                   : fmt::format("it would take {:.0f} % off the variance of all "
-                                                 "facets",
-                                                 100 * best.reduces));
+                                   : fmt::format("it would make all facets together {:.0f} % surer",
+                                                 100 * (1 - std::sqrt(1 - best.reduces))));
 }
 
 // Which facets rest on readings, and what is supposed of the others.
@@ -271,6 +278,16 @@ std::string supposed(const FitResult& result) {
         prior.source == Prior::Source::catalogue ? "the design that the mesh was made by"
                                                  : "the mesh as it was drawn",
         degrees(prior.tier_angle), degrees(prior.facet_angle));
+}
+
+// Beside a prior the readings decide whether planes meet: the mesh shows that they do not.
+std::string missed_meets(const FitResult& result) {
+    const MeetReport& meets = result.statistics.meets;
+    if (result.statistics.prior.source == Prior::Source::none || !meets.estimated) return {};
+    return fmt::format(
+        "By the readings the planes may miss their common corners by {:.2g} {}: the mesh has short "
+        "edges there ([fit] meets = \"exact\" closes them).",
+        meets.sigma, name_of(result.unit));
 }
 
 std::vector<std::string> bad_meets(const FitResult& result) {
@@ -317,6 +334,7 @@ std::vector<std::string> fit_summary(const FitResult& result) {
             for (const std::string& what : tier.what) add(sentence_of(what));
         }
         add(supposed(result));
+        add(missed_meets(result));
         add(least_sure(result));
     }
     add(doubtful(result));
