@@ -13,6 +13,7 @@
 #include "compare/photo/bracket.h"
 #include "compare/photo/lens.h"
 #include "compare/photo/photo_picture.h"
+#include "compare/photo/response.h"
 #include "compare/photo/white_balance.h"
 #include "page/chart.h"
 #include "render/colour/colour.h"
@@ -100,8 +101,11 @@ std::string plot_of(const ResponseCurve& curve) {
 Json balance_white(const PhotoArguments& a, Bracket& merged) {
     Photo& photo = merged.photo;
     Json white;
-    const Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
+    Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
     say_notes(a.white, other.notes, a.common.quiet);
+    // Of the same camera: its values mean what those of the shots do.
+    if (merged.curve && other.encoding.starts_with("8-bit sRGB"))
+        apply_response(*merged.curve, other);
     const Photo& with_card = a.white.empty() ? photo : other;
     const std::string where = a.white.empty() ? a.shots[0] : a.white;
     if (a.chart) {

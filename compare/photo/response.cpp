@@ -13,6 +13,11 @@ namespace culet {
 
 namespace {
 
+// Pixels that the curve is fitted to, and the weight of its smoothness beside them: more of them
+// take seconds, with the square of their number.
+constexpr int k_samples = 200;
+constexpr float k_smoothness = 10;
+
 // The values of an 8-bit file from what read_photo made of them; exact: two of them are never as
 // near to each other as two places of the table (1 / (255 * 12.92) where it is dark).
 class FileValues {
@@ -36,47 +41,39 @@ private:
 
 ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures) {
     const FileValues values;
+    // One curve for red, green and blue, which a camera bends alike: a curve for each would be
+    // known up to a factor each only, and where the fit of so few samples is off, a channel's
+    // factor would be, too: a wrong white balance.
     std::vector<cv::Mat> pictures;
     std::vector<float> times;
     for (std::size_t k = 0; k < shots.size(); ++k) {
-        cv::Mat picture(shots[k].height, shots[k].width, CV_8UC3);
+        const auto pixels = shots[k].rgb.size() / 3;
+        cv::Mat picture(3 * shots[k].height, shots[k].width, CV_8UC1);
         for (std::size_t i = 0; i < shots[k].rgb.size(); ++i)
-            picture.data[i] = values.of(shots[k].rgb[i]);
+            picture.data[i % 3 * pixels + i / 3] = values.of(shots[k].rgb[i]);
         pictures.push_back(picture);
         times.push_back(static_cast<float>(exposures[k] / exposures[0]));
     }
     cv::Mat response;
     try {
-        cv::createCalibrateDebevec(200, 10.0f, false)->process(pictures, response, times);
+        cv::createCalibrateDebevec(k_samples, k_smoothness, false)
+            ->process(pictures, response, times);
     } catch (const cv::Exception&) {
         response.release();
     }
-    if (response.total() != 256 || response.channels() != 3)
-        throw InputError("the camera's response cannot be found from this series");
-    ResponseCurve curve;
-    for (std::size_t c = 0; c < 3; ++c) {
-        float highest = 0;
-        for (int v = 0; v < 256; ++v) {
-            const float value = response.at<cv::Vec3f>(v)[static_cast<int>(c)];
-            if (!std::isfinite(value) || value < 0)
-                throw InputError("the camera's response cannot be found from this series");
-            highest = std::max(highest, value);
-            curve[c][static_cast<std::size_t>(v)] = highest;
-        }
+    const InputError unknown("the camera's response cannot be found from this series");
+    if (response.total() != 256 || response.channels() != 1) throw unknown;
+    std::array<float, 256> light{};
+    float highest = 0;
+    for (int v = 0; v < 256; ++v) {
+        const float value = response.at<float>(v);
+        if (!std::isfinite(value) || value < 0) throw unknown;
+        highest = std::max(highest, value);
+        light[static_cast<std::size_t>(v)] = highest;
     }
-    // The solution is known up to a factor a channel. Grey is grey: the middle values are those of
-    // the sRGB curve, which keeps the camera's white balance; then green's end is 1.
-    std::array<float, 3> middle{};
-    for (std::size_t c = 0; c < 3; ++c) middle[c] = curve[c][128];
-    for (std::size_t c = 0; c < 3; ++c) {
-        if (!(middle[c] > 0))
-            throw InputError("the camera's response cannot be found from this series");
-        for (float& v : curve[c]) v *= middle[1] / middle[c];
-    }
-    const float end = curve[1][255];
-    for (auto& channel : curve)
-        for (float& v : channel) v /= end;
-    return curve;
+    if (!(highest > 0)) throw unknown;
+    for (float& v : light) v /= highest;
+    return {light, light, light};
 }
 
 void apply_response(const ResponseCurve& curve, Photo& photo) {

@@ -208,6 +208,28 @@ TEST(Bracket, AnUnknownToneCurveIsFoundFromTheSeries) {
     EXPECT_LT(spread(found.photo), spread(assumed.photo) / 2);
 }
 
+// Five JPEGs of grey and coloured light: the curve is one for all channels, so that what stood at
+// 1 : 1.1 : 1.2 in the scene stands so in the sum (a grey card's gains follow from that), which a
+// curve for each channel missed by a third.
+TEST(Bracket, AToneCurveThatIsFoundKeepsTheWhiteBalance) {
+    std::vector<BracketShot> shots;
+    for (int k = 0; k < 5; ++k) {
+        Camera camera;
+        camera.exposure = std::exp2(-2 * k + 2);
+        camera.eight_bits = true;
+        shots.push_back(shot(camera, 40 + static_cast<unsigned>(k)));
+    }
+    const Bracket found = merge_bracket(shots);
+    ASSERT_EQ(found.response, Response::calibrated);
+    std::array<double, 3> sums{};
+    for (int y = 40; y < 60; ++y)
+        for (int x = 60; x < 80; ++x)
+            for (std::size_t c = 0; c < 3; ++c)
+                sums[c] += double(found.photo.rgb[3 * std::size_t(y * k_width + x) + c]);
+    EXPECT_NEAR(sums[1] / sums[0], 1.1, 0.03);
+    EXPECT_NEAR(sums[1] / sums[2], 1.1 / 1.2, 0.03);
+}
+
 TEST(Bracket, ASingleJpegIsForShapesOnly) {
     Photo only = photo_by({1.0 / 64, 0, 0, true}, 30);
     only.photometric = false;
