@@ -19,7 +19,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_unsure_deg = 2;  // as scene_comparison.cpp
+constexpr double k_unsure_deg = 2;  // as k_sure of scene_comparison.cpp
 
 struct RegisterArguments {
     CommonOptions common;
@@ -58,16 +58,18 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
         quiet);
     if (degrees(pose.sigmas.angle_99) > k_unsure_deg)
         say("that is not very sure: tilt the stone by 10 to 20 degrees and take it larger, or fit "
-            "it to more readings; culet compare --calibrate takes poses sure to 2 degrees",
+            "it to more readings; culet compare looks for a surer one by the picture itself",
             quiet);
     if (pose.mirrored)
         say("the photograph is mirrored: turn it left to right before it is compared", quiet);
     if (!pose.chirality_known)
         say("a stone of this symmetry looks alike in a mirror: taken as not mirrored", quiet);
-    int alike = 0;
-    for (const TriedPose& other : pose.others) alike += other.symmetric && !other.mirrored ? 1 : 0;
-    if (alike > 0 && a.common.verbose)
-        say(fmt::format("{} other views look alike by the stone's symmetry", alike), quiet);
+    if (pose.look_alikes > 0)
+        say(fmt::format(
+                "the stone looks alike from {} other view{}: the one nearest to the scene's "
+                "camera was taken",
+                pose.look_alikes, pose.look_alikes == 1 ? "" : "s"),
+            quiet);
 }
 
 int run_register(const RegisterArguments& a) {

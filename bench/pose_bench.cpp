@@ -1,13 +1,14 @@
 // Registration on simulated photographs: how near the camera found comes to the camera that took
 // the picture, whether the uncertainty given is true, and whether what is wrong is refused.
 //
-//   build/bench_pose --seeds 100 --as-taken
+//   build/bench_pose --seeds 100 --as-taken --stone-px 200 400
 //   build/bench_pose --seeds 100 --as-taken --fault other-cut
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -27,6 +28,7 @@ struct Settings {
     int seeds = 20, first = 1;
     double limit_deg = 0, limit_px = 0;  // 0: as the program has them
     std::string fault = "none", folder;
+    std::array<double, 2> stone_px{0, 0};
     bool as_taken = false, with_mask = false, verbose = false;
 };
 
@@ -108,7 +110,7 @@ Trial one_trial(const Settings& settings, Fault fault, int seed) {
 }
 
 void summarize(const std::vector<Trial>& trials) {
-    int accepted = 0, held = 0, wrong = 0;
+    int accepted = 0, held = 0, wrong = 0, mirrored = 0;
     double squares = 0, seconds = 0;
     std::vector<double> angles, shifts, stated;
     for (const Trial& trial : trials) {
@@ -117,6 +119,7 @@ void summarize(const std::vector<Trial>& trials) {
         ++accepted;
         held += trial.held ? 1 : 0;
         wrong += trial.wrong ? 1 : 0;
+        mirrored += trial.pose.mirrored ? 1 : 0;
         angles.push_back(trial.angle);
         shifts.push_back(trial.shift);
         stated.push_back(degrees(trial.pose.sigmas.angle_99));
@@ -127,8 +130,10 @@ void summarize(const std::vector<Trial>& trials) {
         return v.empty() ? NAN
                          : v[static_cast<std::size_t>(share * static_cast<double>(v.size() - 1))];
     };
-    fmt::print("{} photographs: {} accepted, {} of them within what they state at 99 %, {} wrong\n",
-               trials.size(), accepted, held, wrong);
+    fmt::print(
+        "{} photographs: {} accepted, {} of them within what they state at 99 %, {} "
+        "wrong, {} mirrored\n",
+        trials.size(), accepted, held, wrong, mirrored);
     if (accepted == 0) return;
     fmt::print(
         "of those accepted: view off by {:.2f}, {:.2f}, {:.2f} degrees (median, 90 %, worst), "
@@ -144,6 +149,7 @@ void add_options(CLI::App& program, Settings& settings) {
     program.add_option("--seeds", settings.seeds);
     program.add_option("--first", settings.first);
     program.add_option("--size", photographs.size);
+    program.add_option("--stone-px", settings.stone_px, "the stone's diameter: from, to");
     program.add_option("--facet-deg", photographs.facet_deg);
     program.add_option("--off-standard-deg", photographs.off_standard_deg,
                        "of every other stone, which its model knows");
@@ -181,6 +187,8 @@ int main(int argc, char** argv) {
         settings.photographs.most_blur = 1.2;
         settings.photographs.off_standard_deg = 0.4;
     }
+    settings.photographs.least_stone_px = settings.stone_px[0];
+    settings.photographs.most_stone_px = settings.stone_px[1];
     for (const auto& [name, fault] : faults()) {
         const bool asked = settings.fault == "all" ? fault != Fault::none : settings.fault == name;
         if (!asked) continue;

@@ -150,6 +150,9 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
     place.off_x = uniform(-0.05, 0.05);
     place.off_y = uniform(-0.05, 0.05);
     place.size = settings.size;
+    if (settings.least_stone_px > 0)
+        place.size = static_cast<int>(uniform(settings.least_stone_px, settings.most_stone_px) /
+                                      place.share);
     Scene scene;
     scene.stone.solid = stone;
     scene.stone.material = catalogue_material(cut.material);

@@ -13,6 +13,8 @@ namespace culet {
 
 struct PhotographSettings {
     int size = 400, threads = 0;
+    /// Pixels that the stone is across, at random; 0: as `size` has it.
+    double least_stone_px = 0, most_stone_px = 0;
     double facet_deg = 0.2;       ///< of the model, one sigma
     double off_standard_deg = 0;  ///< of every other stone, from the standard cut
     double start_deg = 30, start_scale = 0.2, tilt_deg = 30;

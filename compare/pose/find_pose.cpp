@@ -18,9 +18,14 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_settled = 8;  // of the refined, to the end
+constexpr std::size_t k_meant = 3;    // and of those that the stone looks alike from
 // Poses that look alike by the stone's symmetry and are no likelier than this one than another
 // cannot be told apart: the one nearest to the start is taken.
 constexpr double k_tie = 8;
+// Small pictures of right stones prefer another place of the stone's symmetry by up to 23, for the
+// facets' errors (bench_pose --as-taken --stone-px 200 400): one that the start means is taken
+// before one that it does not unless that is far likelier.
+constexpr double k_not_meant = 25;
 constexpr double k_near = radians(10);  // no other view, but the same with other facets
 
 EdgeSupport support_of(const PoseTask& task, const PhotoSide& side, const StoneView& view) {
@@ -61,8 +66,9 @@ bool looks_alike(const PoseTask& task, const Candidate& a, const Candidate& b) {
 
 /// How much less likely a view is for where the start stands: that is off by about half of what is
 /// searched, and one in a thousand is at another place of the stone's symmetry. Natural logarithm.
-double unlikely_from(double start_angle, const PoseTask& task) {
-    return std::min(0.5 * std::pow(start_angle / (0.5 * task.options.search), 2), std::log(1000.0));
+double unlikely_from(double start_angle, const PoseTask& task, bool symmetric = true) {
+    const double far = 0.5 * std::pow(start_angle / (0.5 * task.options.search), 2);
+    return symmetric ? std::min(far, std::log(1000.0)) : far;
 }
 
 /// How much likelier the first of two views is that look alike by the stone's symmetry: by the
@@ -79,10 +85,10 @@ double lead_of(const Candidate& a, const Candidate& b) {
 /// where the start stands; of about as likely ones the one that is not mirrored and nearest to the
 /// start.
 void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) {
+    const auto start_angle = [](const Candidate& c) {
+        return angle_between(c.refined.solved.view, c.side->start);
+    };
     const auto lead = [&](const Candidate& a, const Candidate& b) {
-        const auto start_angle = [](const Candidate& c) {
-            return angle_between(c.refined.solved.view, c.side->start);
-        };
         return lead_of(a, b) + unlikely_from(start_angle(b), task) -
                unlikely_from(start_angle(a), task);
     };
@@ -94,8 +100,10 @@ void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) 
         if (lead(best[i], best[likeliest]) > 0) likeliest = i;
     }
     std::size_t chosen = likeliest;
+    const bool meant = start_angle(best[likeliest]) <= task.options.search;
     for (const std::size_t i : alike) {
-        if (lead(best[likeliest], best[i]) > k_tie) continue;
+        const bool preferred = !meant && start_angle(best[i]) <= task.options.search;
+        if (lead(best[likeliest], best[i]) > (preferred ? k_not_meant : k_tie)) continue;
         if (nearer_to_start(best[i].side, best[i].refined.solved.view, best[chosen].side,
                             best[chosen].refined.solved.view))
             chosen = i;
@@ -117,9 +125,10 @@ void widen(const Candidate& won, const Candidate& other, const TriedPose& tried,
 double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
     const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
     if (within) return 1e300;
-    if (!other.symmetric) return other.lead;
-    if (other.mirrored != pose.mirrored || other.start_angle > task.options.search) return 1e300;
-    return other.lead + unlikely_from(other.start_angle, task) -
+    if (other.symmetric &&
+        (other.mirrored != pose.mirrored || other.start_angle > task.options.search))
+        return 1e300;
+    return other.lead + unlikely_from(other.start_angle, task, other.symmetric) -
            unlikely_from(pose.start_angle, task);
 }
 
@@ -162,8 +171,12 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
         other.log_odds = best[i].evidence.log_odds;
         other.start_angle = angle_between(best[i].refined.solved.view, best[i].side->start);
         widen(won, best[i], other, pose);
-        if (other.symmetric && other.mirrored != pose.mirrored && other.lead < k_tie)
-            pose.chirality_known = false;
+        if (other.symmetric && other.lead < k_tie) {
+            if (other.mirrored != pose.mirrored)
+                pose.chirality_known = false;
+            else if (other.turn > k_near)
+                ++pose.look_alikes;
+        }
         pose.others.push_back(other);
     }
     double rival = 1e300, rival_turn = 0;
@@ -180,20 +193,44 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
         pose.others.push_back({camera_of(view, task.start), images[i].side->mirrored,
                                angle_between(view, solved.view), 0, true, won.evidence.log_odds,
                                angle_between(view, images[i].side->start)});
-        if (images[i].side != won.side) pose.chirality_known = false;
+        if (images[i].side != won.side)
+            pose.chirality_known = false;
+        else
+            ++pose.look_alikes;
     }
     judge(task, won, rival, rival_turn, pose);
 }
 
-void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose& pose) {
+void refine(const PoseTask& task, std::vector<Candidate>& candidates) {
     tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
         Candidate& c = candidates[i];
         c.refined = draw_in(task.wire, c.side->picture, c.view, settings_of(task, *c.side));
         if (!c.refined.lost) c.support = support_of(task, *c.side, c.refined.solved.view);
     });
+}
+
+/// A small picture may be explained a little better by a view that the start does not mean, and
+/// that the stone looks alike from: the view that it does mean is then refined from there, too.
+void add_meant_look_alikes(const PoseTask& task, std::vector<Candidate>& best) {
+    std::vector<Candidate> meant;
+    for (const Candidate& candidate : best) {
+        const StoneView& view = candidate.refined.solved.view;
+        if (angle_between(view, candidate.side->start) <= task.options.search) continue;
+        if (const auto near = meant_look_alike(task, *candidate.side, view))
+            meant.push_back({candidate.side, *near, {}, {}, {}});
+        if (meant.size() >= k_meant) break;
+    }
+    refine(task, meant);
+    best.insert(best.end(), meant.begin(), meant.end());
+    best = distinct(std::move(best));
+}
+
+void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose& pose) {
+    refine(task, candidates);
     report(task, 0.7);
     std::vector<Candidate> best = distinct(std::move(candidates));
     if (best.size() > k_settled) best.resize(k_settled);
+    add_meant_look_alikes(task, best);
     tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t i) {
         Candidate& c = best[i];
         c.refined = settle(task.wire, c.side->picture, c.refined, settings_of(task, *c.side));
@@ -206,9 +243,10 @@ void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose&
     best = distinct(std::move(best));
     if (best.empty()) {
         pose.trouble = "no view of this stone has its edges where the photograph has any";
-        pose.remedy =
+        pose.remedy = fmt::format(
             "Check that this is the stone, from this side, and turn the scene's camera to within "
-            "30 degrees of how the stone was held; --search-deg 60 searches farther";
+            "30 degrees of how the stone was held; --search-deg {:.0f} searches farther",
+            std::min(180.0, 2 * degrees(task.options.search)));
         return;
     }
     take_nearest_of_equals(task, best);

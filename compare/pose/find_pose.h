@@ -109,6 +109,7 @@ struct FoundPose {
     Camera camera;
     bool mirrored = false;
     bool chirality_known = true;  ///< false: both were tried, and the stone looks alike in both
+    int look_alikes = 0;  ///< other views that explain the photograph as well, by its symmetry
     PoseSigmas sigmas;
     double start_angle = 0;  ///< from the start's view to the one found
     double start_scale = 1;  ///< size found over the start's size

@@ -17,6 +17,7 @@ constexpr int k_views_over = 6;   // of the stone turned over
 constexpr int k_turned_from = 3;  // of these, turned all round
 constexpr int k_turned_each = 8;
 constexpr std::size_t k_refined = 24;
+constexpr int k_most_fold = 16;  // of a stone's symmetry about its axis
 
 void sort_by_score(std::vector<SeenView>& found) {
     std::stable_sort(found.begin(), found.end(), [](const SeenView& a, const SeenView& b) {
@@ -122,6 +123,24 @@ std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side,
         return nearer_to_start(a.side, a.coarse.view, b.side, b.coarse.view);
     });
     return images;
+}
+
+std::optional<StoneView> meant_look_alike(const PoseTask& task, const PhotoSide& side,
+                                          const StoneView& view) {
+    std::optional<StoneView> nearest;
+    for (int fold = 2; fold <= k_most_fold; ++fold) {
+        for (int k = 1; k < fold; ++k) {
+            StoneView turned = view;
+            turned.turn = view.turn * rotation_by({0, 0, 2 * std::numbers::pi * k / fold});
+            const double angle = angle_between(turned, side.start);
+            if (angle > task.options.search ||
+                (nearest && angle >= angle_between(*nearest, side.start)) ||
+                !look_alike(task.wire, view, turned, false))
+                continue;
+            nearest = turned;
+        }
+    }
+    return nearest;
 }
 
 bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSide* b_side,

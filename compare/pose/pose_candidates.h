@@ -2,6 +2,8 @@
 // Views worth refining: the coarse search over both sides of the photograph, without views that are
 // the same but for the stone's symmetry.
 
+#include <optional>
+
 #include "compare/pose/pose_task.h"
 
 namespace culet {
@@ -24,6 +26,12 @@ std::vector<Candidate> coarse_candidates(const PoseTask& task);
 /// What the model's own symmetry makes of a view: first the one that is not mirrored and
 /// nearest to the start.
 std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side, const StoneView& view);
+
+/// Of the views that differ from this one by a turn about the stone's axis and from which it looks
+/// alike but for small irregularities, the one nearest to the start; nothing when none is as near
+/// as is searched.
+std::optional<StoneView> meant_look_alike(const PoseTask& task, const PhotoSide& side,
+                                          const StoneView& view);
 
 /// Not mirrored comes before mirrored; of either, the one turned less.
 bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSide* b_side,

@@ -20,6 +20,8 @@ constexpr double k_surely = 4.4, k_surely_by_groups = 2.6, k_place_by_groups = 3
 
 // Of the stone's diameter.
 constexpr double k_place = 0.03;
+// A view that is less sure than this is not worth accepting by an option.
+constexpr double k_farthest_deg = 45;
 // Views are tried until one is met by more than chance: models of other proportions and pictures of
 // other things came to evidence of up to 11 (bench_pose --fault all).
 constexpr double k_places_tried = 8;
@@ -170,11 +172,14 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
     }
     if (!(pose.sigmas.angle_99 <= limits.angle)) {
         const double off = degrees(pose.sigmas.angle_99);
-        refuse(fmt::format("the view may be off by {:.2f} degrees (at most {:.2f} are allowed)",
-                           off, degrees(limits.angle)),
-               fmt::format("Accept that with --within-deg {:.2g}, or tilt the stone by 10 to 20 "
-                           "degrees and take it larger; a model fitted to more readings helps too",
-                           1.05 * off));
+        refuse(
+            fmt::format("the view may be off by {:.2f} degrees (at most {:.2f} are allowed)", off,
+                        degrees(limits.angle)),
+            fmt::format("{}ilt the stone by 10 to 20 degrees and take it larger; a model "
+                        "fitted to more readings helps too",
+                        off < k_farthest_deg
+                            ? fmt::format("Accept that with --within-deg {:.2g}, or t", 1.1 * off)
+                            : "T"));
     }
     const double shift_limit =
         limits.shift_px > 0 ? limits.shift_px : std::max(1.0, k_place * diameter);
@@ -183,7 +188,7 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
                            pose.sigmas.shift_99_px, shift_limit),
                fmt::format("Accept that with --within-px {:.2g}, or take the photograph sharper, "
                            "before a plain background; a model fitted to more readings helps too",
-                           1.05 * pose.sigmas.shift_99_px));
+                           1.1 * pose.sigmas.shift_99_px));
     }
 }
 

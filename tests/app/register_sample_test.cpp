@@ -13,6 +13,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <regex>
 
 #include "tests/app/program_test.h"
 #include "tests/scratch_folder.h"
@@ -107,6 +108,45 @@ TEST_F(RegisterSample, IsRefusedWhenItMustBeSurer) {
     const ProgramRun run = registered(k_photo, {"--within-deg", "0.01"});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("--within-deg"), std::string::npos) << run.err;
+}
+
+// What a refusal advises is done: no option that it names is unknown or rejected, and where it says
+// that one accepts the pose or searches farther, what was refused is not refused for that again.
+TEST_F(RegisterSample, AdviceCanBeFollowed) {
+    const std::vector<std::vector<std::string>> strict{
+        {"--within-deg", "0.01"},
+        {"--within-px", "0.01"},
+        {"--doubt", "0.000001"},
+        {"--set", "camera.position=[0, 0, -120]"},
+        {"--search-deg", "2", "--set", "camera.position=[30, 60, 100]"},
+        {"--set", "camera.up=[1, 0, 0]"}};
+    int advised = 0;
+    for (const std::vector<std::string>& limits : strict) {
+        const ProgramRun refused = registered(k_photo, limits);
+        ASSERT_NE(refused.exit_code, 2) << refused.err;
+        if (refused.exit_code == 0) continue;
+        const std::regex option("(--[a-z-]+)( [0-9.]*[0-9])?");
+        const std::string& said = refused.err;
+        for (std::sregex_iterator at(said.begin(), said.end(), option), end; at != end; ++at) {
+            std::vector<std::string> call;
+            const std::string name = (*at)[1];
+            for (std::size_t i = 0; i < limits.size(); i += 2)
+                if (limits[i] != name) call.insert(call.end(), {limits[i], limits[i + 1]});
+            std::string value = (*at)[2];
+            if (name == "--doubt") value = " 100";  // accepts more
+            if (name == "--mask") continue;         // of a picture that this test has not
+            call.push_back(name);
+            if (!value.empty()) call.push_back(value.substr(1));
+            const ProgramRun followed = registered(k_photo, call);
+            EXPECT_NE(followed.exit_code, 2) << said << followed.err;
+            const std::string why = nlohmann::json::parse(refused.out).at("trouble");
+            if (!value.empty()) {
+                EXPECT_NE(nlohmann::json::parse(followed.out).at("trouble"), why) << name << value;
+            }
+            ++advised;
+        }
+    }
+    EXPECT_GE(advised, 3);
 }
 
 TEST_F(RegisterSample, IsRefusedFromTheWrongSide) {
