@@ -169,9 +169,13 @@ std::string verdict_words(Verdict verdict) {
     return verdict == Verdict::no_evidence ? "no evidence that it is this stone" : name_of(verdict);
 }
 
-void say_result(const CompareArguments& a, const Comparison& comparison) {
-    say(fmt::format("{}: {}", verdict_words(comparison.verdict), comparison.reason),
+void say_result(const CompareArguments& a, const Comparison& comparison, bool calibrated) {
+    // What a calibration says is a sentence by itself.
+    say(calibrated ? comparison.reason + "."
+                   : fmt::format("{}: {}", verdict_words(comparison.verdict), comparison.reason),
         a.common.quiet);
+    for (const std::string& note : comparison.notes)
+        if (note.starts_with("pose: ")) say(note, a.common.quiet);
     if (comparison.within)
         say(fmt::format(
                 "{:.0f} % of the pixels are within one sigma of what the readings leave open, "
@@ -188,7 +192,8 @@ void say_result(const CompareArguments& a, const Comparison& comparison) {
     for (const std::string& warning : comparison.registration.warnings) {
         say("  " + warning, a.common.quiet);
     }
-    for (const std::string& note : comparison.notes) say("  " + note, a.common.quiet);
+    for (const std::string& note : comparison.notes)
+        if (!note.starts_with("pose: ")) say("  " + note, a.common.quiet);
 }
 
 int run_compare(const CompareArguments& a, const std::string& version) {
@@ -242,7 +247,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         const std::string page = report_page(one.report);
         if (!a.json.empty()) write_text(a.json, one.json);
         write_text(page_file, page);
-        say_result(a, one.comparison);
+        say_result(a, one.comparison, one.calibrated.has_value());
         say(fmt::format("report: {}; next: open it in a browser", page_file.string()),
             a.common.quiet);
         return one.comparison.usable() ? exit_good : exit_untrusted;
@@ -254,7 +259,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         const std::string& file = a.pictures[i];
         Compared one = compare_with_scene(a, file, *scene, extras, version);
         say(file, a.common.quiet);
-        say_result(a, one.comparison);
+        say_result(a, one.comparison, one.calibrated.has_value());
         pages.push_back(report_page(one.report));
         rows.push_back({fs::path(file).filename().string(),
                         fmt::format("photograph-{}.html", i + 1), one.json,
@@ -313,12 +318,13 @@ void add_command_compare(CLI::App& program, int& exit_code) {
     command
         ->add_option(
             "--budget", arguments->budget,
-            "seconds for a photograph with its calibration, which is ended early (0: no limit)")
+            "seconds of two processors for a photograph with its calibration, in counted work: as "
+            "fine and as many pictures are drawn as that allows (0: no limit)")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     command
         ->add_option("--draws", arguments->draws,
-                     "of each facet error; each null has three times as many")
+                     "of each facet error at most; each null has three times as many")
         ->check(CLI::Range(2, 1000))
         ->capture_default_str();
     command

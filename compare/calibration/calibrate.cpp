@@ -5,7 +5,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "compare/calibration/chance.h"
 #include "compare/calibration/other_worlds.h"
@@ -107,39 +106,28 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
                                    const DraftRenderer& renderer, const CalibrateOptions& options,
                                    const std::vector<CameraModel>& cameras,
                                    const Progress& progress) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
     Calibration common;
     common.seed = options.seed;
     for (const ScoreKind& kind : score_kinds()) common.keys.push_back(kind.key);
     const OtherWorlds worlds(
-        model, {options.draws, options.null_draws, options.seed, options.start}, common.notes);
+        model, {options.draws, options.null_draws, options.seed, options.start, options.view_sigma},
+        common.notes);
     const Draws draws(worlds, model_picture, renderer, options, cameras);
     const std::vector<WorldDraw>& jobs = worlds.draws();
-    common.planned = static_cast<int>(jobs.size());
     std::vector<std::vector<CalibrationDraw>> made(jobs.size());
 
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     const auto batch = static_cast<std::size_t>(std::max(2, 2 * arena.max_concurrency()));
     std::size_t done = 0;
-    Clock::duration longest{};  // of a batch
     while (done < jobs.size()) {
-        const auto begun = Clock::now();
-        if (begun > options.deadline - longest) break;
         const std::size_t end = std::min(jobs.size(), done + batch);
         arena.execute([&] {
             tbb::parallel_for(done, end, [&](std::size_t i) { made[i] = draws.draw(jobs[i]); });
         });
         done = end;
-        longest = std::max(longest, Clock::now() - begun);
         if (progress && !progress(static_cast<double>(done) / static_cast<double>(jobs.size()))) {
             throw Interrupted();
         }
-    }
-    common.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (done < jobs.size()) {
-        common.notes.push_back(fmt::format(
-            "the budget of time ended the calibration after {} of {} draws", done, jobs.size()));
     }
     std::vector<Calibration> result(cameras.size(), common);
     for (std::size_t k = 0; k < cameras.size(); ++k) {

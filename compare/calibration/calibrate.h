@@ -1,7 +1,6 @@
 #pragma once
 // What the scores of a photograph would be if its stone, light or pose were this or that.
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -19,12 +18,10 @@
 namespace culet {
 
 struct CalibrateOptions {
-    CameraModel camera;   ///< of the photograph
-    int draws = 8;        ///< at each facet error
-    int null_draws = 24;  ///< of each null
-    /// Draws are begun while they will probably be done by then. How many were made is then a
-    /// matter of the machine, but each of them is what it would have been.
-    std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+    CameraModel camera;     ///< of the photograph
+    int draws = 8;          ///< at each facet error
+    int null_draws = 24;    ///< of each null
+    double view_sigma = 0;  ///< as in WorldsAsked
     std::uint64_t seed = 1;
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     double largest = 256;  ///< as in `Alignment`

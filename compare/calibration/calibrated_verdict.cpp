@@ -80,32 +80,41 @@ std::string degrees_in_words(double deg) {
     return significant(deg, 2) + (deg == 1 ? " degree" : " degrees");
 }
 
-std::string headline_of(const CalibratedVerdict& verdict) {
-    std::string text;
+// "with facets off by 0.5 degrees (0.34 to 0.75)"
+std::string facets_off(const EquivalentError& error) {
+    const std::string deg = degrees_in_words(*error.deg);
+    if (error.at_least) return "with facets off by " + deg + " or more";
+    if (error.at_most) return "with facets off by no more than " + deg;
+    return fmt::format("with facets off by {} ({} to {})", deg, significant(error.low_deg, 2),
+                       significant(error.high_deg, 2));
+}
+
+// Of the wrong lights and poses, what comes nearest.
+std::string chance_in_words(const CalibratedVerdict& verdict) {
+    if (verdict.nulls.empty()) return "";
+    const NullWorth& worst = verdict.nulls.front();
+    const char* what = worst.world == World::light  ? "lights"
+                       : worst.world == World::pose ? "poses"
+                                                    : "lights and poses";
+    return fmt::format("; {} of {} wrong {} agree as well", worst.as_good, worst.draws, what);
+}
+
+std::string headline_of(const CalibratedVerdict& verdict, const std::string& against) {
     const EquivalentError& error = verdict.equivalent;
-    if (!error.deg) {
-        text = "does not tell how large the errors of the facets are";
-    } else if (error.at_least) {
-        text = "fits no better than the same stone with " + degrees_in_words(*error.deg) +
-               " of facet error";
-    } else if (error.at_most) {
-        text = "fits as well as the same stone with no more than " + degrees_in_words(*error.deg) +
-               " of facet error";
-    } else {
-        text = fmt::format("fits as well as the same stone with {} of facet error ({} to {})",
-                           degrees_in_words(*error.deg), significant(error.low_deg, 2),
-                           significant(error.high_deg, 2));
+    const std::string as_well = error.deg ? ": as well as " + facets_off(error) : "";
+    std::string text;
+    switch (verdict.verdict) {
+        case Verdict::match:
+            text = "The photograph agrees with this stone" + as_well;
+            break;
+        case Verdict::partial:
+            text = "The photograph agrees with this stone in part" + as_well;
+            break;
+        default:
+            text = "The photograph does not show that it is this stone: " + against;
+            if (error.deg) text += "; it agrees as well as " + facets_off(error);
     }
-    if (!verdict.nulls.empty()) {
-        const NullWorth& worst = verdict.nulls.front();
-        const char* what = worst.world == World::light  ? "a wrong light"
-                           : worst.world == World::pose ? "a wrong pose"
-                                                        : "a wrong light and pose";
-        text += fmt::format("; {} sigma from chance ({}: {} of {} draws as good)",
-                            decimals(std::max(0.0, worst.z), worst.z < 10 ? 1 : 0), what,
-                            worst.as_good, worst.draws);
-    }
-    return text;
+    return text + chance_in_words(verdict);
 }
 
 void judge(CalibratedVerdict& verdict) {
@@ -113,24 +122,20 @@ void judge(CalibratedVerdict& verdict) {
         verdict.nulls.begin(), verdict.nulls.end(),
         [](const NullWorth& n) { return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z); });
     const EquivalentError& error = verdict.equivalent;
-    std::string why;
+    std::string against;
+    verdict.verdict = Verdict::no_evidence;
     if (verdict.nulls.empty() || !error.deg) {
-        verdict.verdict = Verdict::no_evidence;
-        why = "too little was drawn to tell a match from chance";
+        against = "too little was drawn to tell a match from chance (--budget allows more)";
     } else if (!beaten) {
-        verdict.verdict = Verdict::no_evidence;
-        why = "some wrong light or pose would do as well";
+        against = "some wrong light or pose would do as well";
     } else if (*error.deg <= k_match_deg) {
         verdict.verdict = Verdict::match;
     } else if (*error.deg <= k_partial_deg) {
         verdict.verdict = Verdict::partial;
     } else {
-        verdict.verdict = Verdict::no_evidence;
-        why =
-            "better than a wrong light or pose, but a stone with facets far from these would do "
-            "as well";
+        against = "a stone with facets far from these would do as well";
     }
-    verdict.reason = (why.empty() ? "" : why + "; ") + verdict.headline;
+    verdict.headline = headline_of(verdict, against);
 }
 
 }  // namespace
@@ -175,7 +180,6 @@ CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibrati
         verdict.hypotheses.push_back(
             {draw.world, draw.name, draw.scores[zncc], scale.of(draw.scores)});
     }
-    verdict.headline = headline_of(verdict);
     verdict.calibration = std::move(calibration);
     judge(verdict);
     return verdict;

@@ -37,9 +37,9 @@ struct HypothesisWorth {
 /// A calibrated comparison's verdict, and what it rests on.
 struct CalibratedVerdict {
     Verdict verdict = Verdict::no_evidence;
-    std::string reason;  ///< the verdict in one sentence
-    std::string
-        headline;  ///< "fits as well as the same stone with 0.2 degrees of facet error; ..."
+    /// The verdict in one sentence: "The photograph agrees with this stone: as well as with facets
+    /// off by 0.2 degrees (0.17 to 0.24); 0 of 12 wrong lights agree as well".
+    std::string headline;
     EquivalentError equivalent;
     std::vector<SensitivityCurve> curves;  ///< one a score that takes part
     std::vector<NullWorth> nulls;          ///< the worst, that of the smallest z, first

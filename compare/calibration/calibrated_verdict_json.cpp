@@ -49,7 +49,6 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
     }
     json["calibration"] = {{"hash", calibration.hash},
                            {"draws", calibration.draws.size()},
-                           {"planned", calibration.planned},
                            {"seed", calibration.seed},
                            {"stone_px", number_or_null(calibration.stone_px)},
                            {"psf_px", number_or_null(calibration.psf_px)},

@@ -31,17 +31,13 @@ struct CalibrationDraw {
 struct Calibration {
     std::vector<std::string> keys;  ///< of the scores
     std::vector<CalibrationDraw> draws;
-    int planned = 0;  ///< draws that were asked for; fewer were made where the budget ended it
     std::uint64_t seed = 1;
     double stone_px = 0;   ///< diameter of the stone in the pictures that were compared
     double psf_px = 0;     ///< standard deviation of the blur that its photographs were given
     double electrons = 0;  ///< that their noise stands for, at the clipping level
-    double seconds = 0;    ///< of the clock
     bool from_cache = false;
     std::string hash;  ///< of everything that it depends on
     std::vector<std::string> notes;
-
-    bool complete() const { return static_cast<int>(draws.size()) == planned; }
 };
 
 /// As text for a cache file, and back; nothing for text that is no such thing or of another

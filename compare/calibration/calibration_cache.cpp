@@ -53,7 +53,7 @@ std::optional<KeptCalibration> CalibrationCache::find(const std::string& hash) c
     if (folder_.empty() || !std::filesystem::exists(file, ignored)) return std::nullopt;
     try {
         auto calibration = calibration_from(read_text(file));
-        if (!calibration || calibration->hash != hash || !calibration->complete()) {
+        if (!calibration || calibration->hash != hash) {
             return std::nullopt;
         }
         calibration->from_cache = true;
@@ -66,7 +66,7 @@ std::optional<KeptCalibration> CalibrationCache::find(const std::string& hash) c
 }
 
 void CalibrationCache::keep(const Calibration& calibration, const TiltVariance& tilts) const {
-    if (folder_.empty() || !calibration.complete()) return;
+    if (folder_.empty()) return;
     std::error_code ignored;
     std::filesystem::create_directories(folder_, ignored);
     if (tilts.usable()) {

@@ -6,7 +6,7 @@ namespace culet {
 namespace {
 
 // Of the calibration's own workings: a cached table of another version is not used.
-constexpr int k_version = 3;
+constexpr int k_version = 4;
 
 }  // namespace
 
@@ -27,6 +27,7 @@ std::string calibration_hash(const Scene& model, const CalibrateOptions& options
     print.add(options.draws);
     print.add(options.null_draws);
     print.add(static_cast<double>(options.seed));
+    print.add(options.view_sigma);
     print.add(options.largest);
     print.add(options.ignored);
     if (options.start) print.add(*options.start);

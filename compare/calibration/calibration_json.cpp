@@ -51,12 +51,10 @@ std::string calibration_json(const Calibration& calibration) {
     json["schema"] = k_schema;
     json["kind"] = "calibration";
     json["hash"] = calibration.hash;
-    json["planned"] = calibration.planned;
     json["seed"] = calibration.seed;
     json["stone_px"] = number(calibration.stone_px);
     json["psf_px"] = number(calibration.psf_px);
     json["electrons"] = number(calibration.electrons);
-    json["seconds"] = number(calibration.seconds);
     json["keys"] = calibration.keys;
     json["notes"] = calibration.notes;
     json["draws"] = Json::array();
@@ -78,12 +76,10 @@ std::optional<Calibration> calibration_from(const std::string& text) {
         if (json.at("schema") != k_schema || json.at("kind") != "calibration") return std::nullopt;
         Calibration result;
         result.hash = json.at("hash").get<std::string>();
-        result.planned = json.at("planned").get<int>();
         result.seed = json.at("seed").get<std::uint64_t>();
         result.stone_px = json.at("stone_px").get<double>();
         result.psf_px = json.at("psf_px").get<double>();
         result.electrons = json.at("electrons").get<double>();
-        result.seconds = json.at("seconds").get<double>();
         result.keys = json.at("keys").get<std::vector<std::string>>();
         result.notes = json.at("notes").get<std::vector<std::string>>();
         if (json.at("draws").size() > k_most_draws) return std::nullopt;

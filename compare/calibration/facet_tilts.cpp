@@ -13,6 +13,7 @@
 #include "compare/calibration/stone_samples.h"
 #include "compare/photo/resampling.h"
 #include "stone/checks.h"
+#include "stone/errors.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -25,19 +26,22 @@ constexpr double k_step_deg = 0.15;
 // Of the root of light, beside what is not straight: 10000 electrons make 0.005 of noise in it.
 constexpr double k_least_noise = 0.01;
 
-// The model's picture through a lens, as fine as it is drawn.
-cv::Mat fine_model(const DraftRenderer& renderer, const CameraModel& camera, double psf_px,
-                   double reduction) {
-    return fine_picture(renderer.picture(), camera, psf_px,
-                        k_sample_blur * k_samples_across / reduction);
+}  // namespace
+
+cv::Mat FacetTilts::seen_finely(const Photo& picture, double psf_px) const {
+    return fine_picture(picture, camera_, psf_px, k_sample_blur * k_samples_across / reduction_);
 }
 
-}  // namespace
+cv::Mat FacetTilts::at_samples(const Photo& picture) const {
+    return resampled(seen_finely(picture, camera_.psf_px), first_rows(model_from_sample_),
+                     mask_.size(), Kernel::cubic, Beyond::nearest);
+}
 
 std::optional<Photo> FacetTilts::lay_samples(const Scene& model, const Scene& small,
                                              const DraftRenderer& renderer,
                                              const CameraModel& camera) {
-    const double reduction = sample_reduction(model);
+    camera_ = camera;
+    reduction_ = sample_reduction(model);
     model_from_sample_ = model_from_samples(model, small);
     std::optional<Photo> first = renderer.sketch(small);
     if (!first) return std::nullopt;
@@ -46,9 +50,7 @@ std::optional<Photo> FacetTilts::lay_samples(const Scene& model, const Scene& sm
     mask_ = distance > k_inside * k_samples_across;
     if (cv::countNonZero(mask_) < AlignedPair::k_least_pixels) return std::nullopt;
     // Of the picture itself, not of its sketch.
-    fine_ = fine_model(renderer, camera, camera.psf_px, reduction);
-    picture_ = resampled(fine_, first_rows(model_from_sample_), mask_.size(), Kernel::cubic,
-                         Beyond::nearest);
+    picture_ = at_samples(renderer.picture());
     return first;
 }
 
@@ -68,9 +70,8 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     const Scene small = sampled_scene(model);
     const auto first = lay_samples(model, small, renderer, camera);
     if (!first) return;
-    const double reduction = sample_reduction(model);
     CameraModel reduced = camera;
-    reduced.psf_px *= reduction;
+    reduced.psf_px *= reduction_;
     // What is outside is another's ground.
     const cv::Mat inside = inside_of(*first);
     const auto seen = [&](const Photo& sketch) {
@@ -98,10 +99,8 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     const auto batch = static_cast<std::size_t>(4 * arena.max_concurrency());
     for (std::size_t done = 0; done < tilts; done += batch) {
-        if (progress && !progress(static_cast<double>(done) / static_cast<double>(tilts))) {
-            ended_early_ = true;
-            return;
-        }
+        if (progress && !progress(static_cast<double>(done) / static_cast<double>(tilts)))
+            throw Interrupted();
         arena.execute([&] { tbb::parallel_for(done, std::min(tilts, done + batch), column); });
     }
     const std::size_t samples = bends.front().size();
@@ -110,14 +109,16 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
         for (std::size_t i = 0; i < samples; ++i) parts.noise[i] += bend[i] * bend[i] / 2;
     }
     for (double& n : parts.noise) n = std::sqrt(n);
-    const cv::Mat softer = fine_model(renderer, camera, k_softer * camera.psf_px, reduction);
-    for (const cv::Mat& nuisance : nuisances_of(fine_, softer, model_from_sample_, mask_.size())) {
+    const cv::Mat fine = seen_finely(renderer.picture(), camera.psf_px),
+                  softer = seen_finely(renderer.picture(), k_softer * camera.psf_px);
+    for (const cv::Mat& nuisance : nuisances_of(fine, softer, model_from_sample_, mask_.size())) {
         parts.nuisances.push_back(samples_of(nuisance, mask_));
     }
     variance_ = TiltVariance(parts);
 }
 
-std::optional<double> FacetTilts::facet_error_deg(const AlignedPair& pair) const {
+std::optional<double> FacetTilts::facet_error_deg(const AlignedPair& pair,
+                                                  const Photo* picture) const {
     if (!usable() || !pair.enough()) return std::nullopt;
     const MatchedPictures& pictures = pair.pictures;
     const cv::Mat seen =
@@ -126,7 +127,7 @@ std::optional<double> FacetTilts::facet_error_deg(const AlignedPair& pair) const
         first_rows(close_up_from_model(pair.frame) * model_from_sample_);
     cv::Mat difference =
         resampled(seen, close_up_from_sample, mask_.size(), Kernel::cubic, Beyond::nearest) -
-        picture_;
+        (picture != nullptr ? at_samples(*picture) : picture_);
     difference.setTo(0, resampled_mask(pictures.mask, close_up_from_sample, mask_.size()) == 0);
     // Each of a facet's two tilts has half the facet error's variance.
     const auto rms = variance_.rms(samples_of(difference, mask_));

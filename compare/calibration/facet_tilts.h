@@ -26,7 +26,7 @@ namespace culet {
 class FacetTilts {
 public:
     /// `model`, `renderer` and its picture, `camera`: as for a calibration. Draws four sketches a
-    /// facet; where `progress` says no between some of them it ends early, without a score.
+    /// facet (`sketches_for`). Throws Interrupted.
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
                int threads, const Progress& progress = {});
     /// The same without its sketches, which `kept` stands for: the `variance()` of one of the same
@@ -34,18 +34,23 @@ public:
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
                TiltVariance kept);
 
-    /// False: the stone is not convex, is drawn by rays, shows nothing of its facets, or it
-    /// ended early.
+    /// How many it draws.
+    static double sketches_for(const Solid& solid) {
+        return 4.0 * static_cast<double>(solid.facets.size());
+    }
+
+    /// False: the stone is not convex, is drawn by rays, or shows nothing of its facets.
     bool usable() const { return variance_.usable(); }
-    bool ended_early() const { return ended_early_; }
 
     const TiltVariance& variance() const { return variance_; }
 
     /// Degrees: the facet error (facet_error.h) by which the photograph differs from the model. It
     /// is about right from 0.05 to 0.5 degrees; larger ones are read too small, and what else there
     /// is in the picture counts as facet error, so that it needs a calibration like any score.
-    /// `pair`: the photograph and the model's picture; of that only the place is used.
-    std::optional<double> facet_error_deg(const AlignedPair& pair) const;
+    /// `pair`: the photograph and the model's picture; of that only the place is used. `picture`: a
+    /// finer one of the model in the renderer's place; null: the renderer's own.
+    std::optional<double> facet_error_deg(const AlignedPair& pair,
+                                          const Photo* picture = nullptr) const;
 
 private:
     /// Where the samples lie, and the model's picture there; its first sketch, nothing when there
@@ -53,12 +58,16 @@ private:
     std::optional<Photo> lay_samples(const Scene& model, const Scene& small,
                                      const DraftRenderer& renderer, const CameraModel& camera);
 
+    /// A picture through a lens, as fine as it is drawn; the same at the samples' places.
+    cv::Mat seen_finely(const Photo& picture, double psf_px) const;
+    cv::Mat at_samples(const Photo& picture) const;
+
     cv::Matx33d model_from_sample_;  // pixels' centres at whole numbers
     cv::Mat mask_;                   // CV_8U: the samples
-    cv::Mat fine_;                   // CV_32F: the model's picture, as the camera would see it
-    cv::Mat picture_;                // the same at the samples' places
+    CameraModel camera_;
+    double reduction_ = 1;
+    cv::Mat picture_;  // CV_32F: the model's picture at the samples' places, as the camera sees it
     TiltVariance variance_;
-    bool ended_early_ = false;
 };
 
 }  // namespace culet

@@ -10,6 +10,7 @@
 #include "compare/calibration/facet_error.h"
 #include "compare/calibration/hypotheses.h"
 #include "compare/calibration/sensitivity.h"
+#include "compare/pose/stone_view.h"
 #include "render/scene/turned_lights.h"
 #include "stone/units.h"
 
@@ -44,7 +45,7 @@ const char* name_of(Wrong wrong) {
         case turned_light:
             return "light turned by 5 degrees";
         case tilted_stone:
-            return "stone tilted_stone by 0.5 degrees";
+            return "stone tilted by 0.5 degrees";
         case k_wrongs:
             break;
     }
@@ -67,6 +68,7 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
                          std::vector<std::string>& notes)
     : model_(model),
       middle_(centroid(model.stone.solid)),
+      view_sigma_(asked.view_sigma),
       turns_alike_(turns_alike(model.stone.solid, model.stone.up)),
       catalogue_(asked.start ? asked.start : symmetrised(model.stone.solid, model.stone.up)),
       neighbours_(neighbouring_materials(model.stone.material, k_neighbours)) {
@@ -134,6 +136,15 @@ glm::dmat3 OtherWorlds::wrong_pose(Chance& chance) const {
            rotation_about(up, azimuth);
 }
 
+glm::dmat3 OtherWorlds::unsure_view(Chance& chance) const {
+    const EyePlace eye = eye_of(stone_view(model_.camera, middle_));
+    const Vec3 sight = glm::normalize(eye.parallel ? eye.place : eye.place - middle_);
+    const Vec3 away = std::abs(sight.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    const Vec3 u = glm::normalize(glm::cross(sight, away)), v = glm::cross(sight, u);
+    const double a = view_sigma_ * chance.normal(), b = view_sigma_ * chance.normal();
+    return rotation_by(a * u + b * v);
+}
+
 void OtherWorlds::make_wrong(Scene& scene, int which, Chance& chance) const {
     Stone& stone = scene.stone;
 
@@ -198,6 +209,10 @@ Scene OtherWorlds::scene_of(const WorldDraw& job) const {
         case World::wrong:
             make_wrong(scene, job.which, chance);
             break;
+    }
+    if (view_sigma_ > 0 && job.world != World::pose && job.world != World::both) {
+        Chance view(seed_of(job.seed, 8, static_cast<std::uint64_t>(1e4 * job.facet_error_deg)));
+        stone = turned_stone(stone, unsure_view(view), middle_);
     }
     return scene;
 }

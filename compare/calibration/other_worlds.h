@@ -18,6 +18,9 @@ struct WorldsAsked {
     int null_draws = 24;  ///< of each null
     std::uint64_t seed = 1;
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
+    /// What the pose is not known to: one standard deviation about either axis across the line of
+    /// sight, radians. Every draw but a wrong pose is turned by so much at random.
+    double view_sigma = 0;
 };
 
 /// One draw of one world.
@@ -41,9 +44,11 @@ public:
 private:
     glm::dmat3 wrong_pose(Chance& chance) const;
     void make_wrong(Scene& scene, int which, Chance& chance) const;
+    glm::dmat3 unsure_view(Chance& chance) const;
 
     const Scene& model_;
     Vec3 middle_;
+    double view_sigma_ = 0;
     int turns_alike_ = 1;
     std::optional<Solid> catalogue_;
     std::vector<Material> neighbours_;

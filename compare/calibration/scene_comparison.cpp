@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <opencv2/core.hpp>
 
 #include "compare/calibration/calibrate.h"
 #include "compare/calibration/calibration_cache.h"
+#include "compare/calibration/calibration_plan.h"
 #include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/calibration/photo_noise.h"
+#include "compare/calibration/pose_search.h"
 #include "compare/calibration/within_readings.h"
 #include "compare/photo/pixels.h"
 #include "compare/scores/aligned_pair.h"
@@ -27,22 +28,26 @@ namespace culet {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr double k_margin = 0.18;                               // of the diameter, around the stone
+constexpr double k_tolerance = 0.03;                            // of the pictures that are compared
+constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;  // of the progress: their ends
+constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // of the calibration's
+// The budget is seconds of two processors, in counted work (render/work/price.h). Finding the pose
+// and scoring the photograph take what they take, measured: so much and so much a pixel.
+constexpr double k_ns_per_second = 2e9, k_fixed_ns = 6e9, k_fixed_ns_per_pixel = 3;
+// Of the budget: what the photograph's own picture may take, and the plan of those that the view is
+// sought with.
+constexpr double k_for_picture = 0.15, k_for_search = 0.05;
+// A pose that is sure (99 %) to so much is taken as it is. In a calibration what it is off by
+// weighs as much as small facet errors.
+constexpr double k_sure = radians(2.0), k_sure_to_calibrate = radians(0.3);
+constexpr double k_farthest_search = radians(5.0);
+// Of pictures that only tell where bright and dark are.
+constexpr double k_search_tolerance = 0.1, k_search_cut = 0.02;
 
-constexpr double k_margin = 0.18;     // of the diameter, around the stone
-constexpr double k_tolerance = 0.03;  // of the pictures that are compared
-// Of the time that is left: a stone of hundreds of facets must leave some for draws.
-constexpr double k_most_for_tilts = 0.4;
-constexpr double k_bar_for_pose = 0.1, k_bar_for_stones = 0.6;   // likewise
-constexpr double k_bar_for_tilts = 0.2, k_bar_for_scores = 0.3;  // of the progress: their ends
-// A pose is taken when it is sure (99 %) to two degrees, and to half a percent of the diameter:
-// reflexes are matched within 2 %. Such poses are 0.2 degrees off in the median (bench_pose), which
-// costs the scores what about 0.1 degrees of facet error cost; with one degree, three in four
-// stones of 0.2 degrees of facet error would be left with the scene's camera, which is farther off.
-constexpr double k_pose_angle = radians(2.0), k_pose_shift = 0.005;
-
-// What a pose is off by less than this costs the scores nothing that shows.
-constexpr double k_worth_saying = radians(0.1);
+double fixed_ns(const Photo& photo) {
+    return k_fixed_ns + k_fixed_ns_per_pixel * static_cast<double>(photo.width) * photo.height;
+}
 
 // What is left out, seen from the model's picture.
 std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
@@ -68,17 +73,19 @@ std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
 // Against a render as soft as the photograph, as the draws are: a score is one thing in the
 // photograph and in its calibration.
 void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& photo,
-                        const DraftRenderer& renderer, const SceneCompareOptions& options,
-                        const CompareOptions& how, Clock::time_point start,
+                        const DraftRenderer& fine, double allowed_ns, double view_sigma,
+                        const SceneCompareOptions& options, const CompareOptions& how,
                         const Progress& progress) {
+    Scene model = with_coarse_environment(result.scene);
+    const CalibrationPlan plan =
+        plan_calibration(model, fine, options.draws, allowed_ns, photo.photometric);
+    const DraftRenderer& renderer = plan.renderer;
+    model.settings = renderer.settings();
     CalibrateOptions calibration;
     calibration.camera = camera_of(photo, pair);
-    calibration.draws = options.draws;
-    calibration.null_draws = 3 * options.draws;
-    if (options.budget_seconds > 0) {
-        calibration.deadline = start + std::chrono::duration_cast<Clock::duration>(
-                                           std::chrono::duration<double>(options.budget_seconds));
-    }
+    calibration.draws = plan.rounds;
+    calibration.null_draws = 3 * plan.rounds;
+    calibration.view_sigma = view_sigma;
     calibration.seed = how.seed;
     calibration.threads = how.threads;
     calibration.largest = options.largest;
@@ -87,93 +94,142 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
     const CameraModel& camera = calibration.camera;
 
     const CalibrationCache cache(options.cache);
-    auto kept = cache.find(calibration_hash(result.scene, calibration));
-    const auto begun = Clock::now();
-    const std::chrono::duration<double> left = calibration.deadline - begun;
-    const Progress of_tilts = part_of(progress, 0, k_bar_for_tilts);
-    const FacetTilts tilts =
-        kept ? FacetTilts(result.scene, renderer, camera, std::move(kept->tilts))
-             : FacetTilts(result.scene, renderer, camera, calibration.threads, [&](double done) {
-                   if (of_tilts && !of_tilts(done)) throw Interrupted();
-                   return Clock::now() - begun < k_most_for_tilts * left;
-               });
+    auto kept = cache.find(calibration_hash(model, calibration));
+    const FacetTilts tilts = kept         ? FacetTilts(model, renderer, camera, kept->tilts)
+                             : plan.tilts ? FacetTilts(model, renderer, camera, calibration.threads,
+                                                       part_of(progress, 0, k_bar_for_tilts))
+                                          : FacetTilts(model, renderer, camera, TiltVariance());
     calibration.tilts = &tilts;
-    const double tilt_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
 
     pair = with_render(std::move(pair), softened(result.render, camera.psf_px));
-    const CalibratedScoring scoring{camera.psf_px, tilts.facet_error_deg(pair)};
+    const CalibratedScoring scoring{camera.psf_px, tilts.facet_error_deg(pair, &result.render)};
     Comparison& comparison = result.comparison;
     comparison = scored(pair, photo, result.render, how,
                         part_of(progress, k_bar_for_tilts, k_bar_for_scores), &scoring);
 
     Calibration made = kept ? std::move(kept->calibration)
-                            : calibrate(result.scene, result.render, renderer, calibration,
+                            : calibrate(model, renderer.picture(), renderer, calibration,
                                         part_of(progress, k_bar_for_scores, 1));
     if (!kept) {
-        made.seconds += tilt_seconds;
         made.psf_px = camera.psf_px;
         made.electrons = camera.electrons;
         made.stone_px = pair.frame.render_diameter_px;
-        if (tilts.ended_early()) {
+        if (!plan.tilts && photo.photometric)
             made.notes.push_back(
                 "the budget left no time for what each facet's tilt changes: that score is "
-                "missing");
-        } else {
-            cache.keep(made, tilts.variance());
-        }
+                "missing (--budget gives more)");
+        cache.keep(made, tilts.variance());
     }
     result.calibrated =
         calibrated_verdict(comparison.scores, std::move(made), comparison.geometry_only);
     comparison.verdict = result.calibrated->verdict;
-    comparison.reason = result.calibrated->reason;
+    comparison.reason = result.calibrated->headline;
+}
+
+/// The camera that took the photograph, and how sure it is.
+struct Standpoint {
+    Camera camera;
+    double sigma = 0;  // of the view, about either axis across the line of sight; radians
+    double budget_ns = 0, worked_ns = 0;
+    std::vector<std::string> notes;
+};
+
+// By the stone's picture, from where its edges say, and from the scene's own camera where that is
+// not to be trusted.
+void search_further(const Photo& photo, const Scene& scene, const SceneCompareOptions& options,
+                    SceneComparison& result, Standpoint& stand, const Progress& progress) {
+    FoundPose& pose = *result.pose;
+    const double across = std::min(options.largest, stone_diameter_px(photo, options.compare.mask));
+    Scene model = with_coarse_environment(scene);
+    model.camera = cropped_to_stone(pose.camera, model.stone.solid, across, k_margin);
+    const DraftRenderer renderer =
+        DraftRenderer(model, k_search_tolerance, k_for_search * stand.budget_ns)
+            .coarser(model, k_search_cut);
+    const auto searched = [&](const Camera& from, double reach, const Progress& part) {
+        model.camera = from;
+        return search_pose(photo, model, renderer,
+                           {.reach = std::clamp(reach, k_sure_to_calibrate, k_farthest_search),
+                            .mask = options.compare.mask,
+                            .ignored = options.compare.ignored,
+                            .threads = options.compare.threads},
+                           part);
+    };
+    const bool doubted = !pose.usable();
+    SearchedPose best = searched(pose.camera, doubted ? k_farthest_search : pose.sigmas.angle_99,
+                                 part_of(progress, 0, doubted ? 0.5 : 1));
+    bool scenes_own = false;
+    if (doubted) {
+        const SearchedPose other =
+            searched(scene.camera, k_farthest_search, part_of(progress, 0.5, 1));
+        scenes_own = other.agreement > best.agreement;
+        if (scenes_own) best = other;
+        stand.notes.push_back(fmt::format(
+            "pose: {}. Views near that one and near the scene's camera were drawn; the one that "
+            "agrees best lies {:.1f} degrees from {}. If that is not how the stone was held, turn "
+            "the scene's camera to where it was and say --keep-pose",
+            pose.trouble, degrees(best.moved),
+            scenes_own ? "the scene's camera" : "the one that the edges show"));
+    } else {
+        stand.notes.push_back(fmt::format(
+            "pose: its edges show it to {:.2f} degrees (99 %); {} views within that were drawn, "
+            "and the one that agrees best lies {:.2f} degrees from it",
+            degrees(pose.sigmas.angle_99), best.drawn, degrees(best.moved)));
+    }
+    result.pose_used = !scenes_own;
+    pose.camera = stand.camera = best.camera;
+    stand.sigma = k_searched_sigma;
+    stand.worked_ns = renderer.worked_ns() + k_for_search * stand.budget_ns;
+}
+
+Standpoint find_standpoint(const Photo& photo, const Scene& scene,
+                           const SceneCompareOptions& options, SceneComparison& result,
+                           const Progress& progress) {
+    Standpoint stand;
+    stand.camera = scene.camera;
+    stand.budget_ns = k_ns_per_second * options.budget_seconds;
+    if (!options.find_pose) return stand;
+    if (!is_convex(scene.stone.solid)) {
+        stand.notes.push_back(
+            "pose: only convex stones are found in a photograph, and this mesh is not convex (a "
+            "fitted one is, unless the stone is not); the scene's own camera was taken instead");
+        return stand;
+    }
+    PoseOptions pose_options;
+    pose_options.mask = options.compare.mask;
+    pose_options.threads = options.compare.threads;
+    result.pose =
+        find_pose(photo, scene.stone.solid, scene.camera, pose_options, part_of(progress, 0, 0.5));
+    const FoundPose& pose = *result.pose;
+    const double sure = options.calibrate ? k_sure_to_calibrate : k_sure;
+    if (pose.usable() && pose.sigmas.angle_99 <= sure) {
+        result.pose_used = true;
+        stand.camera = pose.camera;
+        stand.sigma = std::hypot(pose.sigmas.turn[0], pose.sigmas.turn[1]) / std::sqrt(2.0);
+    } else if (stone_diameter_px(photo, options.compare.mask) > 0) {
+        search_further(photo, scene, options, result, stand, part_of(progress, 0.5, 1));
+    } else {
+        stand.notes.push_back("pose: " + pose.trouble +
+                              "; the scene's own camera was taken instead");
+    }
+    return stand;
 }
 
 }  // namespace
 
 SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
                                    const SceneCompareOptions& options, const Progress& progress) {
-    const auto start = Clock::now();
     SceneComparison result;
     result.scene = scene;
     CompareOptions how = options.compare;
     how.largest = options.largest;
-    std::vector<std::string> notes;
-
-    if (options.find_pose && !is_convex(scene.stone.solid)) {
-        notes.push_back(
-            "pose: only convex stones are found in a photograph, and this mesh is not convex (a "
-            "fitted one is, unless the stone is not); the scene's own camera was taken instead");
-    } else if (options.find_pose) {
-        PoseOptions pose_options;
-        pose_options.mask = how.mask;
-        pose_options.threads = how.threads;
-        pose_options.limits.angle = k_pose_angle;
-        pose_options.limits.shift_px =
-            std::max(1.0, k_pose_shift * stone_diameter_px(photo, how.mask));
-        result.pose = find_pose(photo, scene.stone.solid, scene.camera, pose_options,
-                                part_of(progress, 0, k_bar_for_pose));
-        if (result.pose->usable()) {
-            result.pose_used = true;
-            result.scene.camera = result.pose->camera;
-            if (result.pose->sigmas.angle_99 > k_worth_saying) {
-                notes.push_back(fmt::format(
-                    "pose: known to {:.2f} degrees (99 %); what it is off counts as facet error, "
-                    "0.5 degrees as 0.15 to 0.25",
-                    degrees(result.pose->sigmas.angle_99)));
-            }
-        } else {
-            notes.push_back("pose: " + result.pose->trouble +
-                            "; the scene's own camera was taken instead. What to do: culet "
-                            "register finds the pose by itself and takes options. " +
-                            result.pose->remedy);
-        }
-    }
-
+    const Standpoint stand =
+        find_standpoint(photo, scene, options, result, part_of(progress, 0, k_bar_for_pose));
+    result.scene.camera = stand.camera;
     const double across = stone_diameter_px(photo, how.mask);
     const double diameter = std::min(across > 0 ? across : options.largest, options.largest);
     result.scene.camera =
         cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
-    const DraftRenderer renderer(result.scene, k_tolerance);
+    const DraftRenderer renderer(result.scene, k_tolerance, k_for_picture * stand.budget_ns);
     result.scene.settings = renderer.settings();
     result.stats = renderer.stats();
     result.render = renderer.picture();
@@ -189,13 +245,17 @@ SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
         aligned(photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
     const Progress rest = part_of(progress, drawn, 1);
     if (options.calibrate && pair.comparable()) {
-        compare_calibrated(result, pair, photo, renderer, options, how, start, rest);
+        const double left =
+            (1 - k_for_picture) * stand.budget_ns - fixed_ns(photo) - stand.worked_ns;
+        compare_calibrated(result, pair, photo, renderer,
+                           stand.budget_ns > 0 ? std::max(left, 1.0) : 0, stand.sigma, options, how,
+                           rest);
     } else {
         result.comparison = scored(pair, photo, result.render, how, rest);
     }
     result.comparison.within = within_readings(pair, photo, result.render);
     std::vector<std::string>& all_notes = result.comparison.notes;
-    all_notes.insert(all_notes.end(), notes.begin(), notes.end());
+    all_notes.insert(all_notes.end(), stand.notes.begin(), stand.notes.end());
     return result;
 }
 

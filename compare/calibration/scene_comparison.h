@@ -18,10 +18,10 @@ struct SceneCompareOptions {
     CompareOptions compare;
     bool find_pose = true;  ///< false: the scene's camera stands where it says
     bool calibrate = false;
-    /// Of the clock, for all of a calibrated comparison; 0: no limit. What is left after pose and
-    /// scores is the calibration's.
-    double budget_seconds = 57;
-    int draws = 8;  ///< at each facet error; nulls have three times as many
+    /// Of two processors, in counted work (render/work/price.h), for all of a calibrated
+    /// comparison: as fine and as many pictures are drawn as that allows. 0: no limit.
+    double budget_seconds = 30;
+    int draws = 8;  ///< at each facet error, at most; nulls have three times as many
     /// Pixels that the stone is across at most: every draw of the calibration is drawn at it.
     double largest = 256;
     std::filesystem::path cache{};  ///< folder of calibrations; empty: none is kept

@@ -223,7 +223,7 @@ std::string calibration_section(const Report& report) {
     return section("meaning", "What it means",
                    filled(templates::report_calibration,
                           {{"word", photo_word(report)},
-                           {"headline", verdict.headline},
+                           {"headline", as_sentence(verdict.headline)},
                            {"geometry_only", verdict.geometry_only},
                            {"curves", curve_figures(verdict)},
                            {"draws", std::to_string(calibration.draws.size())},
@@ -231,7 +231,6 @@ std::string calibration_section(const Report& report) {
                            {"psf_px", decimals(calibration.psf_px, 1)},
                            {"electrons", significant(calibration.electrons, 2)},
                            {"kept", calibration.from_cache},
-                           {"seconds", decimals(calibration.seconds, 0)},
                            {"notes", std::vector<View>(notes.begin(), notes.end())},
                            {"nulls", nulls_table(verdict)},
                            {"hypotheses", hypotheses_table(verdict)}}));

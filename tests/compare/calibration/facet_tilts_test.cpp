@@ -10,6 +10,7 @@
 #include "compare/calibration/photo_blur.h"
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
+#include "stone/errors.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -106,15 +107,13 @@ TEST(FacetTilts, OfAStoneThatIsNotConvexAreNotKnown) {
     ASSERT_FALSE(is_convex(scene.stone.solid));
     const FacetTilts tilts(scene, renderer, camera(), 0);
     EXPECT_FALSE(tilts.usable());
-    EXPECT_FALSE(tilts.ended_early());
 }
 
-TEST(FacetTilts, EndWhenTheyAreToldTo) {
+TEST(FacetTilts, StopWhenTheyAreToldTo) {
     const Scene scene = glass();
     const DraftRenderer renderer(scene, 0.03);
-    const FacetTilts tilts(scene, renderer, camera(), 0, [](double) { return false; });
-    EXPECT_FALSE(tilts.usable());
-    EXPECT_TRUE(tilts.ended_early());
+    EXPECT_THROW(FacetTilts(scene, renderer, camera(), 0, [](double) { return false; }),
+                 Interrupted);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ CalibratedVerdict calibrated_as_match() {
     calibration.draws.push_back({World::light, "", 0, {0.2}});
     CalibratedVerdict verdict;
     verdict.calibration = calibration;
-    verdict.headline = "fits as well as the same stone with 0.2 degrees of facet error";
+    verdict.headline =
+        "The photograph agrees with this stone: as well as with facets off by 0.2 degrees";
     verdict.equivalent.deg = 0.2;
     verdict.equivalent.low_deg = 0.15;
     verdict.equivalent.high_deg = 0.3;
@@ -60,7 +61,7 @@ TEST(CalibrationReport, HasSentenceCurvesChanceAndHypotheses) {
     report.comparison = small_comparison();
     report.calibrated = calibrated_as_match();
     const std::string page = report_page(report);
-    for (const char* part : {"id=\"meaning\"", "0.2 degrees of facet error", "class=\"curve\"",
+    for (const char* part : {"id=\"meaning\"", "with facets off by 0.2 degrees.", "class=\"curve\"",
                              "Another light", "What else it could be", "id=\"reflexes\"",
                              "1 of 2 reflexes found, 0.4 % of the diameter", "class=\"blink\""}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
