@@ -227,7 +227,7 @@ def compare(
     simulated: bool = False,
     find_pose: bool = True,
     calibrate: bool = False,
-    budget: float = 57,
+    budget: float = 30,
     draws: int = 8,
     cache: str = "",
     start: Union[Stone, Fit, File, None] = None,
@@ -244,7 +244,7 @@ def compare(
     mask, ignore: files or arrays (H, W) of the photograph's size, over a half: where the stone is,
     and what is not to be compared. simulated: the photograph was computed; the report says so.
     Of scenes only: find_pose; calibrate: say what the scores mean for this stone, pose and light,
-    within `budget` seconds (0: no limit), of `draws` a facet error, kept in the folder `cache`;
+    within `budget` seconds of two processors (0: no limit), of at most `draws` a facet error, kept in `cache`;
     start: the mesh that the fit started from; uncertainty: the Fit of the scene's stone: how much of
     the photograph is within what its readings leave open.
     """
