@@ -22,9 +22,6 @@ std::optional<Problem> with_prior(const Problem& given, const Attempt& first) {
     }
     Problem changed = given;
     changed.read_in_full = false;
-    // What the readings leave open is filled in from the stone that they found: other starts may
-    // lead to a worse end.
-    if (status == FitStatus::undetermined) changed.options.start = first.result.solid;
     return changed;
 }
 

@@ -40,8 +40,8 @@ protected:
     Stone stone_ = stone_of(brilliant());
 };
 
-// Over upright by as little as an instrument is off, a girdle facet looks down whichever way a rough
-// mesh draws it; by more, the mesh must show that side.
+// Over upright by as little as an instrument is off, a girdle facet looks down whichever way a
+// rough mesh draws it; by more, the mesh must show that side.
 TEST_F(ReadingFiles, ALittleOverUprightIsNoReadingOfThePavilion) {
     for (Facet& facet : stone_.solid.facets) {
         if (facet.name == "G1") facet.plane.normal = {0.6, 0, 0.8};

@@ -6,12 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
-#include "fit/hypotheses/hypotheses.h"
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
 #include "tests/fit/cutters.h"
@@ -162,29 +158,6 @@ TEST(Prior, SoftSymmetryOfFewReadingsEnds) {
         EXPECT_NE(result.status, FitStatus::not_converged) << result.message;
         EXPECT_TRUE(result.checks.closed && result.checks.convex);
     }
-}
-
-// Other starts may lead to a worse end than the readings alone found: chi-square 60 for 16 on a
-// round brilliant whose corners were off by 5 % of its width.
-TEST(Prior, FillsInTheStoneThatTheReadingsFound) {
-    const Evening evening = cutters_evening("round-brilliant", {}, Slipped::none, 2);
-    Problem given{evening.design, bind_readings(evening.rows, evening.design), with_prior()};
-    const auto filled_in =
-        std::find_if(hypotheses().begin(), hypotheses().end(),
-                     [](const Hypothesis& h) { return std::string_view(h.what).empty(); });
-    ASSERT_NE(filled_in, hypotheses().end());
-    Attempt first;
-    first.result.solid = evening.truth;
-    for (const auto& [status, goes_on] :
-         {std::pair(FitStatus::undetermined, true), std::pair(FitStatus::not_converged, false)}) {
-        first.result.status = status;
-        const auto changed = filled_in->changed(given, first);
-        ASSERT_TRUE(changed);
-        EXPECT_EQ(changed->options.start.has_value(), goes_on);
-        EXPECT_FALSE(changed->read_in_full);
-    }
-    first.result.status = FitStatus::converged;
-    EXPECT_FALSE(filled_in->changed(given, first));
 }
 
 }  // namespace
