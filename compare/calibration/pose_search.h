@@ -26,7 +26,8 @@ struct SearchedPose {
 };
 
 /// What a view so found is still off by, about either axis across the line of sight: one standard
-/// deviation, radians (bench_meaning --pose).
+/// deviation, radians: about the last step of the search. Three simulated photographs of a step cut
+/// were 0.2, 0.3 and 0.7 degrees off: it should be measured on more.
 constexpr double k_searched_sigma = 0.0017;  // 0.1 degrees
 
 /// Views within `reach` of the start's are drawn on a hexagonal net, then around the best ever more

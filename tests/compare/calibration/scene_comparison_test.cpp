@@ -3,16 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <functional>
-#include <glm/geometric.hpp>
 #include <set>
 
 #include "compare/calibration/calibrate.h"
 #include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/facet_error.h"
-#include "compare/calibration/pose_search.h"
 #include "compare/report/scores_json.h"
 #include "render/scene/fingerprint.h"
 #include "stone/checks.h"
@@ -188,24 +185,6 @@ TEST(SceneComparison, DrawsWhatItsBudgetAllows) {
     const SceneComparison more = compare_with_scene(photo, scene, options);
     EXPECT_GT(more.calibrated->calibration.draws.size(), calibration.draws.size());
     EXPECT_EQ(more.comparison.verdict, Verdict::match);
-}
-
-// From a camera that stands 1.5 degrees beside the one that took the photograph: its last step is
-// an eighth of a degree.
-TEST(SearchPose, FindsTheViewByTheStonesPicture) {
-    const Scene scene = small_scene();
-    Scene rough = scene;
-    rough.camera.position += Vec3(0, 5.2, 0);  // of 200
-    const DraftRenderer renderer(rough, 0.1);
-    const SearchedPose found =
-        search_pose(photograph_of(scene, 0.1), rough, renderer, {.reach = radians(2.0)});
-    const auto towards = [](const Camera& camera) {
-        return glm::normalize(camera.position - camera.look_at);
-    };
-    const double off = glm::dot(towards(found.camera), towards(scene.camera));
-    EXPECT_LT(degrees(std::acos(off)), 0.4);
-    EXPECT_NEAR(degrees(found.moved), 1.5, 0.4);
-    EXPECT_GT(found.agreement, 0.9);
 }
 
 TEST(SceneComparison, OfACameraThatDoesNotSeeTheStoneIsTheUsersMistake) {
