@@ -40,7 +40,7 @@ struct GradeOptions {
     double view_cone = radians(64);  ///< of useful return
     double light_cone = radians(7);  ///< of the light of balance and fire
     std::vector<double> tilts;
-    /// Azimuths of the axes about which the stone is tilted (right-handed).
+    /// Azimuths of the axes about which the stone is tilted: left-handed, as GemRay's tilts are.
     std::vector<double> tilt_axes{0, radians(90)};
     std::uint64_t seed = 1;  ///< of the uneven sky
     int map_size = 600;      ///< points along a side of the maps of hearts and arrows
@@ -84,8 +84,8 @@ Grade grade_stone(const Solid& solid, const GradeIndex& index, const GradeOption
 Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
                    const Progress& progress = {});
 
-/// Towards the eye, in the stone's frame, after the stone has turned by `tilt` about the level axis
-/// at `axis`.
+/// Towards the eye, in the stone's frame, after the stone has turned by `tilt`, left-handed, about
+/// the level axis at `axis`: a positive tilt about x lifts the edge at -y, one about y that at +x.
 Vec3 eye_over_tilted(double tilt, double axis);
 
 /// Directions of a cone round +z, as evenly as its cosine-weighted light: rings of so many each.

@@ -14,6 +14,7 @@
 #include "compare/report/scores_json.h"
 #include "stone/errors.h"
 #include "tests/compare/synthetic_pictures.h"
+#include "tests/page/kept_pages.h"
 
 namespace culet {
 namespace {
@@ -224,6 +225,7 @@ TEST(Report, EscapesHostileNamesEverywhere) {
     EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;x&#39;)"));
     EXPECT_THAT(page, Not(HasSubstr("\xff")));
     EXPECT_EQ(nesting_fault(page), "");
+    test::keep_page("report", report_page(full_report(test::hostile_name())));
 }
 
 TEST(Report, HoldsTheJsonThatJsonWrites) {
@@ -270,6 +272,7 @@ TEST(Report, OfARefusedComparisonShowsBothOutlinesAndTheReason) {
     EXPECT_THAT(page, HasSubstr("outline-photo\" d=\"M"));
     EXPECT_THAT(page, HasSubstr("outline-render\" d=\"M"));
     EXPECT_THAT(page, Not(HasSubstr("<section id=\"maps\"")));
+    test::keep_page("report-refused", page);
     EXPECT_EQ(nesting_fault(page), "");
 }
 

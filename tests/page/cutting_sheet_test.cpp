@@ -79,6 +79,7 @@ TEST(CuttingSheet, PageAndTextSayTheSame) {
     EXPECT_THAT(text, HasSubstr("34.50 +- 0.12"));
     EXPECT_THAT(page, HasSubstr(" ± 0.03"));
     EXPECT_THAT(page, Not(HasSubstr("± 0.034")));
+    test::keep_page("cutting-sheet-on-paper", page);
     sheet.name = test::hostile_name();
     test::keep_page("cutting-sheet", cutting_sheet_page(sheet));
     for (const char* both :

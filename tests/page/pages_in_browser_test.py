@@ -1,7 +1,9 @@
-"""Every kind of page that the tests of the room make, with hostile names, on the screen of a telephone
+"""Every kind of page that the tests of the rooms make, with hostile names, on the screen of a telephone
 and on paper."""
+import base64
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,15 +12,17 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "viewer"))
 from viewer_pages import Browser  # noqa: E402
 
-PROGRAMS = [sys.argv.pop(1)]
+# PROGRAM or PROGRAM=FILTER: tests that make pages.
+PROGRAMS = [argument.partition("=")[::2] for argument in sys.argv[1:]]
+del sys.argv[1:]
 
 
 class PagesInBrowserTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="culet-kept-pages-"))
-        for program in PROGRAMS:
-            subprocess.run([program], check=True, capture_output=True, env={**os.environ, "CULET_KEPT_PAGES": str(cls.folder)})
+        for program, tests in PROGRAMS:
+            subprocess.run([program, f"--gtest_filter={tests or '*'}"], check=True, capture_output=True, env={**os.environ, "CULET_KEPT_PAGES": str(cls.folder)})
         cls.pages = sorted(cls.folder.glob("*.html"))
         cls.browser = Browser(390, 844).__enter__()
 
@@ -27,7 +31,7 @@ class PagesInBrowserTest(unittest.TestCase):
         cls.browser.__exit__()
 
     def test_no_page_is_wider_than_a_telephone(self):
-        self.assertGreaterEqual(len(self.pages), 7, self.pages)
+        self.assertGreaterEqual(len(self.pages), 9, self.pages)
         for page in self.pages:
             with self.subTest(page=page.name):
                 self.browser.open(page)
@@ -46,6 +50,12 @@ class PagesInBrowserTest(unittest.TestCase):
                 self.browser.run("dispatchEvent(new Event('beforeprint'))")
                 said = self.browser.run("return document.querySelector('.printed').textContent")
                 self.assertIn(str(self.browser.run("return new Date().getFullYear()")), said)
+
+    def test_the_cutting_sheet_of_a_brilliant_is_one_page(self):
+        # A cutter takes one sheet to the machine. Every page of a PDF is an object of type Page.
+        self.browser.open(self.folder / "cutting-sheet-on-paper.html")
+        pdf = base64.b64decode(self.browser.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
+        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", pdf)), 1)
 
 
 if __name__ == "__main__":

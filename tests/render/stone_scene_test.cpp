@@ -163,6 +163,24 @@ TEST_F(StoneSceneTest, DesignsWithoutASizeAreDrawn6Point5MmWideAndItIsSaid) {
     EXPECT_NEAR(width_along(real.stone.solid, {0, 1, 0}), width, 1e-9);
 }
 
+TEST_F(StoneSceneTest, AMeshInMetresIsDoubtedUnlessAWidthIsNamed) {
+    Solid metres = make_cut("step");
+    for (Vec3& v : metres.vertices) v *= 1e-3;
+    for (Facet& facet : metres.facets) facet.plane.offset *= 1e-3;
+    mesh("metres.obj", metres);
+    const std::string file =
+        write("metres.toml", "[stone]\nmesh = \"metres.obj\"\nmaterial = \"diamond\"\n");
+    const auto doubts = [](const Scene& scene) {
+        return std::count_if(scene.notes.begin(), scene.notes.end(), [](const std::string& note) {
+            return note.find("name the unit") != std::string::npos;
+        });
+    };
+    StoneScene choices = of("diamond");
+    EXPECT_EQ(doubts(read_any_scene(file, {}, choices)), 1);
+    choices.width_mm = 5;
+    EXPECT_EQ(doubts(read_any_scene(file, {}, choices)), 0);
+}
+
 TEST_F(StoneSceneTest, StoneFilesKeepTheirSizeAndMaterial) {
     mesh("stone.obj", make_cut("step"));
     const std::string stone = write(

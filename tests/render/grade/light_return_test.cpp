@@ -121,6 +121,36 @@ TEST(LightReturn, IsGemrays) {
     EXPECT_NEAR(100 * diamond[2], 41.84, 0.7);
 }
 
+// GemRay's sign (docs/grade.md): a positive tilt about x lifts the edge at -y towards the eye, one
+// about y the edge at +x. A stone that shows one sloping facet alone and whose slope faces that
+// edge is seen straight on at its slope's tilt, and at twice that angle at the opposite tilt: the
+// outside reflects what Fresnel's equations say of 0 and of twice the slope.
+TEST(LightReturn, PositiveTiltsLiftTheEdgeThatGemraysDo) {
+    const double slope = radians(20), n = 1.54;
+    const auto reflected = [&](double angle) {
+        return mean_reflection(1.0, n, std::cos(angle)).mean;
+    };
+    const std::pair<double, Vec3> axes[] = {{0, {0, -1, 0}}, {radians(90), {1, 0, 0}}};
+    for (const auto& [axis, lifted] : axes) {
+        std::vector<NamedPlane> planes{
+            {"slope", {Vec3{0, 0, std::cos(slope)} + std::sin(slope) * lifted, 1}},
+            {"culet", {{0, 0, -1}, 1}}};
+        int side = 0;
+        for (const Vec3 out : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}})
+            planes.push_back(
+                {"side" + std::to_string(side++), {std::sqrt(0.5) * (out - Vec3{0, 0, 1}), 1}});
+        const Solid solid = intersect_half_spaces(planes).solid;
+        const EyeLightTracer tracer(solid);
+        const auto at_tilt = [&](double tilt) {
+            return light_balance(tracer.trace(eye_over_tilted(tilt, axis), n), crown_facets(solid),
+                                 {radians(10), radians(64)})
+                .entry_reflection;
+        };
+        EXPECT_NEAR(at_tilt(slope), reflected(0), 1e-9) << axis;
+        EXPECT_NEAR(at_tilt(-slope), reflected(2 * slope), 1e-9) << axis;
+    }
+}
+
 // Conservation of energy, whatever the cut, the index and the tilt.
 TEST(LightReturn, BalancesSumToOne) {
     for (const CutKind& kind : cut_kinds()) {
