@@ -11,6 +11,7 @@
 #include "render/planner/error_estimate.h"
 #include "render/planner/ladder.h"
 #include "render/planner/paced_drawing.h"
+#include "render/planner/paced_samples.h"
 #include "render/planner/planner.h"
 #include "render/setup/scene_checks.h"
 #include "render/work/work_meter.h"
@@ -100,18 +101,23 @@ RenderResult drawn_once(const Scene& scene, const Progress& progress) {
 }
 
 // Light that is chosen at random: first a few rays a pixel, to be seen soon.
-RenderResult drawn_with_preview(const Scene& scene, const Progress& progress,
+RenderResult drawn_with_preview(const Scene& whole, const Progress& progress,
                                 const PictureSink& better) {
-    if (better) {
+    const bool paced = whole.settings.allowed_ns > 0 && leaves_samples_open(whole);
+    const Scene scene = paced ? with_allowed_samples(whole, progress) : whole;
+    // Where few rays are all that is allowed, they come soon.
+    if (better && !(paced && scene.settings.samples <= k_preview_samples)) {
         Scene few = scene;
         few.settings.samples = k_preview_samples;
+        few.settings.wavelength_turns = k_preview_samples;
         better(drawn(few, progress));
     }
     RenderResult result = drawn(scene, progress);
     if (result.stats.standard_error > 0) {
         result.stats.notes.push_back(
-            fmt::format("noise: a pixel is off by {:.2g} of the mean radiance, root mean square; "
+            fmt::format("noise: a pixel{} is off by {:.2g} of the mean radiance, root mean square; "
                         "four times the samples halve it",
+                        paced ? fmt::format(" of {} samples", scene.settings.samples) : "",
                         result.stats.standard_error));
     }
     return result;
@@ -201,7 +207,7 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
 
 bool allow_usual_time(Scene& scene) {
     if (scene.names_tolerance || scene.settings.check != Check::full ||
-        !leaves_something_open(scene))
+        !(leaves_something_open(scene) || leaves_samples_open(scene)))
         return false;
     scene.settings.allowed_ns = k_usual_allowance_ns;
     return true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -14,6 +15,9 @@
 namespace culet {
 
 namespace {
+
+// Of the stone's size: above what rounding does to corners, below what a ray could see.
+constexpr double k_flat = 1e-12;
 
 // Working memory of one thread, so that a ray allocates nothing. `step` is all 0 between rays.
 struct Scratch {
@@ -88,6 +92,18 @@ PolyhedronBody::PolyhedronBody(const Solid& solid) {
             if (a < b) uses[{a, b}].first.push_back(index);
             if (a > b) uses[{b, a}].second.push_back(index);
         }
+    }
+
+    Vec3 low = solid.vertices[0], high = low;
+    for (const Vec3& vertex : solid.vertices) {
+        low = glm::min(low, vertex);
+        high = glm::max(high, vertex);
+    }
+    const double margin = k_flat * glm::length(high - low);
+    for (const Facet& facet : solid.facets) {
+        outermost_.push_back(std::all_of(
+            solid.vertices.begin(), solid.vertices.end(),
+            [&](const Vec3& vertex) { return height_above(facet.plane, vertex) <= margin; }));
     }
 
     // Where more than two facets share an edge, which are paired makes no difference to a ray.
@@ -258,6 +274,10 @@ BodyHit PolyhedronBody::exit(const Vec3& origin, const Vec3& direction, int from
 
 std::optional<BodyHit> PolyhedronBody::reentry(const Vec3& origin, const Vec3& direction,
                                                int from) const {
+    // Away from a plane behind which all of the stone lies.
+    if (from >= 0 && outermost_[static_cast<std::size_t>(from)] &&
+        glm::dot(normal(from), direction) > 0)
+        return std::nullopt;
     return run(origin, direction, from, false);
 }
 

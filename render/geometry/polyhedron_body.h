@@ -82,6 +82,7 @@ private:
     std::vector<std::vector<int>> corners_;         ///< of each facet
     std::vector<std::vector<int>> vertex_sharers_;  ///< facets that share a vertex with each facet
     std::vector<int> all_;                          ///< all facets
+    std::vector<bool> outermost_;  ///< facets behind whose planes the whole stone lies
 };
 
 }  // namespace culet

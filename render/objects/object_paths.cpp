@@ -69,7 +69,8 @@ void ObjectPaths::absorb(const WorldRay& ray, double distance, ArrivingLight& li
     }
 }
 
-ObjectPaths::Meeting ObjectPaths::meet(const WorldRay& ray) const {
+ObjectPaths::Meeting ObjectPaths::meet(const WorldRay& ray) {
+    spent_ns_ += price_ns(PathWork{.met = 1});
     Meeting meeting;
     meeting.hit = scene_.world.nearest(ray.origin, ray.direction, ray.start);
     const double lit = scene_.lights.nearest_distance(ray.origin, ray.direction);

@@ -4,6 +4,7 @@
 // stones pass light on as Fresnel's equations have it, polarised; rough ones by one direction
 // chosen at random and one aimed at the lights, weighted by both densities (Veach 1997, 9.2).
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct FurnishedScene {
     double brightest = 0;
     double most_indirect = std::numeric_limits<double>::infinity();  ///< RenderSettings
     std::uint64_t seed = 1;
+    /// Whole nanoseconds of price.h, so that their sum does not hang on the order of threads.
+    mutable std::atomic<long long> spent_ns{0};
 };
 
 /// A ray that asks for light: `direction` leads away from who asks. Its light's Stokes parameters
@@ -55,6 +58,9 @@ class ObjectPaths {
 public:
     ObjectPaths(const FurnishedScene& scene, int first, int count, int planes, Random& random)
         : scene_(scene), first_(first), count_(count), planes_(planes), random_(random) {}
+    ~ObjectPaths() { scene_.spent_ns += static_cast<long long>(spent_ns_); }
+    ObjectPaths(const ObjectPaths&) = delete;
+    ObjectPaths& operator=(const ObjectPaths&) = delete;
 
     void arriving(const WorldRay& ray, ArrivingLight& light);
     /// The same of a ray of less importance than `threshold` with a chance in proportion to it.
@@ -69,7 +75,7 @@ private:
     };
     class StoneSink;
 
-    Meeting meet(const WorldRay& ray) const;
+    Meeting meet(const WorldRay& ray);
     void shine(const WorldRay& ray, const Meeting& meeting, ArrivingLight& light) const;
     void answer(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
     void scatter(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
@@ -89,6 +95,7 @@ private:
     const FurnishedScene& scene_;
     int first_, count_, planes_;
     Random& random_;
+    double spent_ns_ = 0;
 };
 
 }  // namespace culet

@@ -24,6 +24,7 @@ public:
     bool stands_at(const Vec3& origin, const Vec3& direction) const override;
     std::string name_at(const Vec3& origin, const Vec3& direction) const override;
     double max_radiance() const override { return scene_.brightest; }
+    double spent_ns() const override { return static_cast<double>(scene_.spent_ns); }
 
 private:
     WorldRay ray(const Vec3& origin, const Vec3& direction, const Vec3& u, const Vec3& v) const;

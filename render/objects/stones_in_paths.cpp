@@ -132,13 +132,19 @@ void ObjectPaths::through_stone(const WorldRay& ray, const WorldHit& hit, Arrivi
         PathLimits limits = stone.limits;
         limits.seed = random_.next();
         limits.obstacles = &around;
+        PathWork work = work_along_paths(stone.setup);
+        work.rays = 1;
         if (stone.setup.general) {
             CrystalPaths<StoneSink> paths(body, band, limits, sink);
             paths.trace(eye, ray.u, ray.v, entry);
+            work.events = static_cast<double>(paths.events());
         } else {
-            LightPaths<StoneSink, false> paths(body.planes(), band, limits, sink);
+            PathTrace trace;
+            LightPaths<StoneSink, false> paths(body.planes(), band, limits, sink, trace);
             paths.trace(eye, entry);
+            work.events = static_cast<double>(trace.length);
         }
+        spent_ns_ += price_ns(work);
     }
 }
 

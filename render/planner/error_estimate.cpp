@@ -68,9 +68,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
                                    : k_roulette_weight;
     limits_.split_weight = fine ? k_fine_split_weight : k_split_weight;
     limits_.roulette = branches;
-    work_.general = plan.general;
-    work_.polarised = plan.polarised;
-    work_.nodes = plan.bands.front().count;
+    work_ = work_along_paths(plan);
     levels_.resize(1);
     levels_[0].samples = grid(0);
 }

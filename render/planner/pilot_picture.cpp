@@ -143,10 +143,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     std::atomic<long long> nanoseconds{0};
     Listener listener(progress);
     WorkMeter* const meter = scene.settings.meter.get();
-    PathWork of_a_ray;
-    of_a_ray.general = setup.general;
-    of_a_ray.polarised = setup.polarised;
-    of_a_ray.nodes = setup.bands.front().count;
+    const PathWork of_a_ray = work_along_paths(setup);
     on_threads(scene.settings.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.at.size(), 8), [&](const auto&
                                                                                            range) {
@@ -187,12 +184,13 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     for (const Rgb& rgb : drawing.rgb) drawing.mean += (rgb[0] + rgb[1] + rgb[2]) / (3 * count);
     drawing.rays = static_cast<double>(whole.rays);
     drawing.events = static_cast<double>(whole.events);
+    drawing.surroundings_ns = prepared.surroundings->spent_ns();
     if (whole.hit > 0) {
         drawing.remainder = whole.remainder / whole.hit;
         drawing.cut = whole.cut / whole.hit;
         drawing.absorbed = whole.absorbed / whole.hit;
-        drawing.few_rays = whole.radiance > 0 ? whole.halves_apart / whole.radiance : 0;
     }
+    if (whole.radiance > 0) drawing.few_rays = whole.halves_apart / whole.radiance;
     drawing.seconds = 1e-9 * static_cast<double>(nanoseconds);
     return drawing;
 }

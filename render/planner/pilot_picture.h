@@ -39,7 +39,8 @@ struct PilotDrawing {
     std::vector<double> halves_apart;  ///< of each pixel (pixel_shader.h)
     double few_rays = 0;  ///< about what the pixels are off by for their few rays, over the mean
     double brightest = 0;
-    double seconds = 0;  ///< that it took, of all threads together
+    double surroundings_ns = 0;  ///< what objects around the stone took, at the prices of price.h
+    double seconds = 0;          ///< that it took, of all threads together
 };
 
 /// Half the difference between every other ray of a grid and the rest is so many times what all of

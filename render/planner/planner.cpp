@@ -7,6 +7,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/planner/ladder_steps.h"
 #include "render/planner/resolutions.h"
+#include "render/planner/wavelengths.h"
 #include "render/scene/fingerprint.h"
 #include "render/setup/a_priori.h"
 
@@ -14,8 +15,6 @@ namespace culet {
 
 namespace {
 
-// Wavelengths that pilots of effects are drawn at: three carry any colour of light.
-const std::vector<double> k_pilot_nm{450, 550, 610};
 // The pilots', and others that tell how noisy the truth is.
 constexpr int k_pilot_pixels = 96, k_check_pixels = 64;
 // Trees that branch play roulette: pictures that are held against each other should differ by what
@@ -166,7 +165,7 @@ Scene Planner::with_effects(bool dispersion, std::optional<Effects> without) con
 Scene Planner::at_pilot_wavelengths(Scene scene) const {
     std::vector<double>& nm = scene.settings.wavelengths_nm;
     if (nm.empty()) {
-        nm = k_pilot_nm;
+        nm = k_three_nm;
     } else if (nm.size() > 3) {
         nm = {nm.front(), nm[nm.size() / 2], nm.back()};
     }
@@ -192,12 +191,9 @@ PathWork Planner::work_of(const Scene& scene, const PilotDrawing& drawing, int s
     const OpticalSetup plan = make_optical_setup(scene);
     const double rays =
         static_cast<double>(pixels_.at.size()) * samples * static_cast<double>(plan.bands.size());
-    PathWork work;
+    PathWork work = work_along_paths(plan);
     work.rays = drawing.rays / rays;
     work.events = drawing.events / rays;
-    work.general = plan.general;
-    work.polarised = plan.polarised;
-    work.nodes = plan.bands.front().count;
     return work;
 }
 

@@ -4,6 +4,7 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/engine/engine.h"
+#include "render/planner/wavelengths.h"
 #include "render/setup/scene_checks.h"
 
 namespace culet {
@@ -12,7 +13,6 @@ namespace {
 
 // Coarse enough for a second, fine enough to see what it will be.
 constexpr double k_tolerance = 0.1, k_cut = 0.02;
-const std::vector<double> k_three_nm{450, 550, 610};
 
 }  // namespace
 

@@ -9,6 +9,9 @@ namespace culet {
 /// Sets to choose from. All but the finest are part of that of 29, all but that of 5 of that of 15.
 inline constexpr std::array k_wavelength_counts{3, 5, 8, 15, 29, 57};
 
+/// Three carry any colour of light.
+inline const std::vector<double> k_three_nm{450, 550, 610};
+
 /// The set of so many.
 std::vector<double> even_wavelengths(int count);
 

@@ -36,14 +36,6 @@ int samples_of(const Scene& scene, const OpticalSetup& setup) {
     return setup.on(Effects::aperture) ? k_pupil_samples : k_samples;
 }
 
-PathWork work_of_a_ray(const OpticalSetup& setup) {
-    PathWork work;
-    work.general = setup.general;
-    work.polarised = setup.polarised;
-    work.nodes = setup.bands.front().count;
-    return work;
-}
-
 // Shades every pixel of one window onto the film, tile by tile.
 PixelSums shade_picture(const Scene& scene, const PreparedScene& prepared, Film& film,
                         const PixelShader& shader, const Progress& progress) {
@@ -59,7 +51,7 @@ PixelSums shade_picture(const Scene& scene, const PreparedScene& prepared, Film&
             static_cast<std::size_t>(prepared.colours.size() * shader.planes()));
         PixelMemory& memory = memories.local();
         memory.goes_on = [&listener] { return listener.still_goes_on(); };
-        PathWork work = work_of_a_ray(prepared.setup);
+        PathWork work = work_along_paths(prepared.setup);
         PixelSums& sum = sums[static_cast<std::size_t>(tile)];
         const int x0 = static_cast<int>(tile % tiles_wide) * k_tile,
                   y0 = static_cast<int>(tile / tiles_wide) * k_tile;

@@ -31,6 +31,8 @@ public:
     virtual std::string name_at(const Vec3& origin, const Vec3& direction) const = 0;
     /// Largest radiance at any node, for bounds.
     virtual double max_radiance() const = 0;
+    /// What all answers so far took, at the prices of work/price.h; 0: part of who asks.
+    virtual double spent_ns() const { return 0; }
 };
 
 /// Of a scene: its lights, and what stands around its stone (objects/object_surroundings.cpp).

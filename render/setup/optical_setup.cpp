@@ -211,6 +211,11 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     setup.general = setup.splits || setup.stokes || scene.immersion != 1 ||
                     (!scene.stone.convex && scene.settings.meets_again);
     setup.polarised = setup.on(Effects::polarization);
+    if (!scene.stone.convex) {
+        for (const Facet& facet : scene.stone.solid.facets)
+            setup.open_edges += static_cast<int>(facet.corners.size());
+        setup.open_edges /= 2;
+    }
     if (setup.general && !setup.polarised) {
         EffectDecision& decision = setup.effects[static_cast<std::size_t>(Effects::polarization)];
         decision.on = setup.polarised = true;
@@ -286,6 +291,15 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
         setup.bands.push_back(band);
     }
     return setup;
+}
+
+PathWork work_along_paths(const OpticalSetup& setup) {
+    PathWork work;
+    work.general = setup.general;
+    work.polarised = setup.polarised;
+    work.nodes = setup.bands.front().count;
+    work.edges = setup.open_edges;
+    return work;
 }
 
 bool paths_branch(const Scene& scene, const OpticalSetup& setup) {

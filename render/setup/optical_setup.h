@@ -8,6 +8,7 @@
 #include "render/colour/colour.h"
 #include "render/optics/band.h"
 #include "render/scene/scene.h"
+#include "render/work/price.h"
 
 namespace culet {
 
@@ -31,6 +32,7 @@ struct OpticalSetup {
     bool stokes = false;   ///< all four Stokes parameters are needed: polarised lights, an analyser
     bool general = false;  ///< crystal_paths.h; else light_paths.h suffices
     bool splits = false;   ///< the stone has two waves, so that trees double
+    int open_edges = 0;    ///< of a stone that is not convex
 
     bool on(Effects effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     WavelengthSet colours() const {
@@ -44,6 +46,9 @@ constexpr std::array<int, 4> k_node_counts{8, 15, 29, 57};
 
 /// `nodes`: wavelengths where a spectrum is called for and the scene names none.
 OpticalSetup make_optical_setup(const Scene& scene, int nodes = k_node_counts[1]);
+
+/// What a ray of one band costs, but for its counts.
+PathWork work_along_paths(const OpticalSetup& setup);
 
 /// True when the plan's wavelengths were its own choice of a spectrum.
 bool chose_spectrum(const Scene& scene, const OpticalSetup& setup);

@@ -11,6 +11,9 @@ struct PathWork {
     double events = 0;  ///< faces met
     bool general = false, polarised = true;
     int nodes = 1;  ///< wavelengths in a band
+    /// Of a stone that is not convex: each way through it is held against all of them.
+    double edges = 0;
+    double met = 0;  ///< rays among objects, each with what it is answered
 };
 double price_ns(const PathWork& work);
 

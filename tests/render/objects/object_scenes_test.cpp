@@ -9,6 +9,7 @@
 
 #include "render/engine/engine.h"
 #include "render/optics/fresnel.h"
+#include "render/planner/pilot_picture.h"
 #include "render/render.h"
 #include "stone/errors.h"
 #include "tests/render/carved_solids.h"
@@ -335,6 +336,32 @@ TEST(ObjectScenes, ClampedLightIsAtMostTheBound) {
     EXPECT_EQ(render(scene).picture.rgb, whole.picture.rgb);
     scene.settings.clamp_indirect = 0.1;
     EXPECT_NE(render(scene).picture.rgb, whole.picture.rgb);
+}
+
+// Work allows rays, and the standard error of random rays falls with the root of their number, here
+// with that of the work: a ball on the ground, no stone, so that rays share no wavelengths.
+TEST(ObjectScenes, MoreWorkAllowedIsLessNoise) {
+    Scene scene = empty_scene(64, 0);
+    scene.camera.position = {0, -20, 20};
+    scene.lights.constant = 0.2;
+    scene.lights.sources = {DiscLight{{0, 0, 1}, 0, 0.3, {4.0}}};
+    scene.objects = {{PlaneShape{}, DiffuseMaterial{{0.5}}},
+                     {SphereShape{{0, 0, 1}, 1}, DiffuseMaterial{{0.8}}}};
+    scene.settings.tolerance = 1e-4;
+    const auto drawn = [&](double ns, int threads) {
+        scene.settings.allowed_ns = ns;
+        scene.settings.threads = threads;
+        return render(scene);
+    };
+    const RenderResult little = drawn(5e7, 1), much = drawn(8e8, 1);
+    // A grid's side is a whole number: a little less than is allowed.
+    EXPECT_NEAR(much.stats.standard_error / little.stats.standard_error, 1.0 / 4, 0.08);
+    EXPECT_EQ(drawn(8e8, 2).picture.rgb, much.picture.rgb);
+    // As many as bring the noise to the tolerance, however many are allowed.
+    scene.settings.tolerance = 0.02;
+    const RenderResult enough = drawn(1e12, 1);
+    EXPECT_LE(enough.stats.sampling_error / k_halves_over_noise, 1.25 * 0.02);
+    EXPECT_GE(enough.stats.sampling_error / k_halves_over_noise, 0.5 * 0.02);
 }
 
 // Alpha is where things stand, where the film asks for it.
