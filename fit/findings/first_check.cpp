@@ -48,7 +48,8 @@ std::string slip_words(const Doubt& doubt, bool in_radians) {
 // facets the least sure one's sigma is no less than that of their mean.
 void ask_the_fit(const Reading& r, const FitResult& result, Doubt& doubt) {
     if (r.kind != ReadingKind::inclination || r.facets.empty() || doubt.of_tier ||
-        r.datum.kind != Datum::Kind::up || result.status == FitStatus::not_converged) {
+        r.datum.kind != Datum::Kind::up || result.status == FitStatus::not_converged ||
+        result.facets.empty()) {
         return;
     }
     double mean = 0, sigma = 0;
