@@ -11,7 +11,7 @@ namespace culet {
 std::optional<Problem> without_doubted(const Problem& given, const Attempt& first);
 
 /// Holds where the first fit found no stone and this one does, or where chi-square falls by more
-/// than as many rows of readings bring by chance.
+/// than as many rows of readings bring by chance: from fit to fit, or at the first one's sigmas.
 Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem& changed,
                       FitResult again);
 

@@ -195,20 +195,30 @@ TEST_F(FirstCheck, IsHeededOnlyWhereTheFitIsBetterWithoutTheReading) {
     const struct {
         FitStatus with;
         double chi2_with, chi2_without;
+        double baarda;  // of the doubted reading in the first fit: 3.29 squared is 10.8
         bool is_left_out;
-    } cases[] = {{FitStatus::converged, 15, 15, false},
-                 {FitStatus::converged, 15, 4.5, false},
-                 {FitStatus::converged, 15, 4, true},
-                 {FitStatus::not_converged, 15, 15, true}};
+    } cases[] = {
+        {FitStatus::converged, 15, 15, 0, false},   {FitStatus::converged, 15, 4.5, 0, false},
+        {FitStatus::converged, 15, 4, 0, true},     {FitStatus::converged, 15, 14, -3.2, false},
+        {FitStatus::converged, 15, 14, -3.4, true}, {FitStatus::not_converged, 15, 15, 0, true}};
+    const auto doubted =
+        std::find_if(given.readings.begin(), given.readings.end(), [&](const Reading& r) {
+            return std::none_of(changed->readings.begin(), changed->readings.end(),
+                                [&](const Reading& kept) { return kept.id == r.id; });
+        });
+    ASSERT_NE(doubted, given.readings.end());
+    first.result.readings.resize(1);
+    first.result.readings[0].id = doubted->id;
     for (const auto& c : cases) {
         first.result.status = c.with;
         first.result.statistics.chi2 = c.chi2_with;
+        first.result.readings[0].normalized = c.baarda;
         FitResult again;
         again.status = FitStatus::converged;
         again.statistics.chi2 = c.chi2_without;
         again.readings.resize(7);
         EXPECT_EQ(judge_doubted(given, first, *changed, again).explained.has_value(), c.is_left_out)
-            << c.chi2_without;
+            << c.chi2_without << ", " << c.baarda;
     }
 }
 
