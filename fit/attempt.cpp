@@ -103,6 +103,7 @@ void decide_meets(const Problem& problem, FitOptions& options, std::optional<Sys
     FitOptions other = options;
     other.meets = MeetTreatment::soft;
     std::optional<System> changed(std::in_place, problem.stone, problem.readings, other);
+    if (!changed->has_common_meets()) return;  // three planes always meet
     std::optional<MeetEvidence> evidence = weigh_meets(*changed, best.finished, other);
     if (!evidence) return;
     Candidate candidate = best;

@@ -144,6 +144,28 @@ TEST(Prior, AReadingDrawsItsFacetAndIsToldFromThePrior) {
     }
 }
 
+// Three planes always meet: there is nothing to weigh, and the fit is that of exact meets.
+TEST(Prior, MeetsOfThreePlanesAreExact) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        const bench::Truth truth = bench::make_tiered(24, seed);
+        const Stone mesh = bench::wrongly_drawn(truth.stone, 0.03, seed);
+        std::vector<WrittenReading> rows;
+        for (const WrittenReading& w : bench::read_by_instruments(truth, seed, 0)) {
+            if (w.kind == "inclination" || w.kind == "width") rows.push_back(w);
+        }
+        const std::vector<Reading> readings = bind_readings(rows, mesh);
+        FitOptions options;
+        options.prior.source = Prior::Source::mesh;
+        const FitResult weighed = fit_stone(mesh, readings, options);
+        options.meets_named = true;
+        const FitResult exact = fit_stone(mesh, readings, options);
+        EXPECT_NE(exact.statistics.prior.source, Prior::Source::none);
+        EXPECT_EQ(weighed.status, exact.status) << weighed.message;
+        EXPECT_TRUE(weighed.checks.convex) << seed;
+        EXPECT_DOUBLE_EQ(weighed.statistics.chi2, exact.statistics.chi2) << seed;
+    }
+}
+
 TEST(Prior, SoftSymmetryOfFewReadingsEnds) {
     // The users' second job: 80 readings of 128 freedoms and a rotation within a sigma.
     for (const double sigma : {0.3, 0.5}) {
