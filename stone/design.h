@@ -74,7 +74,7 @@ Design cutting_design(const Solid& solid);
 /// the solid's drawing has as one tier. Their tier has their mean angle and distance.
 void join_parted_tiers(const Solid& solid, Design& design);
 
-/// As lines of GemCad's .asc, the facets' names as labels; and back. Throws InputError.
+/// As lines of GemCad's .asc, that tell facets' names besides; and back. Throws InputError.
 std::string design_text(const Design& design);
 Design design_in(std::string_view text);
 

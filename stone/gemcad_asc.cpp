@@ -20,8 +20,9 @@ namespace {
 
 class AscParser {
 public:
-    AscParser(std::string_view text, const std::filesystem::path& file)
-        : lines_(text), file_(file) {}
+    /// A mesh's lines say with `N NAME` what a facet is called that is not called by its label.
+    AscParser(std::string_view text, const std::filesystem::path& file, bool of_a_mesh = false)
+        : lines_(text), file_(file), of_a_mesh_(of_a_mesh) {}
 
     void parse() {
         bool any = false;
@@ -188,8 +189,14 @@ private:
                 } else {
                     facets.back().label = planes.back().name = word;
                 }
+            } else if (awaits_facet_) {
+                awaits_facet_ = false;
+                if (!design.tiers.back().facets.empty())
+                    design.tiers.back().facets.back().facet = word;
             } else if (word == "n") {
                 awaits_name_ = true;
+            } else if (word == "N" && of_a_mesh_) {
+                awaits_facet_ = true;
             } else if (word == "G") {
                 instruction_ = true;
                 return instruct(line.substr(std::size_t(word.data() + 1 - line.data())));
@@ -239,11 +246,13 @@ private:
 
     LineReader lines_;
     const std::filesystem::path& file_;
+    const bool of_a_mesh_;
     CutSetting tier_;
     std::string name_;  ///< given before the tier's first index
     int tier_number_ = 0;
     long tier_line_ = 0;
-    bool has_gear_ = false, in_tier_ = false, awaits_name_ = false, instruction_ = false;
+    bool has_gear_ = false, in_tier_ = false, awaits_name_ = false, instruction_ = false,
+         awaits_facet_ = false;
 };
 
 }  // namespace
@@ -259,10 +268,12 @@ ReadCut parse_gemcad_asc(std::string_view bytes, const CutReading& how,
 
 Design design_in(std::string_view text) {
     const std::filesystem::path file = "design";
-    AscParser parser(text, file);
+    AscParser parser(text, file, true);
     parser.parse();
     for (DesignTier& tier : parser.design.tiers) {
-        for (DesignFacet& facet : tier.facets) facet.facet = facet.label;
+        for (DesignFacet& facet : tier.facets) {
+            if (facet.facet.empty()) facet.facet = facet.label;
+        }
     }
     return std::move(parser.design);
 }

@@ -50,7 +50,9 @@ std::string design_text(const Design& design) {
                            std::max(0.0, cut.distance));
         for (const DesignFacet& facet : tier.facets) {
             out += fmt::format(" {}", facet.index);
-            if (!facet.facet.empty()) out += " n " + gemcad_word(facet.facet);
+            if (facet.facet.empty()) continue;
+            if (!facet.label.empty()) out += " n " + gemcad_word(facet.label);
+            if (facet.label != facet.facet) out += " N " + gemcad_word(facet.facet);
         }
         out += tier.instruction.empty() ? "\n" : " " + gemcad_line('G', tier.instruction);
     }

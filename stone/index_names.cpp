@@ -25,62 +25,66 @@ std::optional<double> index_number(std::string_view text) {
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::optional<double> tooth_of(const Facet& facet, double gear) {
-    if (gear == 0) return std::nullopt;
-    Design wheel;
-    wheel.gear = gear;
-    const CutSetting setting = setting_of(facet.plane, wheel);
-    if (setting.angle_deg < k_no_index_deg) return std::nullopt;
-    const double tooth = std::round(100 * setting.index) / 100;
-    return tooth > 0 ? tooth : std::abs(gear);
-}
+// What a cutter calls the facets of a solid: its design's tier, and the tooth under each.
+class Places {
+public:
+    Places(const Solid& solid, double gear)
+        : solid_(solid), gear_(gear), places_(places_of(solid)) {
+        if (solid.design) titles_ = tier_titles(*solid.design);
+    }
 
-// `A` of A.12; empty of what does not end so.
-std::string_view before_number(std::string_view name) {
-    const std::size_t digits = name.find_last_not_of("0123456789");
-    if (digits == std::string_view::npos || digits == 0 || digits + 1 == name.size() ||
-        name[digits] != '.') {
-        return {};
+    /// Empty: of no tier.
+    std::string tier(std::size_t f) const {
+        return places_[f].tier < 0 ? std::string() : titles_[std::size_t(places_[f].tier)];
     }
-    return name.substr(0, digits);
-}
 
-// Of facets of a design's tier (A, A.1, A.2, ...) its name.
-std::vector<std::string> design_tiers(const Solid& solid) {
-    std::map<std::string_view, int> count;
-    for (const Facet& facet : solid.facets) {
-        const std::string_view tier = before_number(facet.name);
-        if (!tier.empty() && find_facet(solid, std::string(tier)) >= 0) ++count[tier];
+    /// As the design has it, which a fit leaves; of other facets, and on another wheel, as it
+    /// stands.
+    std::optional<double> tooth(std::size_t f) const {
+        if (gear_ == 0) return std::nullopt;
+        Design wheel;
+        wheel.gear = gear_;
+        const CutSetting cut = setting_of(solid_.facets[f].plane, wheel);
+        if (cut.angle_deg < k_no_index_deg) return std::nullopt;
+        double index = cut.index;
+        if (places_[f].tier >= 0 && solid_.design->gear == gear_) {
+            const DesignTier& tier = solid_.design->tiers[std::size_t(places_[f].tier)];
+            index = tier.facets[std::size_t(places_[f].facet)].index;
+        }
+        const double teeth = std::abs(gear_);
+        const double tooth = std::fmod(std::round(100 * index) / 100, teeth);
+        return tooth > 0 ? tooth : tooth + teeth;
     }
-    std::vector<std::string> tiers;
-    for (const Facet& facet : solid.facets) {
-        const std::string_view tier = before_number(facet.name);
-        tiers.emplace_back(count.count(tier) > 0         ? tier
-                           : count.count(facet.name) > 0 ? std::string_view(facet.name)
-                                                         : std::string_view());
-    }
-    return tiers;
-}
+
+private:
+    const Solid& solid_;
+    double gear_;
+    std::vector<DesignPlace> places_;
+    std::vector<std::string> titles_;
+};
 
 }  // namespace
 
 std::vector<std::string> index_teeth(const Solid& solid, double gear) {
     std::vector<std::string> teeth;
-    for (const Facet& facet : solid.facets) {
-        const auto tooth = tooth_of(facet, gear);
+    const Places places(solid, gear);
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        const auto tooth = places.tooth(f);
         teeth.push_back(tooth ? fmt::format("{:g}", *tooth) : std::string());
     }
     return teeth;
 }
 
 std::vector<std::string> index_names(const Solid& solid, double gear) {
-    const std::vector<std::string> teeth = index_teeth(solid, gear), tiers = design_tiers(solid);
+    const std::vector<std::string> teeth = index_teeth(solid, gear);
+    const Places places(solid, gear);
     const std::string wheel = gear == k_usual_gear ? "" : fmt::format("of{:g}", gear);
     std::vector<std::string> names;
     std::map<std::string, int> count;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const bool named = !tiers[f].empty() && !teeth[f].empty();
-        names.push_back(named ? tiers[f] + "@" + teeth[f] + wheel : solid.facets[f].name);
+        const std::string tier = places.tier(f);
+        const bool named = !tier.empty() && !teeth[f].empty();
+        names.push_back(named ? tier + "@" + teeth[f] + wheel : solid.facets[f].name);
         ++count[names.back()];
     }
     for (std::size_t f = 0; f < names.size(); ++f) {
@@ -103,13 +107,12 @@ std::vector<int> facets_at_index(const Solid& solid, std::string_view name) {
     }
     const auto wanted = index_number(index);
     if (!wanted) return {};
-    const std::vector<std::string> designs = design_tiers(solid),
-                                   others = tier_names_of(solid, {0, 0, 1});
+    const Places places(solid, gear);
+    const std::vector<std::string> others = tier_names_of(solid, {0, 0, 1});
     std::vector<int> found;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const Facet& facet = solid.facets[f];
-        if (facet.name != tier && designs[f] != tier && others[f] != tier) continue;
-        const auto tooth = tooth_of(facet, gear);
+        if (solid.facets[f].name != tier && places.tier(f) != tier && others[f] != tier) continue;
+        const auto tooth = places.tooth(f);
         if (tooth && std::abs(std::remainder(*tooth - *wanted, std::abs(gear))) < 0.5) {
             found.push_back(int(f));
         }

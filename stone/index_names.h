@@ -10,14 +10,15 @@
 
 namespace culet {
 
-/// Of each facet the tooth of the index wheel under it, in (0, gear], as of GemCad's designs
-/// (design.h); nothing ("") of what lies level, and on a wheel of no teeth (0), which stands
-/// for one that nobody knows. To a hundredth of a tooth.
+/// Of each facet the tooth of the index wheel under it, in (0, gear], as the solid's design has it
+/// (design.h); on another wheel, or without a design, as the facet stands. Nothing ("") of what
+/// lies level, and on a wheel of no teeth (0), which stands for one that nobody knows. To a
+/// hundredth of a tooth.
 std::vector<std::string> index_teeth(const Solid& solid, double gear);
 
-/// `A@76` of the facets A, A.1, A.2, ... of a tier of a cut design, on a wheel of 96 teeth;
-/// `A@12of64` on another. The facet's own name where it is of no such tier, lies level, or where
-/// another facet would get the same name.
+/// `A@76` of a facet of the tier A (`tier_titles`) of the solid's design, on a wheel of 96 teeth;
+/// `A@12of64` on another. The facet's own name where it is of no tier, lies level, or where another
+/// facet would get the same name.
 std::vector<std::string> index_names(const Solid& solid, double gear);
 
 /// The facets that such a name means: of this tier, or of this name, within half a tooth of the

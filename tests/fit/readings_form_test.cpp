@@ -136,7 +136,7 @@ Solid design(bool named) {
 }
 
 // GemCad's tiers: the mains one by one, the others by the names that the design has; without names,
-// as lists.
+// as lists, by tier and index.
 TEST_F(Form, OfADesignMeansItsTiers) {
     const Solid solid = design(true);
     const auto written = read(readings_form(stone_of_cut(solid), true).csv);
@@ -148,7 +148,7 @@ TEST_F(Form, OfADesignMeansItsTiers) {
     Stone unnamed = stone_of_cut(design(false));
     const ReadingsForm form = readings_form(unnamed, true);
     unnamed.up_facet = form.up_facet;
-    EXPECT_THAT(form.csv, HasSubstr("each(f"));
+    EXPECT_THAT(form.csv, testing::ContainsRegex("each\\([PC][0-9]@"));
     // All 72 facets but the table, and 8 of lengths and weight.
     EXPECT_EQ(bind_readings(read(filled_in(form.csv)), unnamed).size(), 72u + 8);
 }

@@ -84,6 +84,33 @@ TEST(Design, IsKeptByAMeshAndFoundByTheNamesOfFacets) {
     }
 }
 
+// Only one facet of a tier is labelled, and some tiers are not: no name that culet gave a facet
+// becomes a label on the way through a mesh.
+TEST(Design, HasNoOtherLabelsAfterAMesh) {
+    const ScratchFolder folder;
+    std::string text = k_design;
+    text.replace(text.find(" n G2"), 5, "");
+    text.replace(text.find(" n T"), 4, "");
+    const ReadCut cut = parse_gemcad_asc(text);
+    const auto labels = [](const Design& design) {
+        std::vector<std::string> all;
+        for (const DesignTier& tier : design.tiers) {
+            for (const DesignFacet& facet : tier.facets) {
+                if (!facet.facet.empty()) all.push_back(facet.label + " " + facet.facet);
+            }
+        }
+        return all;
+    };
+    ASSERT_THAT(labels(*cut.solid.design), testing::Contains(testing::StartsWith(" ")));
+    write_mesh(cut.solid, folder / "a.obj");
+    const Solid solid = read_mesh(folder / "a.obj").solid;
+    EXPECT_EQ(labels(*solid.design), labels(*cut.solid.design));
+    write_gemcad_asc(cut.solid, *cut.solid.design, folder / "a.asc");
+    write_gemcad_asc(solid, *solid.design, folder / "b.asc");
+    EXPECT_EQ(labels(*read_gemcad_asc(folder / "b.asc").solid.design),
+              labels(*read_gemcad_asc(folder / "a.asc").solid.design));
+}
+
 TEST(Design, IsCutInItsAuthorsOrderAndWords) {
     const ReadCut cut = parse_gemcad_asc(k_design);
     std::vector<std::string> tiers, words;
