@@ -1,6 +1,7 @@
 #include "page/fit_findings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -48,10 +49,11 @@ View help_of(const Json& fit, const std::string& length_unit) {
     for (const Json& help : array_at(fit, "help")) {
         const auto sigma = number_at(help, "sigma"), share = number_at(help, "reduces");
         const std::string unit = reading_unit(text_at(help, "kind"), length_unit);
-        rows.push_back({{"reading", reading_words(help)},
-                        {"sigma", to_place_of(sigma, sigma, unit)},
-                        {"takes_off", share ? decimals(100 * *share, 1) + " %" : "–"},
-                        {"settles", true_at(help, "closes") ? "yes" : "no"}});
+        rows.push_back(
+            {{"reading", reading_words(help)},
+             {"sigma", to_place_of(sigma, sigma, unit)},
+             {"takes_off", share ? decimals(100 * (1 - std::sqrt(1 - *share)), 1) + " %" : "–"},
+             {"settles", true_at(help, "closes") ? "yes" : "no"}});
     }
     return table_view(rows);
 }

@@ -40,9 +40,10 @@ std::string fit_figures(const Json& fit, const std::string& unit) {
     std::string status = text_at(fit, "status");
     std::replace(status.begin(), status.end(), '_', ' ');
     row("status", status);
-    row("χ² of the readings", significant(number_at(fit, "chi2")));
-    row("χ² to be expected (degrees of freedom)", whole(number_at(fit, "dof")));
-    row("χ² that is no surprise yet", significant(number_at(fit, "chi2_limit")));
+    row("how far off the readings are, in sigmas, squared and added up (χ²)",
+        significant(number_at(fit, "chi2")));
+    row("as much is expected (degrees of freedom)", whole(number_at(fit, "dof")));
+    row("as much comes by chance", significant(number_at(fit, "chi2_limit")));
     row("closed", yes_no("closed"));
     row("convex", yes_no("convex"));
     const auto planarity = number_at(fit, "planarity_max");

@@ -44,7 +44,8 @@ constexpr Row k_rows[] = {
      100},
     {"Into the viewer's head", "", "balance.head", "balance.head", 100},
     {"Out of the crown elsewhere", "", "balance.other", "balance.other", 100},
-    {"Leaks", "pavilion and girdle", "balance.leak", "balance.leak", 100},
+    {"Leaks", "of the light from above, out of pavilion and girdle", "balance.leak", "balance.leak",
+     100},
     {"Reflected on entry", "", "balance.entry_reflection", "balance.entry_reflection", 100},
     {"Not followed to the end", "", "balance.residual", "balance.residual", 100},
     {"Fire", "red and blue at least 0.25° apart", "fire.separated", "fire.separated", 100},
@@ -52,7 +53,7 @@ constexpr Row k_rows[] = {
     {"ASET red", "45° to 75° of elevation", "aset.red", "aset.red", 100},
     {"ASET green", "up to 45°", "aset.green", "aset.green", 100},
     {"ASET blue", "75° to 90°", "aset.blue", "aset.blue", 100},
-    {"ASET dark", "leaks", "aset.dark", "aset.dark", 100},
+    {"ASET dark", "of the face, looks out below the girdle", "aset.dark", "aset.dark", 100},
     {"Evenness of hearts", "smallest over largest area", "hearts.evenness", "hearts.evenness", 100},
     {"Evenness of arrows", "smallest over largest area", "arrows.evenness", "arrows.evenness",
      100}};

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -13,6 +14,17 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::json;
+
+// The lights of docs/grade.md, with their names in brackets.
+std::string light_words(const std::string& model) {
+    const std::map<std::string, std::string> words{{"iso", "even light"},
+                                                   {"cos", "light from above"},
+                                                   {"sc2", "light from the sides"},
+                                                   {"random", "uneven light"},
+                                                   {"wlr", "light with GIA's weights"}};
+    const auto known = words.find(model);
+    return known == words.end() ? model : fmt::format("{}, {}", known->second, model);
+}
 
 }  // namespace
 
@@ -55,7 +67,7 @@ View optimized_view(const std::string& optimized_json) {
             ? fmt::format("{} % of the weight is cut away", decimals(-volume, 2))
             : fmt::format("the weight for the same outline changes by {} %", decimals(volume, 2));
     return {{"objective", text_at(json, "objective")},
-            {"model", text_at(json, "model")},
+            {"light", light_words(text_at(json, "model"))},
             {"before", merit("start", "total")},
             {"now", merit("better", "total")},
             {"two_factors", merit("two_factors", "total")},

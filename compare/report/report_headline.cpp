@@ -23,13 +23,13 @@ std::string comparison_tiles(const Comparison& c,
     std::string tiles;
     if (calibrated && calibrated->equivalent.deg) {
         const EquivalentError& error = calibrated->equivalent;
-        tiles += tile("Equivalent facet error",
+        tiles += tile("As good as facets off by",
                       (error.at_least  ? "≥ "
                        : error.at_most ? "≤ "
                                        : "") +
                           significant(error.deg, 2) + "°",
-                      fmt::format("{}° to {}°", significant(error.low_deg, 2),
-                                  significant(error.high_deg, 2)));
+                      fmt::format("{}° to {}° (equivalent facet error)",
+                                  significant(error.low_deg, 2), significant(error.high_deg, 2)));
     }
     if (const Score* zncc = score_of(c, "zncc"); zncc != nullptr) {
         tiles += tile("Pattern of light", decimals(zncc->value, 3),
