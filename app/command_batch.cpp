@@ -71,6 +71,10 @@ int tell(const MergedBatch& merged, const fs::path& folder, bool quiet) {
         say(fmt::format("  and {} more: the table has them", merged.complaints.size() - told),
             quiet);
     print_lines((folder / "index.html").string());
+    const std::string next = counts.missing > 0
+                                 ? "culet batch JOBS -o {} --resume (what is missing)"
+                                 : "open {}/index.html in a browser";
+    say("next: " + fmt::format(fmt::runtime(next), folder.string()), quiet);
     return counts.good == counts.all() ? exit_good : exit_untrusted;
 }
 
@@ -109,7 +113,7 @@ int run_batch(BatchCommand& command) {
                     result.kept > 0 ? fmt::format(", {} were there already", result.kept) : ""),
         options.quiet);
     if (options.share.of == 1) return tell(merge_batch(command.out), command.out, options.quiet);
-    say(fmt::format("when all shares are done: culet batch --merge {}", command.out),
+    say(fmt::format("next: when all shares are done, culet batch --merge {}", command.out),
         options.quiet);
     return result.bad == 0 ? exit_good : exit_untrusted;
 }

@@ -2,9 +2,9 @@
 
 #include <memory>
 
+#include "app/compare_options.h"
 #include "app/file_kinds.h"
 #include "app/fit_uncertainty.h"
-#include "app/options.h"
 #include "app/report_viewer.h"
 #include "app/terminal.h"
 #include "compare/calibration/scene_comparison.h"
@@ -24,21 +24,6 @@ namespace culet {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct CompareArguments {
-    CommonOptions common;
-    std::string given;                  ///< the command line
-    std::vector<std::string> pictures;  ///< photographs, then the render or the scene
-    std::string folder, json, mask, cache, start, uncertainty;
-    std::vector<std::string> ignored;
-    bool simulated = false, calibrate = false, keep_pose = false;
-    double budget = SceneCompareOptions{}.budget_seconds;
-    int draws = 8;
-
-    std::size_t photographs() const { return pictures.size() - 1; }
-    const std::string& against() const { return pictures.back(); }
-    bool against_scene() const { return fs::path(against()).extension() == ".toml"; }
-};
 
 /// The folder for the outputs; taken away again if nothing was put into it.
 class OutputFolder {
@@ -288,62 +273,7 @@ void add_command_compare(CLI::App& program, int& exit_code) {
         "compare",
         "registers a render with a photograph by the stone's outline, or finds the pose of a "
         "scene's stone in it, scores it, and writes DIR/report.html");
-    command
-        ->add_option("PHOTO", arguments->pictures,
-                     "photographs (PNG, JPEG, TIFF, EXR or HDR), then the render (best the .exr, "
-                     "which is linear) or the scene file")
-        ->required()
-        ->expected(1, 1000)
-        ->type_name("PHOTO... RENDER|SCENE.toml");
-    command->add_option("-o,--output", arguments->folder, "folder for the report; made if missing")
-        ->required()
-        ->type_name("DIR");
-    command->add_option("--json", arguments->json, "scores for programs; - is stdout")
-        ->type_name("FILE");
-    command
-        ->add_option("--mask", arguments->mask,
-                     "picture of the photograph's size, white where the stone is")
-        ->type_name("FILE");
-    command
-        ->add_option(
-            "--ignore", arguments->ignored,
-            "picture of the photograph's size, white where nothing is to be compared (dust, "
-            "inclusions, a holder); may be given several times")
-        ->type_name("MASK")
-        ->allow_extra_args(false);
-    command->add_flag("--simulated", arguments->simulated,
-                      "the photograph was computed: say so wherever it appears");
-    command->add_flag("--calibrate", arguments->calibrate,
-                      "say what the scores mean for this stone, pose and light (scenes only)");
-    command
-        ->add_option(
-            "--budget", arguments->budget,
-            "seconds of two processors for a photograph with its calibration, in counted work: as "
-            "fine and as many pictures are drawn as that allows (0: no limit)")
-        ->check(CLI::Range(0.0, 1e6))
-        ->capture_default_str();
-    command
-        ->add_option("--draws", arguments->draws,
-                     "of each facet error at most; each null has three times as many")
-        ->check(CLI::Range(2, 1000))
-        ->capture_default_str();
-    command
-        ->add_option("--cache", arguments->cache,
-                     "folder that keeps calibrations for the next photograph of the same scene "
-                     "(without it: DIR/cache)")
-        ->type_name("DIR");
-    command
-        ->add_option("--start", arguments->start,
-                     "mesh that the fit started from: would it have matched as well?")
-        ->type_name("MESH");
-    command
-        ->add_option("--uncertainty", arguments->uncertainty,
-                     "report of the stone's fit: how much of the photograph is within what its "
-                     "readings leave open (scenes only; 100 stones are drawn)")
-        ->type_name("FIT.json");
-    command->add_flag("--keep-pose", arguments->keep_pose,
-                      "the scene's camera stands where it says: no pose is looked for");
-    add_common(*command, arguments->common, true);
+    add_compare_options(*command, *arguments);
     command->footer(
         "Examples:\n"
         "  culet compare photo.jpg render.exr -o report\n"

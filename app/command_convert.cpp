@@ -55,6 +55,24 @@ void say_of(const std::filesystem::path& file, const std::vector<std::string>& n
     for (const std::string& note : notes) say(fmt::format("{}: {}", file.string(), note), quiet);
 }
 
+void say_next(const ConvertOptions& options) {
+    const std::string ending = extension_of(options.out), out = options.out.string();
+    std::string next = fmt::format("open {} in the program that it is for", out);
+    if (ending == "asc")
+        next = fmt::format("culet info {} --cutting-sheet sheet.html (to cut it)", out);
+    else if (!options.clearance.empty())
+        next = fmt::format("take the solid of {} away from the metal, in your CAD program", out);
+    else if (mesh_format(options.out))
+        next = fmt::format("culet render {} --material NAME -o stone.png (a picture)", out);
+    else if (ending == "pov")
+        next = fmt::format("povray +I{}", out);
+    else if (ending == "xml")
+        next = fmt::format("mitsuba -m scalar_rgb {}", out);
+    else if (ending == "pbrt")
+        next = fmt::format("pbrt {}", out);
+    say("next: " + next, options.common.quiet);
+}
+
 std::vector<std::string> write_gltf(const ExportInput& input, const std::filesystem::path& out) {
     const GltfForm form = extension_of(out) == "glb" ? GltfForm::binary : GltfForm::text;
     if (!input.has_material) {
@@ -93,6 +111,7 @@ int convert_for_others(const ConvertOptions& options) {
     say_of(options.in, input.notes, quiet);
     say_of(options.in, input.details, quiet || !options.common.verbose);
     say_of(options.out, notes, quiet);
+    say_next(options);
     return exit_good;
 }
 
@@ -124,6 +143,7 @@ int convert_scene(const ConvertOptions& options) {
     for (const std::string& note : converted.notes) {
         say(fmt::format("{}: not carried: {}", options.out.string(), note), options.common.quiet);
     }
+    say_next(options);
     return exit_good;
 }
 
@@ -210,6 +230,7 @@ int convert(const ConvertOptions& options) {
             quiet);
     }
     say_of(options.out, notes_on_writing, quiet);
+    say_next(options);
     return faults.empty() ? exit_good : exit_untrusted;
 }
 

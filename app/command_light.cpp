@@ -79,7 +79,6 @@ ProbeOptions probe_options(const LightArguments& a) {
     if (a.moved && options.turned)
         throw InputError("--turned is the camera's, which stands still with --moved: not both");
     options.near_lights = near_requests(a.near);
-    if (!(a.near.ball_radius >= 0)) throw InputError("--ball-radius is over 0");
     options.ball_radius = a.near.ball_radius;
     if (!options.near_lights.empty() && a.table.empty()) {
         throw InputError(
@@ -184,6 +183,11 @@ int run_light(const LightArguments& a) {
     for (const std::string& note : read.notes) say("note: " + note, a.common.quiet);
     for (const std::string& note : probe.notes) say("note: " + note, a.common.quiet);
     if (!probe.usable()) say("not to be trusted: " + probe.doubt, a.common.quiet);
+    if (probe.usable())
+        say(fmt::format("next: {} in the scene, then culet compare PHOTO SCENE.toml -o report",
+                        a.table.empty() ? fmt::format("light.environment = \"{}\"", a.out)
+                                        : fmt::format("the [light] table of {}", a.table)),
+            a.common.quiet);
     return probe.usable() ? exit_good : exit_untrusted;
 }
 
@@ -238,30 +242,10 @@ void add_command_light(CLI::App& program, int& exit_code) {
         ->add_option("--camera", a->camera,
                      "camera file: take out the lens's distortion, and use its focal length")
         ->type_name("FILE");
-    command
-        ->add_option("--near", a->near.places,
-                     "a near light: its pixel in the first picture (and in the second; otherwise "
-                     "found); it becomes a window of the scene and leaves the environment")
-        ->type_name("X,Y[,X2,Y2]")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--near-distance", a->near.distances,
-                     "of each --near light from the ball's middle, in the stone's unit, or find "
-                     "(otherwise by its parallax)")
-        ->type_name("LENGTH")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--near-window", a->near.windows,
-                     "a near light measured with a ruler from the ball's middle: middle, half "
-                     "width, half height, in the stone's unit and frame")
-        ->type_name("M,U,V")
-        ->allow_extra_args(false);
+    add_near_light_options(*command, a->near);
     command->add_flag("--moved", a->moved,
                       "the camera stood still and the ball was moved: later views show only how "
                       "far near lights are");
-    command
-        ->add_option("--ball-radius", a->near.ball_radius, "in the stone's unit, for near lights")
-        ->type_name("LENGTH");
     command
         ->add_option("--table", a->table,
                      "the scene's [light] table: the environment and the near lights")

@@ -11,7 +11,7 @@
 
 #include "app/command_grade.h"
 #include "app/grade_input.h"
-#include "app/options.h"
+#include "app/optimize_options.h"
 #include "app/terminal.h"
 #include "render/grade/grade_figures.h"
 #include "stone/errors.h"
@@ -24,23 +24,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct OptimizeCommand {
-    CommonOptions common;
-    std::string file, out, page, json;
-    GradeChoices choices;
-    std::string objective = "brilliance", model = "cos", table;
-    std::optional<double> index;
-    double head_deg = 10, range_deg = 8, over_critical_deg = 0, least_volume_percent = 80;
-    int evaluations = 400;
-    bool recut = false;
-    double gain = 0, most_loss_percent = 10;
-};
-
 LightModel model_called(const std::string& name) {
     for (int m = 0; m < k_light_model_count; ++m) {
         if (name == name_of(static_cast<LightModel>(m))) return static_cast<LightModel>(m);
     }
-    throw InputError(fmt::format("--model is iso, cos, sc2, random or wlr, found \"{}\"", name));
+    throw InputError(
+        fmt::format("--model is iso, cos, sc2, random or wlr (docs/grade.md), found \"{}\"", name));
 }
 
 OptimizeOptions options_of(const OptimizeCommand& command, const GradeInput& input) {
@@ -75,8 +64,29 @@ nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) 
     return json;
 }
 
-std::string json_of(const Optimized& result, const OptimizeOptions& options,
-                    const OptimizeCommand& command) {
+// By the titles of the cutting sheet, tier by tier; tiers of a design that stand alike were changed
+// together.
+std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
+    Solid solid = result.start;
+    solid.design = std::make_shared<const Design>(design);
+    const std::vector<std::string> titles = tier_titles(design);
+    const std::vector<DesignPlace> places = places_of(solid);
+    std::vector<std::string> words;
+    for (const OptimizedTier& tier : result.tiers) {
+        std::vector<std::string> own;
+        for (const int f : tier.tier.facets) {
+            const int t = places[std::size_t(f)].tier;
+            const std::string& title =
+                t < 0 ? solid.facets[std::size_t(f)].name : titles[std::size_t(t)];
+            if (std::find(own.begin(), own.end(), title) == own.end()) own.push_back(title);
+        }
+        words.push_back(fmt::format("{}", fmt::join(own, " ")));
+    }
+    return words;
+}
+
+std::string json_of(const Optimized& result, const std::vector<std::string>& names,
+                    const OptimizeOptions& options, const OptimizeCommand& command) {
     nlohmann::ordered_json json{{"schema", 1},
                                 {"objective", command.objective},
                                 {"model", command.model},
@@ -93,12 +103,13 @@ std::string json_of(const Optimized& result, const OptimizeOptions& options,
                                   {"better", 100 * table_share(result.better)}}},
                                 {"evaluations", result.evaluations},
                                 {"tiers", nlohmann::ordered_json::array()}};
-    for (const OptimizedTier& tier : result.tiers) {
+    for (std::size_t t = 0; t < names.size(); ++t) {
+        const OptimizedTier& tier = result.tiers[t];
         nlohmann::ordered_json facets = nlohmann::ordered_json::array();
         for (const int f : tier.tier.facets)
             facets.push_back(result.start.facets[static_cast<std::size_t>(f)].name);
         json["tiers"].push_back(
-            {{"name", tier.tier.name},
+            {{"name", names[t]},
              {"part", tier.tier.part == StonePart::crown ? "crown" : "pavilion"},
              {"facets", facets},
              {"from_deg", degrees(tier.from)},
@@ -107,23 +118,16 @@ std::string json_of(const Optimized& result, const OptimizeOptions& options,
     return json.dump(1) + "\n";
 }
 
-std::string words_of(const OptimizedTier& tier, const Solid& solid) {
-    if (!tier.tier.name.empty()) return tier.tier.name;
-    const std::size_t more = tier.tier.facets.size() - 1;
-    const std::string& first =
-        solid.facets[static_cast<std::size_t>(tier.tier.facets.front())].name;
-    return more == 0 ? first : fmt::format("{} and {} more", first, more);
-}
-
-void print_result(const Optimized& result, const OptimizeCommand& command) {
+void print_result(const Optimized& result, const std::vector<std::string>& names,
+                  const OptimizeCommand& command) {
     std::string text = fmt::format(
         "{}: {:.2f} before, {:.2f} now ({:.2f} where crown and pavilion are each "
         "scaled as a whole)\n",
         command.objective, result.at_start.total, result.at_better.total,
         result.by_two_factors.total);
-    for (const OptimizedTier& tier : result.tiers)
-        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", words_of(tier, result.start),
-                            degrees(tier.from), degrees(tier.to));
+    for (std::size_t t = 0; t < names.size(); ++t)
+        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", names[t],
+                            degrees(result.tiers[t].from), degrees(result.tiers[t].to));
     text += fmt::format("  table {:.1f} -> {:.1f} % of the width; ",
                         100 * table_share(result.start), 100 * table_share(result.better));
     text += command.recut ? fmt::format("{:.2f} % of the weight is cut away\n",
@@ -186,6 +190,7 @@ int run_optimize(OptimizeCommand command) {
         throw InputError(input.file, error.what());
     }
     Design design = design_of(options, input);
+    const std::vector<std::string> names = tier_words(result, design);
     const fs::path before = fs::path(command.page) / "before.asc";
     if (!command.page.empty()) {
         fs::create_directories(command.page);
@@ -193,9 +198,9 @@ int run_optimize(OptimizeCommand command) {
     }
     design.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
     write_gemcad_asc(about_its_axis(result), design, command.out);
-    if (!command.json.empty()) write_text(command.json, json_of(result, options, command));
+    if (!command.json.empty()) write_text(command.json, json_of(result, names, options, command));
     if (command.json != "-") {
-        print_result(result, command);
+        print_result(result, names, command);
         if (result.found && !result.interrupted) print_losses(result, options);
     }
     // The last one of a fit that is not trusted is told below.
@@ -209,7 +214,7 @@ int run_optimize(OptimizeCommand command) {
     }
     if (!command.page.empty())
         write_grade_page({before.string(), command.out}, command.choices, command.page,
-                         command.common, json_of(result, options, command));
+                         command.common, json_of(result, names, options, command));
     if (!input.trusted)
         say(fmt::format("{}: the fit should not be trusted, nor should these angles: {}",
                         input.file, input.notes.back()),
@@ -229,62 +234,7 @@ void add_command_optimize(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<OptimizeCommand>();
     CLI::App* optimize = program.add_subcommand(
         "optimize", "better angles for a cut: its index settings and meets are kept");
-    optimize->add_option("stone", command->file, "stone, mesh or cut design: closed and convex")
-        ->required()
-        ->type_name("STONE|CUT");
-    optimize->add_option("-o,--output", command->out, "the better design")
-        ->required()
-        ->type_name("BETTER.asc");
-    optimize
-        ->add_option("--objective", command->objective,
-                     "brilliance, fire, contrast or tilt, or several with weights (brilliance)")
-        ->type_name("WORDS");
-    optimize
-        ->add_option("--model", command->model,
-                     "light of brilliance: iso, cos, sc2, random or wlr, as in culet grade (cos)")
-        ->type_name("MODEL");
-    optimize->add_option("--page", command->page, "folder for a page with before and after")
-        ->type_name("DIR");
-    optimize->add_option("--json", command->json, "merits and angles (- is stdout)")
-        ->type_name("FILE");
-    optimize->add_option("--material", command->choices.material, "material by name or file")
-        ->type_name("NAME");
-    optimize->add_option("--index", command->index, "refractive index, instead of the material's")
-        ->type_name("N");
-    optimize
-        ->add_option("--head", command->head_deg, "half angle of the viewer's head, degrees (10)")
-        ->check(CLI::Range(0.0, 89.0))
-        ->type_name("DEG");
-    optimize->add_option("--range", command->range_deg, "most change of an angle, degrees (8)")
-        ->check(CLI::Range(0.01, 45.0))
-        ->type_name("DEG");
-    optimize
-        ->add_option("--over-critical", command->over_critical_deg,
-                     "pavilion angles stay so much above the critical angle, degrees (0)")
-        ->check(CLI::Range(0.0, 30.0))
-        ->type_name("DEG");
-    optimize
-        ->add_option("--least-volume", command->least_volume_percent,
-                     "of the design's, for the same outline, per cent (80)")
-        ->check(CLI::Range(0.0, 100.0))
-        ->type_name("PERCENT");
-    optimize->add_option("--table", command->table, "width of the table, per cent of the stone's")
-        ->type_name("LEAST:MOST");
-    optimize->add_option("--evaluations", command->evaluations, "cuts to try (400)")
-        ->check(CLI::Range(40, 100000))
-        ->type_name("N");
-    optimize->add_flag("--recut", command->recut, "the better cut must fit inside the stone");
-    optimize
-        ->add_option("--gain", command->gain,
-                     "with --recut: points of merit to win at the least loss of weight")
-        ->check(CLI::Range(0.0, 100.0))
-        ->type_name("POINTS");
-    optimize
-        ->add_option("--most-loss", command->most_loss_percent,
-                     "with --recut and no --gain: weight that may be cut away, per cent (10)")
-        ->check(CLI::Range(0.0, 100.0))
-        ->type_name("PERCENT");
-    add_common(*optimize, command->common, true);
+    add_optimize_options(*optimize, *command);
     optimize->footer(
         "Examples:\n"
         "  culet optimize design.asc --material quartz -o better.asc --page out/better\n"

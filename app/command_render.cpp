@@ -10,9 +10,11 @@
 #include <optional>
 
 #include "app/fit_uncertainty.h"
+#include "app/movie.h"
 #include "app/picture_output.h"
 #include "app/render_frames.h"
 #include "app/render_options.h"
+#include "app/render_words.h"
 #include "app/saved_plan.h"
 #include "app/terminal.h"
 #include "render/engine/engine.h"
@@ -28,9 +30,6 @@
 namespace culet {
 
 namespace {
-
-// What k_usual_allowance_ns is for people.
-constexpr int k_usual_seconds = 10;
 
 // `--effects dispersion,absorption` is a list in the scene file.
 std::string effects_setting(const std::string& words) {
@@ -95,46 +94,6 @@ int explain_plan(const RenderOptions& options) {
     return exit_good;
 }
 
-// How near the picture is, where that was left to culet.
-void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet) {
-    if (std::isnan(stats.error_bound) && check == Check::none) {
-        say("not checked: nobody knows how near the picture is", quiet);
-        return;
-    }
-    if (std::isnan(stats.error_bound)) {
-        if (!paced) return;  // a note says why
-        say(fmt::format(
-                "a rough picture, nobody knows how near: one that is checked takes more than "
-                "about {} s; --tolerance 0.2 draws it",
-                k_usual_seconds),
-            quiet);
-        return;
-    }
-    if (!stats.allowed_tolerance) return;
-    const bool finest = stats.error_bound <= RenderSettings().tolerance;
-    say(fmt::format("within {:.2g} of the mean radiance{}", stats.error_bound,
-                    finest ? std::string()
-                           : fmt::format(", which about {} s allow: --tolerance {:g} for a finer "
-                                         "picture",
-                                         k_usual_seconds, RenderSettings().tolerance)),
-        quiet);
-}
-
-void say_all_about(const RenderStats& stats) {
-    for (const EffectDecision& decision : stats.effects) {
-        say(fmt::format("{:<14}{:<4} {}", name_of(decision.effect), decision.on ? "on" : "off",
-                        decision.why),
-            false);
-    }
-    say(fmt::format(
-            "{} rays, {} beams in {:.2f} s; remainder {:.2g}, cut {:.2g}, error bound "
-            "{:.2g} of the mean",
-            stats.rays, stats.beams,
-            stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check,
-            stats.remainder, stats.cut, stats.error_bound),
-        false);
-}
-
 // Pictures on their way to the file, for who watches at a terminal.
 class Drafts {
 public:
@@ -190,14 +149,6 @@ void require_sense(const RenderOptions& options) {
         throw InputError("--plan says how to draw: leave out --set render...., or --plan");
 }
 
-void say_verified(const Verification& found, bool quiet) {
-    say(fmt::format("measured error {:.2g} of the mean radiance at {} pixels (their own noise "
-                    "{:.2g}), error bound {:.2g}",
-                    found.measured, found.pixels, found.noise, found.bound),
-        quiet);
-    if (!found.holds()) say("the error bound does not hold", quiet);
-}
-
 // Layers of what the stone's fit leaves open.
 void add_uncertainty(const RenderOptions& options, const Scene& scene,
                      const StoneUncertainty& uncertainty, RenderResult& result) {
@@ -251,6 +202,17 @@ RenderResult draw(const RenderOptions& options, const Scene& scene,
     return result;
 }
 
+std::string next_step(const RenderOptions& options) {
+    if (is_movie(options.out)) return fmt::format("open {} in a film player", options.out);
+    if (options.frames)
+        return fmt::format("look at {}; with -o turn.mp4 they become a film",
+                           frame_name(options.out, 0));
+    if (options.out.ends_with(".exr"))
+        return fmt::format("culet compare PHOTO {} -o report (against a photograph)", options.out);
+    return fmt::format("open {}; culet view {} -o stone.html makes a page in which it turns",
+                       options.out, options.scene);
+}
+
 int run_render(const RenderOptions& options) {
     if (options.explain) return explain_plan(options);
     require_sense(options);
@@ -294,6 +256,7 @@ int run_render(const RenderOptions& options) {
     if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
     if (stats.verification) say_verified(*stats.verification, quiet);
     if (options.common.verbose && !quiet) say_all_about(stats);
+    if (!options.out.empty() && options.out != "-") say("next: " + next_step(options), quiet);
     return usable(stats, paced) ? exit_good : exit_untrusted;
 }
 

@@ -255,6 +255,7 @@ int run_job(const RunOptions& options) {
     if (made.comparison) write_text(folder / "scores.json", report.scores_json);
     write_report(report, folder / "report.html");
     print_lines((folder / "report.html").string());
+    say(fmt::format("next: open {} in a browser", (folder / "report.html").string()), quiet);
     const bool trusted =
         (!made.fit || made.fit->usable()) && (!made.comparison || made.comparison->usable());
     return trusted ? exit_good : exit_untrusted;

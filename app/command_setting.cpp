@@ -170,6 +170,10 @@ int run_setting(const SettingCommand& command) {
                                : std::string(", no shank"),
                     setting.clearance, unit, setting.parts.size(), mesh.facets.size()),
         quiet || command.json == "-");
+    say(command.scene.empty()
+            ? std::string("next: the same with --scene ring.toml, for a scene to be rendered")
+            : fmt::format("next: culet render {} -o ring.png", command.scene.string()),
+        quiet);
     return exit_good;
 }
 

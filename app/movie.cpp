@@ -16,6 +16,10 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
+bool is_movie(const std::filesystem::path& out) {
+    return out.extension() == ".mp4";
+}
+
 void require_ffmpeg(const fs::path& movie) {
     if (has_program("ffmpeg")) return;
     throw InputError(movie,

@@ -6,6 +6,9 @@
 
 namespace culet {
 
+/// By its ending, .mp4.
+bool is_movie(const std::filesystem::path& out);
+
 /// Throws InputError where ffmpeg is not installed.
 void require_ffmpeg(const std::filesystem::path& movie);
 

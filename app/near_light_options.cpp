@@ -10,7 +10,31 @@
 
 namespace culet {
 
+void add_near_light_options(CLI::App& command, NearLightWords& words) {
+    command
+        .add_option("--near", words.places,
+                    "a near light: its pixel in the first picture (and in the second; otherwise "
+                    "found); it becomes a window of the scene and leaves the environment")
+        ->type_name("X,Y[,X2,Y2]")
+        ->allow_extra_args(false);
+    command
+        .add_option("--near-distance", words.distances,
+                    "of each --near light from the ball's middle, in the stone's unit, or find "
+                    "(otherwise by its parallax)")
+        ->type_name("LENGTH")
+        ->allow_extra_args(false);
+    command
+        .add_option("--near-window", words.windows,
+                    "a near light measured with a ruler from the ball's middle: middle, half "
+                    "width, half height, in the stone's unit and frame")
+        ->type_name("M,U,V")
+        ->allow_extra_args(false);
+    command.add_option("--ball-radius", words.ball_radius, "in the stone's unit, for near lights")
+        ->type_name("LENGTH");
+}
+
 std::vector<NearLightRequest> near_requests(const NearLightWords& a) {
+    if (!(a.ball_radius >= 0)) throw InputError("--ball-radius is over 0");
     std::vector<NearLightRequest> requests;
     for (const std::string& text : a.places) {
         const char* what =

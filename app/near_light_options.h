@@ -1,6 +1,7 @@
 #pragma once
 // What a command line says of lights near the ball.
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct NearLightWords {
         windows;  ///< --near, --near-distance, --near-window
     double ball_radius = 0;
 };
+
+/// `words` must outlive `command`.
+void add_near_light_options(CLI::App& command, NearLightWords& words);
 
 /// In the stone's unit and pixels of the photographs. Throws InputError.
 std::vector<NearLightRequest> near_requests(const NearLightWords& words);

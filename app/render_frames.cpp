@@ -20,10 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_movie(const std::string& out) {
-    return fs::path(out).extension() == ".mp4";
-}
-
 PictureOutput output_of(const Frames& frames, int frame, const std::string& exposure,
                         const Scene& scene) {
     PictureOutput output(frame_name(frames.out, frame), frames.spectral);

@@ -87,7 +87,8 @@ TEST_F(ConvertInfo, MessagesGoToStderrAndResultsToStdout) {
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_TRUE(run.out.empty());
     // What is done to nearly every design is said on request.
-    EXPECT_TRUE(run.err.empty()) << run.err;
+    EXPECT_EQ(run.err, "next: culet render " + file("a.obj") +
+                           " --material NAME -o stone.png (a picture)\n");
     const ProgramRun more = run_culet({"convert", k_design, file("a.obj"), "-v"});
     EXPECT_TRUE(more.out.empty());
     EXPECT_NE(more.err.find("joined meets that miss"), std::string::npos);

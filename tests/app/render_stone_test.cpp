@@ -48,7 +48,8 @@ TEST_F(RenderStone, SaysTheSizeThatItTakes) {
                                       "--size", "32", "--tolerance", "0.2", "-o", file("a.png")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("6.5 mm wide"));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("\nnext: open " + file("a.png")));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
 }
 
 TEST_F(RenderStone, SaysHowNearThePictureIsWhereNobodyAskedForATolerance) {
@@ -122,7 +123,7 @@ TEST_F(RenderStone, PlainShadingsAreDrawnAndSayWhatTheyAre) {
                        file("a.png"), "--stats", file("a.json")});
         EXPECT_EQ(run.exit_code, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr("plain shading"));
-        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
         const nlohmann::json stats = json("a.json");
         EXPECT_EQ(stats["engine"], engine);
         EXPECT_TRUE(stats["error_bound"].is_null());

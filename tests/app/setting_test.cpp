@@ -31,7 +31,8 @@ TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
                    file("ring.json")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("\nnext: culet render " + file("ring.toml")));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
     const auto json = this->json("ring.json");
     EXPECT_EQ(json.at("prongs"), 4);
     EXPECT_EQ(json.at("ring_diameter"), 17);

@@ -1,0 +1,18 @@
+#pragma once
+// What `culet render` says of a picture that it has drawn.
+
+#include "render/engine/render_result.h"
+#include "render/planner/verify.h"
+#include "render/scene/scene.h"
+
+namespace culet {
+
+/// What k_usual_allowance_ns is for people.
+constexpr int k_usual_seconds = 10;
+
+/// How near the picture is, where that was left to culet.
+void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet);
+void say_all_about(const RenderStats& stats);
+void say_verified(const Verification& found, bool quiet);
+
+}  // namespace culet
