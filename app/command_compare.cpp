@@ -149,11 +149,6 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
     return result;
 }
 
-// As one says it: name_of is the word of files.
-std::string verdict_words(Verdict verdict) {
-    return verdict == Verdict::no_evidence ? "no evidence that it is this stone" : name_of(verdict);
-}
-
 void say_result(const CompareArguments& a, const Comparison& comparison, bool calibrated) {
     // What a calibration says is a sentence by itself.
     say(calibrated ? comparison.reason + "."

@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "app/compare_options.h"
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/report_viewer.h"
@@ -160,7 +161,7 @@ JobResult make(const Job& job, JobInput& input, bool quiet) {
         made.comparison =
             compare(input.photo, made.rendered ? photo_of(made.rendered->picture) : input.picture,
                     input.compare_options, progress_line("comparing", quiet));
-        say(fmt::format("compare: {}: {}", name_of(made.comparison->verdict),
+        say(fmt::format("compare: {}: {}", verdict_words(made.comparison->verdict),
                         made.comparison->reason),
             quiet);
     }

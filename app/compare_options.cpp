@@ -2,6 +2,10 @@
 
 namespace culet {
 
+std::string verdict_words(Verdict verdict) {
+    return verdict == Verdict::no_evidence ? "no evidence that it is this stone" : name_of(verdict);
+}
+
 void add_compare_options(CLI::App& command, CompareArguments& a) {
     command
         .add_option("PHOTO", a.pictures,

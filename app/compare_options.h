@@ -26,6 +26,9 @@ struct CompareArguments {
     bool against_scene() const { return std::filesystem::path(against()).extension() == ".toml"; }
 };
 
+/// As one says it: name_of is the word of files.
+std::string verdict_words(Verdict verdict);
+
 /// `arguments` must outlive `command`.
 void add_compare_options(CLI::App& command, CompareArguments& arguments);
 

@@ -103,6 +103,7 @@ TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
     EXPECT_THAT(run.err, HasSubstr("left out: mesh.obj"));
     EXPECT_THAT(run.err, HasSubstr("left out: scene.toml"));
     EXPECT_THAT(run.out, HasSubstr("index.html"));
+    EXPECT_THAT(run.err, HasSubstr("\nnext: open " + file("out/index.html")));
     const Json table = json("out/table.json");
     ASSERT_EQ(table.at("jobs").size(), 3u);
     EXPECT_EQ(table["jobs"][0]["name"], "a");

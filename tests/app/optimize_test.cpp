@@ -70,6 +70,8 @@ TEST_F(OptimizeCommand, KeepsTheDesignsWords) {
         return count;
     };
     EXPECT_EQ(tiers(better), tiers(design));
+    // The cutting sheet calls the upper mains C (Design.OfAStandardCutHasItsTiers).
+    EXPECT_THAT(run.out, testing::ContainsRegex("\n  C  .* degrees"));
 }
 
 TEST_F(OptimizeCommand, RefusesInOneLine) {
