@@ -1,6 +1,5 @@
 #include "fit/mesh/roughness.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -22,12 +21,6 @@ std::optional<MeshRoughness> MeshRoughness::of(const System& system) {
     }
     if (!(redundancy > 0)) return std::nullopt;
     return MeshRoughness(system, std::sqrt(squares / redundancy));
-}
-
-double MeshRoughness::turn(int facet) const {
-    double spread = 0;
-    for (const Vec3& off : from_middle(facet)) spread += glm::dot(off, off);
-    return corner_ / std::sqrt(std::max(1e-12, spread / 2));
 }
 
 double MeshRoughness::tilt(int facet) const {

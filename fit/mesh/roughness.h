@@ -17,8 +17,6 @@ public:
     /// Of a corner, across its facet: the root of the mean square over all corners beyond three of
     /// each facet.
     double corner() const { return corner_; }
-    /// Of a facet's normal, by its corners' errors and its size.
-    double turn(int facet) const;
     /// Of a facet's inclination alone, by its corners' errors and how far they reach up and down:
     /// slender facets are told well along, badly across. Infinite where its corners are all in
     /// line.

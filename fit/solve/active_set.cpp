@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "fit/solve/constrained_newton.h"
 #include "fit/solve/sign_ambiguity.h"
-#include "fit/solve/turning.h"
 
 namespace culet {
 
@@ -19,8 +17,6 @@ constexpr int k_most_meanings = 8, k_most_holding = 8;
 constexpr double k_most_work = 1.5e10;
 // Of chi-square: ends that differ by less are one.
 constexpr double k_gain = 1e-3;
-// Of chi-square, by which an end may be worse from which a better one is looked for: two sigmas.
-constexpr double k_hardly_worse = 4;
 // In half diameters, far above rounding and far below what corners are held below a facet; and far
 // above that.
 constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
@@ -49,45 +45,27 @@ public:
         for (int round = 0; round < k_most_meanings && !(optimum_.chi2 < options_.agreeable) &&
                             solver_.work() < k_most_work;
              ++round) {
-            beside_.reset();
             relaxation_.forget_contacts(optimum_.shared_contacts);
             const std::vector<Shape> sign_choices = better_signs(
                 relaxation_, solver_, optimum_.shape, penalty_, k_nearly_upright, k_most_leanings);
-            if (std::any_of(sign_choices.begin(), sign_choices.end(),
-                            [&](const Shape& other) { return gains_from(other, false); })) {
-                continue;
+            if (std::none_of(sign_choices.begin(), sign_choices.end(),
+                             [&](const Shape& other) { return gains_from(other); })) {
+                break;
             }
-            if (turns_better(optimum_.shape)) continue;
-            if (!beside_ || !turns_better(beside_->shape)) break;
         }
         return std::move(optimum_);
     }
 
 private:
-    // `with_turn`: what the mesh says against how they stand counts, too.
-    bool gains_from(const Shape& another, bool with_turn) {
-        const auto off = [&](const Shape& shape) {
-            return with_turn ? turn_off_the_mesh(relaxation_, shape) : 0;
-        };
-        const double off_now = off(optimum_.shape);
-        const double goal = optimum_.chi2 + off_now - off(another);
-        LocalOptimum other = constrained_newton(relaxation_, solver_, another, {},
-                                                {.iterations = options_.iterations, .goal = goal});
+    bool gains_from(const Shape& another) {
+        LocalOptimum other =
+            constrained_newton(relaxation_, solver_, another, {},
+                               {.iterations = options_.iterations, .goal = optimum_.chi2});
         other.iterations += optimum_.iterations;
         if (is_same_place(other.shape, optimum_.shape)) return false;
-        if (!(other.chi2 + off(other.shape) < optimum_.chi2 + off_now - k_gain)) {
-            if (other.converged && other.chi2 < optimum_.chi2 + k_hardly_worse &&
-                !(beside_ && beside_->chi2 < other.chi2)) {
-                beside_ = std::move(other);
-            }
-            return false;
-        }
+        if (!(other.chi2 < optimum_.chi2 - k_gain)) return false;
         optimum_ = std::move(other);
         return true;
-    }
-    bool turns_better(const Shape& from) {
-        const auto turned = turned_better(relaxation_, solver_, from, penalty_);
-        return turned && gains_from(*turned, true);
     }
 
     Relaxation& relaxation_;
@@ -95,8 +73,6 @@ private:
     const ActiveSetOptions& options_;
     PenaltyScale penalty_;
     LocalOptimum optimum_;
-    // The best of those that are hardly worse: another may be found from there.
-    std::optional<LocalOptimum> beside_;
 };
 
 bool is_among(const std::vector<ActiveCorner>& all, const ActiveCorner& corner) {

@@ -252,7 +252,6 @@ std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const
         system_.has_prior() || system_.has_known_planes()) {
         return result;
     }
-    int row = static_cast<int>(incidences_.size());
     for (const Equation& e : equations_) {
         const Reading& reading = system_.readings()[std::size_t(e.reading)];
         const bool is_level = std::hypot(e.caliper.x, e.caliper.y) > 0;
@@ -261,9 +260,8 @@ std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const
         }
         if (is_level) {
             if (e.caliper.z != 0 || e.exact) return {};
-            result.push_back({row, e.caliper, e.value, e.sigma, &corners_between_jaws(e)});
+            result.push_back({e.caliper, e.value, e.sigma, &corners_between_jaws(e)});
         }
-        ++row;
     }
     return result;
 }

@@ -148,10 +148,9 @@ public:
         std::vector<Turn> turns;
     };
     std::vector<Folded> folded(const Shape& shape, double within) const;
-    /// Rows of `linearisation` that say how wide the stone is along level directions, where nothing
-    /// else says how it stands about up; none where something does.
+    /// How wide the stone is along level directions, where nothing else says how it stands about
+    /// up; none where something does.
     struct Caliper {
-        int row = -1;
         Vec3 direction{0, 0, 0};
         double value = 0, sigma = 0;
         const std::vector<int>* corners = nullptr;  ///< that its jaws may touch

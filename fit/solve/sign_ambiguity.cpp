@@ -133,8 +133,9 @@ std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::Matrix
     return best;
 }
 
-}  // namespace
-
+// What is added to the values of a linearisation's rows when some facets are taken the other way:
+// the `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals
+// over their variances at the optimum of the factored equations.
 std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::Folded>& folded,
                                                  const KktSolver& solver,
                                                  const Eigen::VectorXd& pulls, std::size_t most) {
@@ -169,6 +170,8 @@ std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::F
     }
     return choices_of_sign;
 }
+
+}  // namespace
 
 std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                 const PenaltyScale& penalty, double within, std::size_t most,

@@ -26,11 +26,4 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
                                 const PenaltyScale& penalty, double within, std::size_t most,
                                 const std::vector<int>& sides = {});
 
-/// What is added to the values of a linearisation's rows when some facets are taken the other way:
-/// the `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals
-/// over their variances at the optimum of the factored equations.
-std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::Folded>& folded,
-                                                 const KktSolver& solver,
-                                                 const Eigen::VectorXd& pulls, std::size_t most);
-
 }  // namespace culet

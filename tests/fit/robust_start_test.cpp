@@ -81,49 +81,26 @@ TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
     const Trial reference = fit_mesh(truth.stone, readings);
     const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 77 * 81 + 5), readings);
     EXPECT_TRUE(is_valid(truth.stone, trial.result));
-    // Turns, and with them other corners for jaws, that gain less than 1 are not looked for.
+    // Jaws on other corners may make less than 1 of a difference.
     EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + 1);
 }
 
-// A stone of which searches have missed the better end, and the mesh from which they did.
-struct Lost {
-    TruthKind kind;
-    bool symmetric;
-    unsigned seed;
-    double noise;  // 0: drawn wrong by 20 %
-};
-
-void expect_no_worse_than_from_the_truth(const Lost& lost, double by_at_most) {
-    const Truth truth = make_truth(lost.kind, lost.symmetric, lost.seed);
-    const auto readings = read_by_instruments(truth, 1000 + lost.seed);
-    const Trial reference = fit_mesh(truth.stone, readings);
-    const unsigned mesh = 77 * lost.seed + 5;
-    const Trial trial = fit_mesh(lost.noise > 0 ? noisy_mesh(truth.stone, lost.noise, mesh)
-                                                : wrongly_drawn(truth.stone, 0.2, mesh),
-                                 readings);
-    EXPECT_TRUE(is_valid(truth.stone, trial.result)) << lost.seed;
-    EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + by_at_most)
-        << lost.seed;
-}
-
-// Girdle facets that lean the other way and a turn of the stone between its calipers: either alone
-// makes chi-square larger, both together 4.7, 5.5 and 3.8 less. (Turns that gain less than 1 are
-// not looked for.)
-TEST(RobustStart, LeaningsThatGainOnlyWithATurnAreFound) {
-    for (const Lost& c :
-         {Lost{TruthKind::round, false, 84, 0.03}, Lost{TruthKind::round, false, 133, 0.2},
-          Lost{TruthKind::step, false, 20, 0}}) {
-        expect_no_worse_than_from_the_truth(c, 1);
-    }
-}
-
-// Ends that searches have missed: jaws of calipers on other corners at the same turn, starts that
-// are all alike, and a start that was told what an earlier one had seen. The reference starts at
-// the truth.
+// Ends that searches have missed, from meshes drawn wrong by 20 %: starts that are all alike, and a
+// start that was told what an earlier one had seen. The reference starts at the truth.
 TEST(RobustStart, LesserEndsAreLeft) {
-    for (const Lost& c : {Lost{TruthKind::step, false, 61, 0}, Lost{TruthKind::step, true, 29, 0},
-                          Lost{TruthKind::pear, false, 109, 0}}) {
-        expect_no_worse_than_from_the_truth(c, 0.1);
+    struct Case {
+        TruthKind kind;
+        bool symmetric;
+        unsigned seed;
+    };
+    for (const auto& [kind, symmetric, seed] :
+         {Case{TruthKind::step, true, 29}, Case{TruthKind::pear, false, 109}}) {
+        const Truth truth = make_truth(kind, symmetric, seed);
+        const auto readings = read_by_instruments(truth, 1000 + seed);
+        const Trial reference = fit_mesh(truth.stone, readings);
+        const Trial trial = fit_mesh(wrongly_drawn(truth.stone, 0.2, 77 * seed + 5), readings);
+        EXPECT_TRUE(is_valid(truth.stone, trial.result)) << seed;
+        EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + 0.1) << seed;
     }
 }
 
