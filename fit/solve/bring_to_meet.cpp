@@ -1,6 +1,5 @@
-#include <cmath>
-
 #include "fit/solve/constrained_newton.h"
+#include "fit/solve/second_order_correction.h"
 
 namespace culet {
 
@@ -9,30 +8,22 @@ namespace {
 constexpr double k_rounding = 1e-14;
 
 // Smallest steps onto the hard equations, until rounding is all that is left.
-Shape onto_constraints(const Relaxation& relaxation, Shape shape,
-                       const std::vector<ActiveCorner>& held) {
-    StepLinearisation linearisation = relaxation.hard_linearisation(shape, held);
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.parameters().size());
+Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<ActiveCorner>& held) {
+    PenaltyScale penalty;
+    penalty.with_priors = penalty.with_hinges = false;
+    double missed = relaxation.worst_hard(shape);
     for (const double least : {KktSolver::k_least_variance, k_least_close}) {
+        if (missed < k_rounding) break;
+        const StepLinearisation here = relaxation.linearisation(shape, penalty, held);
         KktSolver solver;
-        std::vector<ActiveCorner> factored;
-        for (int i = 0; i < 10 && linearisation.hard_worst > k_met; ++i) {
-            // After two steps the same factors do: what they miss is of second order in steps of
-            // rounding size. Not where other corners bind than before, which have rows then.
-            if (i < 2 || linearisation.holding != factored) {
-                if (!solver.factor(linearisation.rows, relaxation.metric(), {}, least)) break;
-                factored = linearisation.holding;
-            }
-            const auto s = solver.solve(none, -linearisation.rows.residuals());
-            if (!s.good) break;
-            const Shape next = relaxation.parameters().retracted(
-                shape, {s.unknowns.data(), std::size_t(s.unknowns.size())});
-            StepLinearisation there = relaxation.hard_linearisation(next, held);
-            if (!there.finite || there.hard_worst >= linearisation.hard_worst) break;
-            shape = next;
-            linearisation = std::move(there);
-        }
-        if (linearisation.hard_worst < k_rounding) break;
+        if (!solver.factor(here.rows, relaxation.metric(), {}, least)) break;
+        Shape next = onto_hard_equations(relaxation, solver, here, penalty, shape,
+                                         {.most = 10, .met = k_met, .precision = 1e-13})
+                         .shape;
+        const double missed_there = relaxation.worst_hard(next);
+        if (!(missed_there < missed)) continue;
+        shape = std::move(next);
+        missed = missed_there;
     }
     return shape;
 }
@@ -46,19 +37,19 @@ void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
     relaxation.forget_contacts();
     relaxation.choose(optimum.shape, true, std::move(outline));
     optimum.chi2 = relaxation.linearisation(optimum.shape, penalty, held).chi2;
-    optimum.worst_hard = relaxation.hard_linearisation(optimum.shape, {}).hard_worst;
+    optimum.worst_hard = relaxation.worst_hard(optimum.shape);
 }
 
 void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                    LocalOptimum& optimum) {
     optimum.shape = onto_constraints(relaxation, std::move(optimum.shape), held);
-    if (!held.empty() && relaxation.hard_linearisation(optimum.shape, {}).hard_worst > k_rounding) {
+    if (!held.empty() && relaxation.worst_hard(optimum.shape) > k_rounding) {
         // Corners held next to an edge of no length bind so tightly that meets give way. The meets
         // alone, from here, move less than what corners are held below.
         Shape met = onto_constraints(relaxation, optimum.shape, {});
         if (relaxation.is_convex(met)) optimum.shape = std::move(met);
     }
-    look_at_end(relaxation, held, optimum);
+    look_at_end(relaxation, held, optimum, optimum.outline);
 }
 
 }  // namespace culet

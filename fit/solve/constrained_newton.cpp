@@ -86,10 +86,11 @@ public:
           options_(options),
           metric_(relaxation.metric()),
           none_(Eigen::VectorXd::Zero(relaxation.parameters().size())),
-          shape_(start) {
+          shape_(start),
+          outline_(options.outline) {
         penalty_.with_priors = false;
-        relaxation.forget_contacts();
-        relaxation.choose(shape_, true);
+        penalty_.with_hinges = !outline_;
+        choose(shape_, outline_);
         if (options.contacts_shared) relaxation.share_level_corners(shape_);
         here_ = linearised(shape_);
         damping_ = options.near_an_end ? k_least_damping : k_first_damping;
@@ -106,6 +107,10 @@ private:
     };
     enum class Outcome { taken, refused, again };
 
+    void choose(const Shape& shape, const std::shared_ptr<const Outline>& outline) {
+        relaxation_.forget_contacts();
+        relaxation_.choose(shape, true, outline);
+    }
     StepLinearisation linearised(const Shape& shape,
                                  const std::vector<int>* active_hinges = nullptr) {
         return relaxation_.linearisation(shape, penalty_, held_, active_hinges);
@@ -129,7 +134,8 @@ private:
     const Eigen::VectorXd metric_, none_;
     PenaltyScale penalty_;
     Shape shape_;
-    StepLinearisation here_;  ///< at the shape
+    std::shared_ptr<const Outline> outline_;  ///< of a stone whose meets come apart
+    StepLinearisation here_;                  ///< at the shape
     double damping_ = 0;
     int quiet_ = 0, choices_ = 0, refused_ = 0;
     std::vector<double> merits_;
@@ -156,7 +162,7 @@ void Newton::take_curvature_of_the_end() {
 }
 
 bool Newton::meaning_changes() {
-    if (choices_ > k_most_choices) return false;
+    if (outline_ || choices_ > k_most_choices) return false;  // chosen at each shape
     asked_ = true;
     relaxation_.choose(shape_, true);
     StepLinearisation fresh = linearised(shape_);
@@ -245,18 +251,26 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
                              .met = made.length < k_near_met ? k_met : k_far_from_met,
                              .precision = k_correction_precision});
     if (corrected.stalls && may_be_close_) least_ = k_least_close;
+    std::shared_ptr<const Outline> outline;
+    if (outline_) {
+        outline = outline_of(relaxation_.system(), corrected.shape);
+        if (!outline) return Outcome::refused;
+        choose(corrected.shape, outline);
+    }
     StepLinearisation there = linearised(corrected.shape);
-    if (!there.finite) return Outcome::refused;
     // The hard equations first: their size is the size of what they leave undone. They are brought
     // to rounding at the end; so little does not count.
     const double before = here_.merit + 1e6 * std::max(0.0, here_.hard_sum - k_nearly_met),
                  after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
-    made.better = after <= before * (1 + 1e-12) + 1e-9;
+    made.better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
     if (made.better) {
+        outline_ = std::move(outline);
         accept(std::move(corrected.shape), std::move(there), solution, before, before - after,
                made.length);
         return Outcome::taken;
     }
+    if (outline_) choose(shape_, outline_);
+    if (!there.finite) return Outcome::refused;
     // Newton's step, and the sums' own rounding.
     made.idle = curved_ && made.length < k_short && after - before < k_no_gain * (1 + before);
     // Hinges that were pressed before in this step would lead there again.
@@ -318,10 +332,16 @@ LocalOptimum Newton::run() {
         if ((quiet_ >= k_quiet || creeps) && ends(true)) break;
     }
     result_.shape = std::move(shape_);
+    result_.outline = std::move(outline_);
     return std::move(result_);
 }
 
 }  // namespace
+
+std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape) {
+    System::Enclosed enclosed = system.enclosed(shape);
+    return enclosed.closed ? enclosed.outline : nullptr;
+}
 
 LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                                 const std::vector<ActiveCorner>& held,
@@ -335,7 +355,7 @@ LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const
         return freed;
     }
     result.shared_contacts = relaxation.shared_contacts();
-    look_at_end(relaxation, held, result);
+    look_at_end(relaxation, held, result, result.outline);
     return result;
 }
 

@@ -2,6 +2,7 @@
 // Gauss-Newton and Newton steps under hard constraints (Nocedal & Wright 2006, chapter 18) in the
 // parameters, to the nearest end of one meaning of the readings. Private to the room.
 
+#include <memory>
 #include <vector>
 
 #include "fit/solve/kkt_solver.h"
@@ -23,6 +24,7 @@ struct LocalOptimum {
     int iterations = 0;
     double chi2 = 0, worst_hard = 0;
     std::vector<SharedContact> shared_contacts;  ///< of the meaning that it is the end of
+    std::shared_ptr<const Outline> outline;      ///< of a stone whose meets come apart
 };
 
 struct NewtonOptions {
@@ -34,7 +36,13 @@ struct NewtonOptions {
     bool near_an_end = false;
     /// Likewise jaws rest on corners that are level: as long as all of them carry a part.
     bool contacts_shared = false;
+    /// Of a stone whose meets come apart: the corners that the planes give at the start. They are
+    /// found anew at each shape, and no step is taken to one whose planes enclose no solid.
+    std::shared_ptr<const Outline> outline{};
 };
+
+/// The corners that the shape's planes give; nothing where they enclose no solid.
+std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape);
 
 /// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets
 /// misses by less than any reading could tell.

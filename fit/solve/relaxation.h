@@ -119,9 +119,8 @@ public:
     };
     Missed missed(const Shape& shape, const PenaltyScale& penalty,
                   const std::vector<ActiveCorner>& holding, double sharp) const;
-    /// Incidences and other hard equations only: variance 0, no priors.
-    StepLinearisation hard_linearisation(const Shape& shape,
-                                         const std::vector<ActiveCorner>& held) const;
+    /// By how much incidences and other equations that hold exactly are missed at most.
+    double worst_hard(const Shape& shape) const;
     /// Positive hinges; with a margin those, too, that it would make positive.
     std::vector<ActiveCorner> above(const Shape& shape, double margin = 0) const;
     /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "fit/solve/relaxation.h"
 #include "fit/solve/relaxation_terms.h"
@@ -254,41 +255,8 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const PenaltyScale& pe
     return missed;
 }
 
-StepLinearisation Relaxation::hard_linearisation(const Shape& shape,
-                                                 const std::vector<ActiveCorner>& held) const {
-    StepLinearisation linearisation;
-    const Parameters::TangentBasis tangent_basis = parameters_.tangent_basis(shape);
-    Parameters::Row row(tangent_basis, parameters_.size());
-    const auto close = [&](double residual, double variance) {
-        row.close(linearisation.rows, residual, variance);
-        if (!std::isfinite(residual)) linearisation.finite = false;
-        if (variance > 0) return;
-        linearisation.hard_sum += std::abs(residual);
-        linearisation.hard_worst = std::max(linearisation.hard_worst, std::abs(residual));
-    };
-    const auto incident = [&](int f, int p, double below, double variance) {
-        write_incidence(shape, f, p, row);
-        close(height(shape, f, p) + below, variance);
-    };
-    for (int i : incidences_) {
-        const Incidence& incidence = system_.incidences()[i];
-        if (incidence.how == MeetTreatment::exact) incident(incidence.facet, incidence.point, 0, 0);
-    }
-    if (system_.has_exact_readings()) {
-        for (const Equation& e : equations_) {
-            if (!e.exact) continue;
-            const Quantity q = e.formula(shape);
-            row.quantity(q);
-            close(q.value - e.value, 0);
-        }
-    }
-    for (const ActiveCorner& h : held) {
-        // Nothing pulls up what lies well below.
-        if (!binds(shape, h)) continue;
-        incident(h.facet, h.point, k_hold_below, k_hold_sigma * k_hold_sigma);
-        linearisation.holding.push_back(h);
-    }
-    return linearisation;
+double Relaxation::worst_hard(const Shape& shape) const {
+    return missed(shape, {}, {}, std::numeric_limits<double>::min()).worst;
 }
 
 }  // namespace culet
