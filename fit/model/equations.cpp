@@ -57,11 +57,6 @@ double System::incidence_sigma(const Incidence& incidence) const {
                                                       : group_sigmas_[is_girdle(incidence.facet)];
 }
 
-bool System::has_exact_readings() const {
-    return std::any_of(readings_.begin(), readings_.end(),
-                       [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
-}
-
 std::vector<std::pair<int, int>> System::hinges() const {
     std::vector<std::pair<int, int>> all;
     if (!stone_.convex) return all;

@@ -7,7 +7,6 @@
 
 #include "fit/model/orbits.h"
 #include "fit/model/system.h"
-#include "fit/model/upright_turn.h"
 #include "fit/silhouettes/silhouette_fit.h"
 #include "stone/errors.h"
 
@@ -88,10 +87,10 @@ Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
 }  // namespace
 
 std::shared_ptr<const KnownPlanes> System::inside(const PlaneKnowledge& told,
-                                                  const std::array<Vec3, 3>& upright) const {
+                                                  const glm::dmat3& upright) const {
     check(told.planes.size() == solid_.facets.size(), "planes of another mesh");
     const glm::dmat3 turn = turn_about_z(turn_);
-    const auto inside = [&](const Vec3& direction) { return turn * times(upright, direction); };
+    const auto inside = [&](const Vec3& direction) { return turn * (upright * direction); };
     auto known = std::make_shared<KnownPlanes>();
     for (const Plane& plane : told.planes) {
         known->planes.push_back(

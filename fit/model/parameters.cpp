@@ -52,11 +52,10 @@ Parameters::Parameters(const Shape& shape, int up_facet, Orbits orbits,
     point_along_.resize(points);
     facet_images_.assign(facets, 1);
     point_images_.assign(points, 1);
-    const auto take = [&](int count, double weight, bool tilt) {
+    const auto take = [&](int count, double weight) {
         const int at = size_;
         size_ += count;
         metric_.resize(std::size_t(size_), weight);
-        is_tilt_.resize(std::size_t(size_), tilt);
         return at;
     };
     if (!orbits_.empty()) {
@@ -70,8 +69,8 @@ Parameters::Parameters(const Shape& shape, int up_facet, Orbits orbits,
         const KeptDirections kept = orbits_.empty() ? KeptDirections() : orbits_.kept_by_facet[f];
         normal_count_[f] = f == up_facet_ ? 0 : static_cast<int>(directions_of(kept).size()) - 1;
         const double images = facet_images_[f];
-        normal_column_[f] = take(normal_count_[f], images, true);
-        offset_column_[f] = take(1, images, false);
+        normal_column_[f] = take(normal_count_[f], images);
+        offset_column_[f] = take(1, images);
     }
     for (int p = 0; p < layout_.points; ++p) {
         if (!is_first_point(p)) continue;
@@ -79,11 +78,11 @@ Parameters::Parameters(const Shape& shape, int up_facet, Orbits orbits,
             directions_of(orbits_.empty() ? KeptDirections() : orbits_.kept_by_point[p]);
         std::copy(along.begin(), along.end(), point_along_[p].begin());
         point_count_[p] = static_cast<int>(along.size());
-        point_column_[p] = take(point_count_[p], k_point_weight * point_images_[p], false);
+        point_column_[p] = take(point_count_[p], k_point_weight * point_images_[p]);
     }
     extra_column_.assign(std::size_t(layout_.extras), -1);
     for (std::size_t e = 0; e < extra_column_.size(); ++e) {
-        if (!fixed_extras[e]) extra_column_[e] = take(1, 1, false);
+        if (!fixed_extras[e]) extra_column_[e] = take(1, 1);
     }
     for (int f = 0; f < layout_.facets; ++f) {
         if (is_first_facet(f)) continue;
@@ -222,21 +221,17 @@ Shape Parameters::symmetrised(const Shape& shape) const {
     }
     for (int f = 0; f < layout_.facets; ++f) {
         const OrbitMember& m = orbits_.facets[f];
-        if (m.first == f) {
-            Vec3 n = projected(normals[f], orbits_.kept_by_facet[f]);
-            if (!(glm::length(n) > 0)) n = Vec3{0, 0, offsets[f] < 0 ? -1.0 : 1.0};
-            result.normals[f] = glm::normalize(n);
-            result.offsets[f] = offsets[f];
-        } else {
-            result.normals[f] = m.from_first * result.normals[m.first];
-            result.offsets[f] = result.offsets[m.first];
-        }
+        if (m.first != f) continue;
+        Vec3 n = projected(normals[f], orbits_.kept_by_facet[f]);
+        if (!(glm::length(n) > 0)) n = Vec3{0, 0, offsets[f] < 0 ? -1.0 : 1.0};
+        result.normals[f] = glm::normalize(n);
+        result.offsets[f] = offsets[f];
     }
     for (int p = 0; p < layout_.points; ++p) {
-        const OrbitMember& m = orbits_.points[p];
-        result.points[p] = m.first == p ? projected(points[p], orbits_.kept_by_point[p])
-                                        : m.from_first * result.points[m.first];
+        if (orbits_.points[p].first == p)
+            result.points[p] = projected(points[p], orbits_.kept_by_point[p]);
     }
+    place_images(result);
     return result;
 }
 

@@ -28,13 +28,11 @@ public:
     const Orbits& orbits() const { return orbits_; }
     bool is_first_facet(int f) const { return orbits_.empty() || orbits_.facets[f].first == f; }
     bool is_first_point(int p) const { return orbits_.empty() || orbits_.points[p].first == p; }
-    /// Number of facets or points that go with a first member.
-    int images_of_facet(int f) const { return facet_images_[f]; }
+    /// Number of points that go with a first member.
     int images_of_point(int p) const { return point_images_[p]; }
 
     /// What counts as a step of one, for each freedom.
     const std::vector<double>& metric() const { return metric_; }
-    bool is_tilt(int freedom) const { return is_tilt_[freedom]; }
 
     Shape retracted(const Shape& shape, std::span<const double> step) const;
     /// The same, but what the step turns the stone about z as a whole is done as a turn: readings
@@ -87,7 +85,6 @@ private:
         extra_column_, facet_images_, point_images_;
     std::vector<std::array<Vec3, 3>> point_along_;  // of first members
     std::vector<double> metric_;
-    std::vector<bool> is_tilt_;
 };
 
 }  // namespace culet

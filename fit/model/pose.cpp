@@ -5,8 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/model/upright_turn.h"
-
 namespace culet {
 
 Quantity System::turn_of(const Shape& shape) const {
@@ -41,22 +39,21 @@ System::Pose System::pose_of(const Shape& shape) const {
     pose.turn = turn_of(shape).value;
     Vec3 mean(0);
     for (std::size_t v = 0; v < count; ++v) mean += shape.points[v] / double(count);
-    pose.shift = middle_ - times_transposed(outward_, turn_about_z(pose.turn) * mean) * scale_;
+    pose.shift = middle_ - (turn_about_z(pose.turn) * mean) * outward_ * scale_;
     return pose;
 }
 
 Vec3 System::outside_point(const Vec3& p, const Pose& pose) const {
-    return times_transposed(outward_, turn_about_z(pose.turn) * p) * scale_ + pose.shift;
+    return (turn_about_z(pose.turn) * p) * outward_ * scale_ + pose.shift;
 }
 
 Plane System::outside_plane(const Plane& plane, const Pose& pose) const {
-    const Vec3 n =
-        glm::normalize(times_transposed(outward_, turn_about_z(pose.turn) * plane.normal));
+    const Vec3 n = glm::normalize((turn_about_z(pose.turn) * plane.normal) * outward_);
     return {n, plane.offset * scale_ + glm::dot(n, pose.shift)};
 }
 
 Vec3 System::inside_direction(const Vec3& direction) const {
-    return turn_about_z(turn_) * times(upright_, direction);
+    return turn_about_z(turn_) * (upright_ * direction);
 }
 
 double System::azimuth_zero(const Pose& pose) const {

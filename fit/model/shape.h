@@ -5,7 +5,6 @@
 // Inside the fit the stone is upright (up is +z), about the origin, and its half diameter is 1.
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "stone/solid.h"
@@ -36,8 +35,5 @@ Layout layout_of(const Shape& shape);
 
 /// Two unit directions that span the plane normal to `n`; a smooth choice but at n = -z.
 std::array<Vec3, 2> tangents(const Vec3& n);
-
-/// The shape after a step in the order of `Layout`. Normals stay unit.
-Shape retracted(const Shape& shape, std::span<const double> step);
 
 }  // namespace culet

@@ -11,11 +11,11 @@
 
 #include "fit/model/azimuth_turn.h"
 #include "fit/model/canonical.h"
-#include "fit/model/upright_turn.h"
 #include "fit/readings/rounding.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/upper_median.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -79,9 +79,8 @@ double System::scale_of_readings(const Vec3& up) const {
             mine = width_along(solid_, up);
         } else if (r.kind == ReadingKind::width) {
             const Vec3 direction =
-                r.has_direction
-                    ? r.direction
-                    : times_transposed(upright_, Vec3{std::cos(r.azimuth), std::sin(r.azimuth), 0});
+                r.has_direction ? r.direction
+                                : Vec3{std::cos(r.azimuth), std::sin(r.azimuth), 0} * upright_;
             mine = width_along(solid_, direction);
         }
         if (mine > 0 && r.value > 0) logs.push_back(std::log(r.value / mine));
@@ -127,21 +126,21 @@ void System::bring_upright() {
     };
     const Vec3 up =
         up_facet_ >= 0 ? plane_of(solid_.facets[up_facet_]).normal : glm::normalize(stone_.up);
-    upright_ = turn_to_z(up);
+    upright_ = turn_upright(up);
     Vec3 out_up = up;
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(up[axis]) < std::cos(radians(k_snap))) continue;
         out_up = Vec3(0);
         out_up[axis] = up[axis] > 0 ? 1 : -1;
     }
-    outward_ = turn_to_z(out_up);
+    outward_ = turn_upright(out_up);
 
     mesh_scale_ = scale_of_readings(up);
     scale_ = 0.5 * diameter(solid_) * mesh_scale_;
     check(scale_ > 0 && std::isfinite(scale_), "a solid without size");
 
     const auto inside = [&](const Vec3& p) {
-        return times(upright_, p - middle_) * (mesh_scale_ / scale_);
+        return upright_ * (p - middle_) * (mesh_scale_ / scale_);
     };
     for (Vec3& v : solid_.vertices) v = inside(v);
     for (Facet& facet : solid_.facets) facet.plane = plane_of(facet);

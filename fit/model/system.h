@@ -113,7 +113,6 @@ public:
                                             bool reduced = false, bool meets_hold = true) const;
     /// By how much a plane may pass its meet: 0 when exact.
     double incidence_sigma(const Incidence& incidence) const;
-    bool has_exact_readings() const;
     /// The motions of exact rotations and mirrors of the whole stone. Empty when a reading would
     /// see how they are turned about the axis (a mirror of facets in pairs, beside azimuths), or
     /// when some meet is not exact.
@@ -177,7 +176,7 @@ private:
     /// What outlines and photographs tell of the planes.
     std::vector<Equation> known_plane_equations() const;
     std::shared_ptr<const KnownPlanes> inside(const PlaneKnowledge& told,
-                                              const std::array<Vec3, 3>& upright) const;
+                                              const glm::dmat3& upright) const;
     void list_known_planes();
     void pair_facets();
     /// At this shape, what they say is but one thing: facets lean one way, azimuths are less than
@@ -221,8 +220,8 @@ private:
     double mesh_scale_ = 1;  // the mesh was made this much larger to suit the lengths
     double turn_ = 0;        // about up, from the mesh to the inside
     Vec3 middle_{0, 0, 0};   // of the mesh, in the stone's unit
-    std::array<Vec3, 3> upright_{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // rows
-    std::array<Vec3, 3> outward_{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // rows
+    // From the mesh's frame, and from the one that the result is told in.
+    glm::dmat3 upright_{1}, outward_{1};
 };
 
 }  // namespace culet

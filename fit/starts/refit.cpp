@@ -8,9 +8,9 @@
 
 #include "fit/model/azimuth_turn.h"
 #include "fit/model/orbits.h"
-#include "fit/model/upright_turn.h"
 #include "fit/solve/caliper_turn.h"
 #include "fit/uncertainty/statistics.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -70,9 +70,8 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     }
 
     const int up = system.up_facet();
-    const auto [x, y, z] =
-        turn_to_z(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(system.stone().up));
-    glm::dmat3 turn = glm::transpose(glm::dmat3(x, y, z));
+    glm::dmat3 turn =
+        turn_upright(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(system.stone().up));
     // About up: as most facets of the mesh stand, then as the azimuths that were read say.
     double east = 0, north = 0;
     for (std::size_t f = 0; f < planes.size(); ++f) {

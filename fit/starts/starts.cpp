@@ -5,15 +5,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 #include "fit/mesh/roughness.h"
 #include "fit/model/azimuth_turn.h"
 #include "fit/model/canonical.h"
+#include "fit/model/orbits.h"
 #include "fit/starts/closing_sides.h"
 #include "stone/checks.h"
 #include "stone/dense_algebra.h"
-#include "stone/least_rotation.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -30,35 +32,23 @@ Vec3 mean_of(const std::vector<Vec3>& points, std::size_t count) {
     return mean;
 }
 
-Vec3 times(const Eigen::Matrix3d& m, const Vec3& v) {
-    const Eigen::Vector3d r = m * Eigen::Vector3d(v.x, v.y, v.z);
-    return {r.x(), r.y(), r.z()};
+glm::dmat3 to_glm(const Eigen::Matrix3d& m) {
+    glm::dmat3 result;
+    for (int k = 0; k < 3; ++k) result[k] = {m(0, k), m(1, k), m(2, k)};
+    return result;
 }
 
 // x -> m x + shift; planes follow their points.
-Shape mapped(Shape shape, const Eigen::Matrix3d& m, const Vec3& shift) {
-    const Eigen::Matrix3d of_normals = inverse3(m).transpose();
+Shape mapped(Shape shape, const glm::dmat3& m, const Vec3& shift) {
+    const glm::dmat3 of_normals = glm::transpose(glm::inverse(m));
     for (std::size_t f = 0; f < shape.normals.size(); ++f) {
-        const Vec3 n = times(of_normals, shape.normals[f]);
+        const Vec3 n = of_normals * shape.normals[f];
         const double length = glm::length(n);
         shape.normals[f] = n / length;
         shape.offsets[f] = shape.offsets[f] / length + glm::dot(shape.normals[f], shift);
     }
-    for (Vec3& p : shape.points) p = times(m, p) + shift;
+    for (Vec3& p : shape.points) p = m * p + shift;
     return shape;
-}
-
-// The least rotation that turns a direction up; of one that looks down half a turn about x.
-Eigen::Matrix3d turn_upright(const Vec3& n) {
-    if (n.z < -1 + 1e-12) return Eigen::Vector3d(1, -1, -1).asDiagonal();
-    Eigen::Matrix3d turn;
-    for (int k = 0; k < 3; ++k) {
-        Vec3 axis(0);
-        axis[k] = 1;
-        const Vec3 to = turned_with(n, {0, 0, 1}, axis);
-        turn.col(k) << to.x, to.y, to.z;
-    }
-    return turn;
 }
 
 struct Moments {
@@ -219,22 +209,12 @@ Start Starts::mesh() const {
 Shape Starts::upright(Shape shape) const {
     if (system_.up_facet() >= 0) {
         const Vec3 n = shape.normals[system_.up_facet()];
-        const Vec3 axis = glm::cross(n, Vec3{0, 0, 1});
-        if (glm::length(axis) > 1e-12 || n.z < 0) {
-            shape = mapped(std::move(shape), turn_upright(n), Vec3(0));
-        }
+        shape = mapped(std::move(shape), turn_upright(n), Vec3(0));
         shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     }
     const double angle = azimuth_turn(
         system_.readings(), [&](int facet) { return shape.normals[facet]; }, false);
-    if (angle != 0) {
-        Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-        turn.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle),
-            std::cos(angle);
-        shape = mapped(std::move(shape), turn, Vec3(0));
-        if (system_.up_facet() >= 0) shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
-    }
-    return shape;
+    return turned_about_z(std::move(shape), angle);
 }
 
 // Umeyama (1991).
@@ -249,8 +229,8 @@ std::optional<Start> Starts::similar() {
     if (determinant3(u * v.transpose()) < 0) sign(2) = -1;
     const double scale = sign.dot(Eigen::Vector3d(parts.values)) / m.own.trace();
     if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
-    const Eigen::Matrix3d map = scale * (u * sign.asDiagonal() * v.transpose());
-    return over_mesh("canonical", mapped(*canonical_, map, m.to - times(map, m.from)));
+    const glm::dmat3 map = to_glm(scale * (u * sign.asDiagonal() * v.transpose()));
+    return over_mesh("canonical", mapped(*canonical_, map, m.to - map * m.from));
 }
 
 // A canonical polyhedron that was laid over the mesh; points that it has not are the mesh's.
@@ -278,15 +258,14 @@ std::optional<Start> Starts::affine() {
         return std::nullopt;
     }
     return over_mesh("canonical, as long and wide as the mesh",
-                     mapped(*canonical_, map, m.to - times(map, m.from)));
+                     mapped(*canonical_, to_glm(map), m.to - to_glm(map) * m.from));
 }
 
 std::optional<Start> Starts::stretched(double along_up) {
     std::optional<Start> start = similar();
     if (!start) return start;
     start->name = along_up < 1 ? "flat canonical" : "tall canonical";
-    start->shape = mapped(std::move(start->shape),
-                          Eigen::Vector3d(1, 1, along_up).asDiagonal().toDenseMatrix(), Vec3(0));
+    start->shape = mapped(std::move(start->shape), {1, 0, 0, 0, 1, 0, 0, 0, along_up}, Vec3(0));
     if (system_.up_facet() >= 0) start->shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     return start;
 }

@@ -35,6 +35,10 @@ Shape shape_of(const Solid& solid) {
     return shape;
 }
 
+Shape retracted(const Shape& shape, const std::vector<double>& step) {
+    return RowWriter(shape).parameters().retracted(shape, step);
+}
+
 // A brilliant in general position: no symmetry hides a wrong sign.
 Shape odd_shape() {
     Shape shape = shape_of(brilliant());
