@@ -87,10 +87,8 @@ View meets_of(const Json& fit, const std::string& unit) {
 
 std::string shape_list(const Json& fit) {
     std::vector<ListItem> items;
-    for (const char* key : {"shape", "extra_facets"}) {
-        for (const Json& one : array_at(fit, key)) {
-            items.push_back({"", as_sentence(typeset(text_at(one, "what")))});
-        }
+    for (const Json& one : array_at(fit, "shape")) {
+        items.push_back({"", as_sentence(typeset(text_at(one, "what")))});
     }
     return short_list(items);
 }

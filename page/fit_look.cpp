@@ -59,7 +59,6 @@ std::vector<std::string> denied(const Json& fit) {
         // Open edges are common and follow from the sigmas; what the readings deny is news.
         if (text_at(finding, "kind").ends_with("_vanishes")) add(text_at(finding, "what"));
     }
-    for (const Json& extra : array_at(fit, "extra_facets")) add(text_at(extra, "what"));
     std::erase(sentences, "");
     return sentences;
 }

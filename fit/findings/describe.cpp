@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "fit/findings/extra_facets.h"
 #include "fit/findings/meet_tests.h"
 #include "fit/findings/own_axis.h"
 #include "fit/findings/shape_findings.h"
@@ -197,45 +196,6 @@ void describe_shape(const System& system, const Finished& finished,
     }
 }
 
-void describe_extra_facets(const System& system, const Finished& finished,
-                           const Diagnosis& diagnosis, FitResult& result) {
-    const double significance = result.log.options.significance;
-    result.findings.extra_facets = suspect_extra_facets(system, finished, diagnosis, significance);
-    // Where a reading stands out, or a facet is found, each reading of a quantity speaks for
-    // itself.
-    const bool stands_out = std::any_of(
-        diagnosis.readings.begin(), diagnosis.readings.end(),
-        [&](const ReadingCheck& c) { return std::abs(c.normalized) > diagnosis.suspect_limit; });
-    if (system.has_replicates() && (stands_out || !result.findings.extra_facets.empty())) {
-        System apart = system;
-        apart.keep_replicates_apart();
-        Diagnosis again = diagnosis;
-        again.covariance =
-            std::make_shared<const Covariance>(linearise(apart, finished.shape, finished.outline));
-        if (again.covariance->usable()) {
-            result.findings.extra_facets =
-                suspect_extra_facets(apart, finished, again, significance);
-        }
-    }
-    for (ExtraFacet& facet : result.findings.extra_facets) {
-        facet.depth *= system.scale();
-        facet.sigma *= system.scale();
-        const std::string place = fmt::format(
-            "{} {}, {} deep (sigma {})", facet.at.size() == 2 ? "along the edge" : "at the corner",
-            list_of(facet.at), length_text(facet.depth, result.unit),
-            length_text(facet.sigma, result.unit));
-        facet.what = facet.or_wrong.empty()
-                         ? fmt::format(
-                               "the stone may have a facet that the mesh lacks, {}: it "
-                               "would explain {} (chi2 {:.1f} less)",
-                               place, list_of(facet.shown_by), facet.chi2)
-                         : fmt::format(
-                               "{} is wrong, or the stone has a facet that the mesh lacks, "
-                               "{}",
-                               facet.or_wrong, place);
-    }
-}
-
 }  // namespace
 
 std::vector<Equation> conditions_of(const System& system, const Shape& shape,
@@ -272,7 +232,6 @@ void describe_findings(const System& system, const Finished& finished,
     if (!covariance) return;
     describe_meets(system, finished.shape, *covariance, result);
     describe_shape(system, finished, held, diagnosis, *covariance, result);
-    describe_extra_facets(system, finished, diagnosis, result);
     const bool declared =
         std::any_of(system.readings().begin(), system.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.

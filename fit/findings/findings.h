@@ -79,18 +79,6 @@ struct ShapeFinding {
 };
 const char* name_of(ShapeFinding::Kind kind);
 
-/// An extra facet that would explain readings which the mesh's own facets do not.
-struct ExtraFacet {
-    std::vector<std::string> at;        ///< facets of the corner or edge that it would cut off
-    double depth = 0, sigma = 0;        ///< how deep, along the mean of their normals
-    double chi2 = 0;                    ///< by how much chi-square would fall
-    double p = 1;                       ///< before Bonferroni
-    std::vector<std::string> shown_by;  ///< ids of readings that it explains
-    /// One of these readings may as well be wrong: its error would explain the misfit as well.
-    std::string or_wrong;
-    std::string what;
-};
-
 /// One group held against the readings.
 struct GroupTest {
     std::string group;  ///< C8v, C4, Cs, ...

@@ -38,10 +38,7 @@ std::string told_all(const System& system, const std::vector<std::string>& ids) 
 // Who is to blame, as far as one can tell.
 std::string contradiction(const System& system, const FitResult& result) {
     std::string text;
-    if (!result.findings.extra_facets.empty() &&
-        result.findings.extra_facets.front().or_wrong.empty()) {
-        text = "; " + result.findings.extra_facets.front().what;
-    } else if (!result.findings.suspects.empty()) {
+    if (!result.findings.suspects.empty()) {
         text = "; look at " + told_all(system, result.findings.suspects);
         const Proposal& first = result.findings.proposals.front();
         if (!first.slip.empty()) {
@@ -215,9 +212,6 @@ std::optional<Verdict> disagreement(const System& system, const FitResult& resul
     if (!result.findings.suspects.empty()) {
         return Verdict{FitStatus::contradictory,
                        "readings that cannot belong to the others" + contradiction(system, result)};
-    }
-    if (!result.findings.extra_facets.empty()) {
-        return Verdict{FitStatus::contradictory, result.findings.extra_facets.front().what};
     }
     return {};
 }

@@ -130,7 +130,6 @@ struct FitFindings {
     std::vector<NamedTierFinding> named_tiers;
     std::vector<MeetFinding> meets;
     std::vector<ShapeFinding> shapes;
-    std::vector<ExtraFacet> extra_facets;
     std::optional<SymmetryReport> symmetry;  ///< when it was looked for
 };
 

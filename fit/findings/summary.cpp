@@ -247,7 +247,6 @@ std::vector<std::string> denied_shape(const FitResult& result) {
             found.push_back(finding.what);
         }
     }
-    for (const ExtraFacet& facet : result.findings.extra_facets) found.push_back(facet.what);
     return found;
 }
 

@@ -103,18 +103,6 @@ void add_findings(const FitResult& result, Json& report) {
                          {"what", finding.what}});
     }
     report["shape"] = shape;
-    Json extra = Json::array();
-    for (const ExtraFacet& facet : result.findings.extra_facets) {
-        extra.push_back({{"at", facet.at},
-                         {"depth", json_number(facet.depth)},
-                         {"sigma", json_number(facet.sigma)},
-                         {"chi2", json_number(facet.chi2)},
-                         {"p", json_number(facet.p)},
-                         {"shown_by", facet.shown_by},
-                         {"what", facet.what}});
-        if (!facet.or_wrong.empty()) extra.back()["or_wrong"] = facet.or_wrong;
-    }
-    report["extra_facets"] = extra;
     report["changes"] = result.log.changes;
     report["changed"] = result.log.changed;
     if (result.findings.symmetry) report["symmetry"] = symmetry_of(*result.findings.symmetry);

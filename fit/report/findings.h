@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// Adds `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`, `extra_facets`, `changes`
+/// Adds `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`, `changes`
 /// and, when it was looked for, `symmetry`; and `inclination_own_axis` to the facets.
 void add_findings(const FitResult& result, nlohmann::ordered_json& report);
 

@@ -102,21 +102,6 @@ Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const 
     return sparse_->rows * sparse_->with_all(sparse_->tight, sparse_->rows.transpose() * residuals);
 }
 
-double Covariance::fitted_square(const std::vector<std::pair<Eigen::Index, double>>& s) const {
-    if (!sparse_) {
-        Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(seen_.cols());
-        for (const auto& [i, value] : s) along += value * seen_.row(i);
-        return along.squaredNorm();
-    }
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(linear_.soft_rows.rows());
-    for (const auto& [i, value] : s) all(i) = value;
-    return all.dot(fitted_part(all));
-}
-
-double Covariance::leverage(Eigen::Index equation, Eigen::Index other) const {
-    return sparse_ ? sparse_->leverage(equation, other) : seen_.row(equation).dot(seen_.row(other));
-}
-
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {
     if (!sparse_) return seen_ * seen_.row(equation).transpose();
     return sparse_->rows * with_all(function_row(sparse_->rows, equation), false);

@@ -17,7 +17,6 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "fit/model/linear.h"
@@ -54,14 +53,10 @@ public:
     /// Variance of every soft equation's fitted value, in units of its own: the diagonal of the hat
     /// matrix.
     const Eigen::VectorXd& leverages() const { return leverages_; }
-    /// One entry of the hat matrix.
-    double leverage(Eigen::Index equation, Eigen::Index other) const;
     /// One column of the hat matrix.
     Eigen::VectorXd leverage_column(Eigen::Index equation) const;
     /// Hat matrix times residuals of the soft equations.
     Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;
-    /// s'Hs with H the hat matrix and s zero but at some equations.
-    double fitted_square(const std::vector<std::pair<Eigen::Index, double>>& s) const;
     int rank_defect() const { return rank_defect_; }
     /// Open directions; dense only (else no columns).
     const DenseRows& open() const { return open_; }

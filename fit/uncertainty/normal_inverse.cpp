@@ -77,25 +77,16 @@ bool NormalInverse::compute(const NormalEquations& equations) {
     return true;
 }
 
-NormalInverse::Half NormalInverse::half(const Eigen::SparseVector<double>& f) const {
+double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
     heed_stop();
-    Eigen::VectorXd ordered = factors_->permutationP() * Eigen::VectorXd(f);
-    factors_->matrixL().solveInPlace(ordered);
-    Half half{ordered.sparseView(), {}};  // not zero but up the elimination tree
+    Eigen::VectorXd half = factors_->permutationP() * Eigen::VectorXd(f);
+    factors_->matrixL().solveInPlace(half);
+    double square = half.squaredNorm();
     if (wide_.cols() > 0) {
         const Eigen::VectorXd along = wide_.transpose() * f;
-        half.long_rows = capacitance_->solve_lower(along);
+        square -= capacitance_->solve_lower(along).squaredNorm();
     }
-    return half;
-}
-
-double NormalInverse::product(const Half& f, const Half& g) {
-    return f.short_rows.dot(g.short_rows) - f.long_rows.dot(g.long_rows);
-}
-
-double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
-    const Half own = half(f);
-    return product(own, own);
+    return square;
 }
 
 Eigen::VectorXd NormalInverse::solve(const Eigen::VectorXd& right) const {

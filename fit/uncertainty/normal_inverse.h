@@ -26,13 +26,7 @@ public:
     ~NormalInverse();
     /// False when the matrix is not positive definite.
     bool compute(const NormalEquations& equations);
-    /// What f' A^-1 g is the product of: half of it for each.
-    struct Half {
-        Eigen::SparseVector<double> short_rows;
-        Eigen::VectorXd long_rows;
-    };
-    Half half(const Eigen::SparseVector<double>& f) const;
-    static double product(const Half& f, const Half& g);
+    /// f' A^-1 f.
     double quadratic(const Eigen::SparseVector<double>& f) const;
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 

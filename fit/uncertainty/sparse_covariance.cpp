@@ -61,22 +61,11 @@ bool Covariance::Sparse::compute(PinnedInverse& pinned, double prior) const {
     return true;
 }
 
-Covariance::Sparse::Part Covariance::Sparse::part_of(const PinnedInverse& pinned,
-                                                     const FunctionRow& function) const {
-    return {pinned.inverse.half(function), gauge_.transpose() * function,
-            pinned.gauge_solved.transpose() * function};
-}
-
-double Covariance::Sparse::product(const PinnedInverse& pinned, const Part& one,
-                                   const Part& other) {
-    return NormalInverse::product(one.half, other.half) +
-           one.along.dot(pinned.gauge_part * other.along) - one.solved.dot(other.along) -
-           other.solved.dot(one.along);
-}
-
 double Covariance::Sparse::of(const PinnedInverse& pinned, const FunctionRow& function) const {
-    const Part own = part_of(pinned, function);
-    return std::max(0.0, product(pinned, own, own));
+    const Eigen::VectorXd along = gauge_.transpose() * function;
+    return std::max(0.0, pinned.inverse.quadratic(function) +
+                             along.dot(pinned.gauge_part * along -
+                                       2 * (pinned.gauge_solved.transpose() * function)));
 }
 
 Eigen::VectorXd Covariance::Sparse::with_all(const PinnedInverse& pinned,
@@ -101,20 +90,6 @@ double Covariance::Sparse::most_open() const {
 double Covariance::Sparse::open_variance(const FunctionRow& function) const {
     if (!has_open) return 0;
     return std::max(0.0, of(tight, function) - of(trusted, function)) * k_weak_prior;
-}
-
-double Covariance::Sparse::leverage(Eigen::Index one, Eigen::Index other) const {
-    const auto key = std::minmax(one, other);
-    const auto [found, is_new] = leverages_.try_emplace(key, 0.0);
-    if (is_new) {
-        const auto part = [&](Eigen::Index i) -> const Part& {
-            auto [known, unknown] = parts_.try_emplace(i);
-            if (unknown) known->second = part_of(tight, function_row(rows, i));
-            return known->second;
-        };
-        found->second = product(tight, part(key.first), part(key.second));
-    }
-    return found->second;
 }
 
 void Covariance::find_sparse() {

@@ -2,8 +2,6 @@
 // The covariance of large stones. Private to the room: shows Eigen.
 
 #include <Eigen/Core>
-#include <map>
-#include <utility>
 
 #include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/normal_inverse.h"
@@ -31,8 +29,6 @@ struct Covariance::Sparse {
     /// An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
     /// disagree on.
     double open_variance(const FunctionRow& function) const;
-    /// An entry of the hat matrix; remembered.
-    double leverage(Eigen::Index one, Eigen::Index other) const;
 
     const Linearised& linear;
     FunctionRows rows;      ///< no tighter than is told from what is loose
@@ -42,20 +38,10 @@ struct Covariance::Sparse {
     bool has_open = false;
 
 private:
-    // A function, and what the gauge has to say of it.
-    struct Part {
-        NormalInverse::Half half;
-        Eigen::VectorXd along, solved;
-    };
-    Part part_of(const PinnedInverse& pinned, const FunctionRow& function) const;
-    static double product(const PinnedInverse& pinned, const Part& one, const Part& other);
-
     double hard_weight_ = 1;
     Eigen::MatrixXd gauge_;       // G, orthonormal in the metric
     Eigen::MatrixXd gauge_rows_;  // M G
     Eigen::VectorXd pins_;
-    mutable std::map<Eigen::Index, Part> parts_;
-    mutable std::map<std::pair<Eigen::Index, Eigen::Index>, double> leverages_;
 };
 
 }  // namespace culet
