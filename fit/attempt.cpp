@@ -140,7 +140,6 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
     result.unit = problem.stone.unit;
     std::optional<System> taken(std::in_place, problem.stone, problem.readings, options);
-    made.mesh_turn = taken->mesh_turn();
     made.far_from_mesh = angles_far_from_mesh(*taken);
 
     Multistart multistart = search(*taken, options, progress);

@@ -6,7 +6,6 @@
 #include "fit/hypotheses/doubted_readings.h"
 #include "fit/hypotheses/leave_one_out.h"
 #include "fit/hypotheses/mirrored_mesh.h"
-#include "fit/hypotheses/turned_azimuths.h"
 
 namespace culet {
 
@@ -36,8 +35,6 @@ constexpr Hypothesis k_hypotheses[] = {
     {"", with_prior, take_with_prior},
     // What the first check doubts is wrong.
     {k_readings_left_out, without_doubted, judge_doubted},
-    // All azimuths count from another mark.
-    {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},
     // Angles far off the mesh are wrong.
     {k_readings_left_out, without_far_angles, judge_far_angles},
     // The first suspect is wrong.

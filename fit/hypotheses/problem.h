@@ -22,7 +22,6 @@ struct Problem {
 
 struct Attempt {
     FitResult result;
-    double mesh_turn = 0;  ///< by how much the azimuths read are ahead of the mesh's; radians
     std::vector<std::size_t> far_from_mesh;  ///< angles_far_from_mesh
     double work = 0;                         ///< of all starts, about, in multiplications
 };
