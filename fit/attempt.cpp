@@ -27,32 +27,6 @@ namespace culet {
 
 namespace {
 
-// A gross error: beyond this the equations' bend matters. Of suspects only: next to corners that
-// are held, readings that nothing checks have residuals that say nothing.
-bool needs_robust_view(const Diagnosis& diagnosis) {
-    return std::any_of(diagnosis.suspects.begin(), diagnosis.suspects.end(), [&](int reading) {
-        return std::abs(diagnosis.readings[std::size_t(reading)].normalized) > 8;
-    });
-}
-
-Diagnosis diagnosis_of(const System& system, const Candidate& best, const FitOptions& options) {
-    const Finished& finished = best.finished;
-    Diagnosis plain = diagnose(system, finished.shape, finished.outline,
-                               {.significance = options.significance,
-                                .binding = best.binding,
-                                .held = conditions_of(system, finished.shape, best.held)});
-    if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
-    // A gross error bends the whole stone: look for it from a fit that it does not pull.
-    System reweighted = system;
-    Candidate robust = best;
-    reweight(reweighted, robust, Loss::cauchy, options.iterations);
-    if (!robust.sound || !robust.finished.outline) return plain;
-    return diagnose(system, finished.shape, finished.outline,
-                    {.significance = options.significance,
-                     .binding = best.binding,
-                     .seen_from = &robust.finished});
-}
-
 // From an earlier result, where it leads to an end; else from the starts.
 Multistart search(const System& system, const FitOptions& options, const Progress& progress) {
     if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
@@ -159,7 +133,10 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     tell(progress, 0.95);
 
     const Finished& finished = best.finished;
-    const Diagnosis diagnosis = diagnosis_of(system, best, options);
+    const Diagnosis diagnosis = diagnose(system, finished.shape, finished.outline,
+                                         {.significance = options.significance,
+                                          .binding = best.binding,
+                                          .held = conditions_of(system, finished.shape, best.held)});
     const System::Pose pose = system.pose_of(finished.shape);
     fill_in_statistics(diagnosis, result);
     fill_in(system, problem.readings, finished.shape, diagnosis, pose, weights, result);

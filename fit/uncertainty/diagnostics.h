@@ -72,8 +72,6 @@ struct DiagnosisOptions {
     int binding = 0;
     /// These, as exact equations: readings beside them are suspects only if they are with them.
     std::vector<Equation> held{};
-    /// Look for wrong readings from this fit, which they did not bend; same readings.
-    const Finished* seen_from = nullptr;
 };
 
 Diagnosis diagnose(const System& system, const Shape& shape,

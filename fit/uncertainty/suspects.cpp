@@ -97,13 +97,6 @@ void snoop(const System& system, const Covariance& covariance, double significan
 void find_suspects(const System& system, const Shape& shape,
                    const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options,
                    Diagnosis& diagnosis) {
-    if (options.seen_from) {
-        const Covariance from_there(
-            linearise(system, options.seen_from->shape, options.seen_from->outline));
-        snoop(system, from_there.usable() ? from_there : *diagnosis.covariance,
-              options.significance, diagnosis);
-        return;
-    }
     snoop(system, *diagnosis.covariance, options.significance, diagnosis);
     if (diagnosis.suspects.empty() || options.held.empty()) return;
     // What holds a corner bends readings beside it that hardly anything else checks.
