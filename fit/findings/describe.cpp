@@ -26,8 +26,6 @@ const char* name_of(ShapeFinding::Kind kind) {
             return "edge_open";
         case ShapeFinding::Kind::facet_open:
             return "facet_open";
-        case ShapeFinding::Kind::same_plane:
-            return "same_plane";
     }
     return "edge_open";
 }
@@ -185,12 +183,6 @@ void describe_shape(const System& system, const Finished& finished,
                 finding.what = fmt::format(
                     "facet {} has an area of {:.2g} {}2, sigma {:.2g}: it may not be there", first,
                     finding.value, name_of(result.unit), finding.sigma);
-                break;
-            case ShapeFinding::Kind::same_plane:
-                finding.what = fmt::format(
-                    "facets {} and {} are {:.3g} degrees apart, sigma {:.2g}: they cannot be told "
-                    "apart",
-                    first, finding.facets[1], degrees(finding.value), degrees(finding.sigma));
                 break;
         }
     }

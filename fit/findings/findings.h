@@ -67,12 +67,11 @@ struct ShapeFinding {
         edge_vanishes,   ///< readings want an edge of negative length: it is held at zero
         facet_vanishes,  ///< readings want no room for a facet
         edge_open,       ///< an edge shorter than twice its uncertainty
-        facet_open,      ///< an area smaller than twice its uncertainty
-        same_plane       ///< two neighbours closer in angle than twice its uncertainty
+        facet_open       ///< an area smaller than twice its uncertainty
     };
     Kind kind = Kind::edge_open;
     std::vector<std::string> facets;  ///< an edge: its two sides, then the facets at its ends
-    double value = 0;  ///< length, area or angle; of vanishing ones what the readings want
+    double value = 0;                 ///< length or area; of vanishing ones what the readings want
     double sigma = 0;
     double p = 1;  ///< of vanishing ones: chance of so strong a wish if there is just no such edge
     std::string what;  ///< one line for people

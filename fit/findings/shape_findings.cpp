@@ -104,6 +104,14 @@ void add_vanishing(const System& system, const Finished& finished,
     }
 }
 
+double area_of(const Finished& finished, std::size_t facet) {
+    std::vector<Corner> corners;
+    for (int c : finished.outline->loops[facet]) {
+        corners.push_back(finished.outline->corners[std::size_t(c)]);
+    }
+    return enclosed_area(corners)(finished.shape).value;
+}
+
 // A facet whose outline is shut by the held corners. One that is as small without being held is as
 // small as the readings say.
 void add_shut_facets(const System& system, const Finished& finished,
@@ -130,13 +138,8 @@ void add_shut_facets(const System& system, const Finished& finished,
             }
         }
         // Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
-        double shape_area = 0;
-        if (loop.size() >= 3) {
-            std::vector<Corner> corners;
-            for (int c : loop) corners.push_back(outline.corners[std::size_t(c)]);
-            shape_area = enclosed_area(corners)(finished.shape).value;
-        }
-        if (loop.size() >= 3 && shape_area > (is_held ? 1e-5 * std::max(width, 1e-5) : 0)) continue;
+        if (loop.size() >= 3 && area_of(finished, f) > (is_held ? 1e-5 * std::max(width, 1e-5) : 0))
+            continue;
         ShapeFinding finding;
         finding.kind = ShapeFinding::Kind::facet_vanishes;
         finding.facets = {name(system, static_cast<int>(f))};
@@ -177,9 +180,7 @@ void add_open_facets(const System& system, const Finished& finished, const Diagn
     const Outline& outline = *finished.outline;
     for (std::size_t f = 0; f < outline.loops.size(); ++f) {
         if (outline.loops[f].size() < 3) continue;
-        std::vector<Corner> corners;
-        for (int c : outline.loops[f]) corners.push_back(outline.corners[std::size_t(c)]);
-        const double value = enclosed_area(corners)(finished.shape).value;
+        const double value = area_of(finished, f);
         const double sigma = diagnosis.facets[f].area;
         // Beyond a tenth of the half diameter squared the area is simply not known.
         if (!(value < 2 * sigma) || !(sigma < 0.1)) continue;
@@ -192,33 +193,6 @@ void add_open_facets(const System& system, const Finished& finished, const Diagn
         });
         if (known) continue;
         finding.value = value;
-        finding.sigma = sigma;
-        findings.push_back(std::move(finding));
-    }
-}
-
-void add_same_planes(const System& system, const Finished& finished, const Diagnosis& diagnosis,
-                     const Covariance& holding, std::vector<ShapeFinding>& findings) {
-    for (const Edge& edge : system.edges().edges) {
-        const Vec3 &a = finished.shape.normals[std::size_t(edge.left)],
-                   &b = finished.shape.normals[std::size_t(edge.right)];
-        const double angle = angle_between(a, b);
-        const FacetSigma &s = diagnosis.facets[std::size_t(edge.left)],
-                         &t = diagnosis.facets[std::size_t(edge.right)];
-        const auto own = [](const FacetSigma& sigma, const Vec3& n) {
-            const double flat = std::hypot(n.x, n.y);
-            const double across = std::isfinite(sigma.azimuth) ? flat * sigma.azimuth : 0;
-            return std::hypot(sigma.inclination, across);
-        };
-        // What both might be apart at most, before asking for their common covariance.
-        const double most = own(s, a) + own(t, b);
-        if (!(angle < 2 * most) || !(angle < 0.2)) continue;
-        const double sigma = sigma_of(holding, tilt_between(edge.left, edge.right)(finished.shape));
-        if (!(angle < 2 * sigma) || !(sigma < 0.5)) continue;
-        ShapeFinding finding;
-        finding.kind = ShapeFinding::Kind::same_plane;
-        finding.facets = {name(system, edge.left), name(system, edge.right)};
-        finding.value = angle;
         finding.sigma = sigma;
         findings.push_back(std::move(finding));
     }
@@ -250,7 +224,6 @@ std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& 
     add_shut_facets(system, finished, held, findings);
     add_open_edges(system, finished, holding, findings);
     add_open_facets(system, finished, diagnosis, findings);
-    add_same_planes(system, finished, diagnosis, holding, findings);
     return findings;
 }
 

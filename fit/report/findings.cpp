@@ -94,11 +94,10 @@ void add_findings(const FitResult& result, Json& report) {
     report["meets"]["proposals"] = proposals;
     Json shape = Json::array();
     for (const ShapeFinding& finding : result.findings.shapes) {
-        const double unit = finding.kind == ShapeFinding::Kind::same_plane ? degrees(1) : 1;
         shape.push_back({{"kind", name_of(finding.kind)},
                          {"facets", finding.facets},
-                         {"value", json_number(unit * finding.value)},
-                         {"sigma", json_number(unit * finding.sigma)},
+                         {"value", json_number(finding.value)},
+                         {"sigma", json_number(finding.sigma)},
                          {"p", json_number(finding.p)},
                          {"what", finding.what}});
     }

@@ -176,27 +176,6 @@ TEST(Topology, AFacetWithoutRoomIsNamedAndGoesWhereThatIsAllowed) {
     EXPECT_TRUE(std::isnan(changed.readings.back().fitted));
 }
 
-TEST(Topology, TwoFacetsThatCannotBeToldApartAreNamed) {
-    // Two halves of one side of a box, 0.02 degrees apart and read to 0.1.
-    std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1}},
-                                   {"Y+", {{0, 1, 0}, 1}},
-                                   {"X-", {{-1, 0, 0}, 1}},
-                                   {"Y-", {{0, -1, 0}, 1}},
-                                   {"B", {{0, 0, -1}, 1}}};
-    planes.push_back(through("A", direction(90, 0.01), {1, 0, 0}));
-    planes.push_back(through("C", direction(90, -0.01), {1, 0, 0}));
-    const Solid truth = enclosed(planes);
-    ASSERT_EQ(truth.facets.size(), 7u);
-    std::vector<Reading> readings = all_angles(truth, radians(0.1), "T");
-    for (const Reading& r : all_edges(truth, 0.005)) readings.push_back(r);
-    const FitResult result = fit_stone(stone_of(truth), readings);
-    const ShapeFinding* same = finding(result, ShapeFinding::Kind::same_plane);
-    ASSERT_NE(same, nullptr) << result.message;
-    EXPECT_THAT(same->facets, ::testing::UnorderedElementsAre("A", "C"));
-    EXPECT_NEAR(degrees(same->value), 0.02, 1e-6);
-    EXPECT_GT(degrees(same->sigma), 0.01);
-}
-
 TEST(Topology, AnEdgeShorterThanItsUncertaintyIsOpen) {
     const Solid truth = roof(1.002, 1);
     const FitResult result = fit_stone(standing(truth), plane_readings(truth, truth, 0.1, 0.01));
