@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fit/findings/meet_tests.h"
+#include "fit/findings/name_list.h"
 #include "fit/findings/own_axis.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/symmetry_tests.h"
@@ -31,15 +32,6 @@ const char* name_of(ShapeFinding::Kind kind) {
 }
 
 namespace {
-
-std::string list_of(const std::vector<std::string>& names, std::size_t from = 0) {
-    std::string text;
-    for (std::size_t i = from; i < names.size(); ++i) {
-        if (i - from == 8) return text + fmt::format(" and {} more", names.size() - i);
-        text += (i == from ? "" : ", ") + names[i];
-    }
-    return text;
-}
 
 // A length as people say it: micrometres when it is small and the unit is known to be larger.
 std::string length_text(double value, LengthUnit unit) {
@@ -116,7 +108,7 @@ void describe_meets(const System& system, const Shape& shape, const Covariance& 
     for (MeetFinding& meet : result.findings.meets) {
         meet.miss *= system.scale();
         meet.sigma *= system.scale();
-        const std::string planes = list_of(meet.facets);
+        const std::string planes = name_list(meet.facets);
         if (meet.contradicted) {
             meet.advice = fmt::format(
                 "meet of {}: planes miss by {}, sigma {}: {}", planes,
@@ -155,7 +147,11 @@ void describe_shape(const System& system, const Finished& finished,
     for (ShapeFinding& finding : result.findings.shapes) {
         const std::string first = finding.facets[0];
         const std::string ends =
-            finding.facets.size() > 2 ? " (between " + list_of(finding.facets, 2) + ")" : "";
+            finding.facets.size() > 2
+                ? fmt::format(" (between {})",
+                              name_list(std::vector<std::string>(finding.facets.begin() + 2,
+                                                                 finding.facets.end())))
+                : "";
         switch (finding.kind) {
             case ShapeFinding::Kind::edge_vanishes:
                 finding.value *= system.scale();

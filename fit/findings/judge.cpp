@@ -9,6 +9,7 @@
 #include <set>
 
 #include "fit/findings/bench_words.h"
+#include "fit/findings/name_list.h"
 #include "fit/mesh/come_to_nothing.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/checks.h"
@@ -20,19 +21,10 @@ namespace {
 // Contract with the user: corners lie on their planes to this part of the diameter.
 constexpr double k_planarity = 1e-12;
 
-std::string names(const std::vector<std::string>& list) {
-    std::string text;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        if (i == 8) return text + fmt::format(" and {} more", list.size() - i);
-        text += (i == 0 ? "" : ", ") + list[i];
-    }
-    return text;
-}
-
 std::string told_all(const System& system, const std::vector<std::string>& ids) {
     std::vector<std::string> words;
     for (const std::string& id : ids) words.push_back(told_reading(system.readings(), id));
-    return names(words);
+    return name_list(words);
 }
 
 // Who is to blame, as far as one can tell.
@@ -89,11 +81,11 @@ std::string in_the_way(const Solid& solid) {
         text = fmt::format(
             ": nothing is left of {}; read how large they are, leave them out of the mesh, or "
             "allow the topology to change",
-            names(come.facets));
+            name_list(come.facets));
     }
     if (!come.edges.empty()) {
         text += fmt::format("{} {} lie in one plane; draw each two as one facet",
-                            text.empty() ? ":" : ";", names(come.edges));
+                            text.empty() ? ":" : ";", name_list(come.edges));
     }
     return text;
 }
@@ -114,10 +106,11 @@ std::optional<Verdict> exact_contradiction(const System& system, const Diagnosis
         }
     }
     if (broken.empty()) return {};
-    return Verdict{FitStatus::contradictory, fmt::format("exact readings contradict each other: {}",
-                                                         names(result.findings.disagreeing.empty()
-                                                                   ? broken
-                                                                   : result.findings.disagreeing))};
+    return Verdict{
+        FitStatus::contradictory,
+        fmt::format(
+            "exact readings contradict each other: {}",
+            name_list(result.findings.disagreeing.empty() ? broken : result.findings.disagreeing))};
 }
 
 // No stone has the mesh's facets, edges and meets and these readings.
@@ -126,7 +119,7 @@ std::optional<Verdict> denied_topology(const Finished& finished, const FitResult
     if (!result.checks.missing_facets.empty()) {
         return Verdict{FitStatus::not_converged,
                        fmt::format("the fitted planes leave no room for facet {}",
-                                   names(result.checks.missing_facets))};
+                                   name_list(result.checks.missing_facets))};
     }
     for (const ShapeFinding& f : findings.shapes) {
         if (f.kind == ShapeFinding::Kind::facet_vanishes) {
@@ -148,7 +141,7 @@ std::optional<Verdict> denied_topology(const Finished& finished, const FitResult
             fmt::format("by the readings these neighbours in the mesh do not touch: {} (with the "
                         "edge between them chi-square is larger by {:.1f}); draw the ends of the "
                         "edge as one corner, or allow the topology to change",
-                        names(findings.vanishing_edges), findings.vanishing_chi2)};
+                        name_list(findings.vanishing_edges), findings.vanishing_chi2)};
     }
     return {};
 }
@@ -225,7 +218,7 @@ std::optional<Verdict> undetermined(const FitResult& result) {
         fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
                     "the mesh{}; {}",
                     facets.size(), result.facets.size(), facets.size() == 1 ? "is" : "are",
-                    facets.empty() ? "" : " (" + names({facets.begin(), facets.end()}) + ")",
+                    facets.empty() ? "" : " (" + name_list({facets.begin(), facets.end()}) + ")",
                     result.findings.help.empty()
                         ? "a prior would fill it in ([fit] prior = \"mesh\")"
                         : "next, " + bench_words(result.findings.help[0]))};
@@ -280,7 +273,7 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
         result.message += fmt::format(
             "; by the readings these neighbours hardly touch: {} (their edge is kept, without "
             "length)",
-            names(result.findings.vanishing_edges));
+            name_list(result.findings.vanishing_edges));
     }
     for (const std::string& note : result.log.notes) result.message += "; " + note;
     if (!diagnosis.analysed) {

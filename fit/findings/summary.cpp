@@ -8,6 +8,7 @@
 #include <map>
 
 #include "fit/findings/bench_words.h"
+#include "fit/findings/name_list.h"
 #include "fit/findings/verdict.h"
 #include "stone/units.h"
 
@@ -16,15 +17,6 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_named = 4;  // of a longer list the first ones are named
-
-std::string first_of(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size() && i < k_named; ++i) {
-        text += (i == 0 ? "" : ", ") + names[i];
-    }
-    if (names.size() > k_named) text += fmt::format(" and {} more", names.size() - k_named);
-    return text;
-}
 
 bool in_degrees(ReadingKind kind) {
     return is_angle(kind) || kind == ReadingKind::parallel || kind == ReadingKind::rotation ||
@@ -60,7 +52,7 @@ std::string least_sure(const FitResult& result) {
     }
     return fmt::format(
         "Least sure are {}; half of the facets are known to {:.2g} degrees or better.",
-        first_of(worst), sigmas[sigmas.size() / 2].first);
+        name_list(worst, k_named), sigmas[sigmas.size() / 2].first);
 }
 
 // A sentence begins with a capital and ends with a stop.
@@ -116,7 +108,7 @@ std::string doubtful(const FitResult& result) {
         words.push_back(
             found == result.readings.end() ? id : words_of(*found, proposal_for(result, id)));
     }
-    return words.empty() ? "" : fmt::format("Look again at {}.", first_of(words));
+    return words.empty() ? "" : fmt::format("Look again at {}.", name_list(words, k_named));
 }
 
 std::string unchecked(const FitResult& result) {
@@ -130,21 +122,7 @@ std::string unchecked(const FitResult& result) {
     }
     if (ids.empty()) return {};
     return fmt::format("Nothing checks {} of {} readings ({}): their errors would not show.",
-                       ids.size(), result.readings.size(), first_of(ids));
-}
-
-std::string rank_defect(const FitResult& result) {
-    std::vector<std::string> order;
-    std::map<std::string, std::vector<std::string>> parameters;
-    for (const Undetermined& u : result.findings.undetermined) {
-        if (parameters[u.facet].empty()) order.push_back(u.facet);
-        parameters[u.facet].push_back(u.freedom);
-    }
-    std::vector<std::string> words;
-    for (const std::string& facet : order) {
-        words.push_back(fmt::format("the {} of {}", fmt::join(parameters[facet], " and "), facet));
-    }
-    return words.empty() ? "" : fmt::format("Nothing measured fixes {}.", first_of(words));
+                       ids.size(), result.readings.size(), name_list(ids, k_named));
 }
 
 // What a sentence each was found for, as many as one reads.
@@ -162,7 +140,7 @@ std::string disagreeing(const FitResult& result) {
     if (result.findings.disagreeing.empty() || !result.findings.suspects.empty()) return {};
     return fmt::format(
         "Readings that cannot hold together, though without any one of them the others can: {}.",
-        first_of(result.findings.disagreeing));
+        name_list(result.findings.disagreeing, k_named));
 }
 
 // The table need not lie square to the stone: angles from it then differ around the stone.
@@ -280,11 +258,7 @@ std::vector<std::string> fit_summary(const FitResult& result) {
     add(disagreeing(result));
     add_some(bad_meets(result), sentences);
     add_some(denied_shape(result), sentences);
-    if (result.findings.undetermined_words.empty()) {
-        add(rank_defect(result));
-    } else {
-        add_some(result.findings.undetermined_words, sentences);
-    }
+    add_some(result.findings.undetermined_words, sentences);
     if (stands) add(unchecked(result));
     if (stands) add(own_axis(result));
     if (result.findings.symmetry)
