@@ -62,6 +62,30 @@ private:
     }
 };
 
+// By halves of what remains first, then one by one until none can be spared. `spares` says whether
+// some can be spared, given the others.
+template <class Spares>
+void leave_out_what_can_be_spared(std::vector<int>& left, const Spares& spares) {
+    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
+        bool spared = false;
+        for (std::size_t at = 0; at < left.size();) {
+            const std::size_t end = std::min(left.size(), at + chunk);
+            const auto first = left.begin() + std::ptrdiff_t(at),
+                       last = left.begin() + std::ptrdiff_t(end);
+            std::vector<int> others(left.begin(), first);
+            others.insert(others.end(), last, left.end());
+            if (spares(std::vector<int>(first, last), others)) {
+                left = std::move(others);
+                spared = true;
+            } else {
+                at = end;
+            }
+        }
+        if (left.empty() || (chunk == 1 && !spared)) return;
+        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
+    }
+}
+
 }  // namespace
 
 std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::MatrixXd matrix,
@@ -92,28 +116,16 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
     std::sort(order.begin(), order.end());
     std::vector<int> left;
     for (const auto& [part, reading] : order) left.push_back(reading);
-    // By halves of what remains first, then one by one until none can be spared.
-    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
-        bool spared = false;
-        for (std::size_t at = 0; at < left.size();) {
-            const std::size_t end = std::min(left.size(), at + chunk);
-            std::vector<Eigen::Index> out;
-            for (std::size_t k = at; k < end; ++k) {
-                const std::vector<Eigen::Index>& mine = equations[left[k]];
-                out.insert(out.end(), mine.begin(), mine.end());
-            }
-            if (fails(rest.sums_without(out))) {
-                rest.leave_out(std::move(out));
-                left.erase(left.begin() + std::ptrdiff_t(at), left.begin() + std::ptrdiff_t(end));
-                spared = true;
-            } else {
-                at = end;
-            }
+    leave_out_what_can_be_spared(left, [&](const std::vector<int>& spared, const auto&) {
+        std::vector<Eigen::Index> out;
+        for (const int reading : spared) {
+            const std::vector<Eigen::Index>& mine = equations[reading];
+            out.insert(out.end(), mine.begin(), mine.end());
         }
-        if (chunk == 1 && !spared) break;
-        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
-        if (left.empty()) break;
-    }
+        if (!fails(rest.sums_without(out))) return false;
+        rest.leave_out(std::move(out));
+        return true;
+    });
     std::sort(left.begin(), left.end());
     return left;
 }
@@ -172,22 +184,9 @@ std::vector<int> inconsistent_exact_readings(const System& system, const Shape& 
         }
         return left;
     }
-    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
-        bool spared = false;
-        for (std::size_t at = 0; at < left.size();) {
-            const std::size_t end = std::min(left.size(), at + chunk);
-            std::vector<int> fewer = left;
-            fewer.erase(fewer.begin() + std::ptrdiff_t(at), fewer.begin() + std::ptrdiff_t(end));
-            if (!fewer.empty() && fails(fewer)) {
-                left = std::move(fewer);
-                spared = true;
-            } else {
-                at = end;
-            }
-        }
-        if (chunk == 1 && !spared) break;
-        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
-    }
+    leave_out_what_can_be_spared(left, [&](const auto&, const std::vector<int>& others) {
+        return !others.empty() && fails(others);
+    });
     return left;
 }
 

@@ -32,35 +32,30 @@ public:
     // Residuals and redundancies once the set is left out.
     struct State {
         std::vector<Index> set;
-        Eigen::VectorXd values, redundancy, errors, error_variance;
-        double gain = 0;  // of chi2
+        Eigen::VectorXd values, redundancy, errors;
+        Eigen::MatrixXd columns, inverse;  ///< of R; of R cut down to the set
+        double gain = 0;                   // of chi2
         bool possible = true;
     };
     State without(const std::vector<Index>& set) {
-        State state{set, given_.values, given_.redundancy, {}, {}, 0, true};
+        State state{set, given_.values, given_.redundancy, {}, {}, {}, 0, true};
         const Index count = Index(set.size());
         if (count == 0) return state;
-        Eigen::MatrixXd block(count, count), columns(given_.values.size(), count);
-        Eigen::VectorXd values(count);
-        for (Index a = 0; a < count; ++a) {
-            columns.col(a) = column(set[std::size_t(a)]);
-            values(a) = given_.values(set[std::size_t(a)]);
-        }
-        for (Index a = 0; a < count; ++a) {
-            for (Index b = 0; b < count; ++b) block(a, b) = columns(set[std::size_t(b)], a);
-        }
-        const SymmetricEigen eigen = symmetric_eigen(block);
+        state.columns.resize(given_.values.size(), count);
+        for (Index a = 0; a < count; ++a) state.columns.col(a) = column(set[std::size_t(a)]);
+        const Eigen::VectorXd values = given_.values(set);
+        const SymmetricEigen eigen = symmetric_eigen(state.columns(set, Eigen::all));
         if (!(eigen.values(0) > 0.1 * k_tested)) {
             state.possible = false;  // together they leave nothing that checks them
             return state;
         }
-        const Eigen::MatrixXd inverse = times_transpose(
-            eigen.vectors * eigen.values.cwiseInverse().asDiagonal(), eigen.vectors);
-        state.errors = inverse * values;
-        state.error_variance = inverse.diagonal();
+        state.inverse = times_transpose(eigen.vectors * eigen.values.cwiseInverse().asDiagonal(),
+                                        eigen.vectors);
+        state.errors = state.inverse * values;
         state.gain = values.dot(state.errors);
-        state.values -= columns * state.errors;
-        state.redundancy -= product(columns, inverse).cwiseProduct(columns).rowwise().sum();
+        state.values -= state.columns * state.errors;
+        state.redundancy -=
+            product(state.columns, state.inverse).cwiseProduct(state.columns).rowwise().sum();
         for (const Index i : set) state.values(i) = state.redundancy(i) = 0;
         return state;
     }
@@ -68,18 +63,9 @@ public:
     // The part of R's column that is left when the state's set is left out.
     Eigen::VectorXd column_without(const State& state, Index i) {
         Eigen::VectorXd result = column(i);
-        const Index count = Index(state.set.size());
-        if (count == 0) return result;
-        Eigen::MatrixXd block(count, count), columns(result.size(), count);
-        Eigen::VectorXd right(count);
-        for (Index a = 0; a < count; ++a) {
-            columns.col(a) = column(state.set[std::size_t(a)]);
-            right(a) = result(state.set[std::size_t(a)]);
+        if (!state.set.empty()) {
+            result -= state.columns * (state.inverse * result(state.set)).eval();
         }
-        for (Index a = 0; a < count; ++a) {
-            for (Index b = 0; b < count; ++b) block(a, b) = columns(state.set[std::size_t(b)], a);
-        }
-        result -= columns * PivotedCholesky(block).solve_one(right);
         return result;
     }
 
@@ -207,7 +193,7 @@ Outliers find_outliers(const Residuals& residuals, double limit, double pair_lim
         // residual = R error, and residuals are fitted - read: an error in the reading has the
         // other sign.
         outlier.error = -state.errors(Index(a));
-        outlier.error_sigma = std::sqrt(state.error_variance(Index(a)));
+        outlier.error_sigma = std::sqrt(state.inverse(Index(a), Index(a)));
         const Search::State fewer = search.without(less(state.set, a));
         for (Index j = 0; j < residuals.values.size() && fewer.possible; ++j) {
             if (j == outlier.equation) continue;
