@@ -25,6 +25,11 @@ constexpr double k_no_redundancy = 1e-6;
 // An error of size limit + 0.84 sigma is found in 80 of 100 cases.
 constexpr double k_power_80 = 0.8416212335729143;
 
+bool has_azimuth(const Shape& shape, int facet) {
+    const Vec3& n = shape.normals[std::size_t(facet)];
+    return std::hypot(n.x, n.y) > 1e-9;
+}
+
 void find_rank_defect(const System& system, const Shape& shape, const Covariance& covariance,
                       const Vec3& middle, Diagnosis& diagnosis) {
     diagnosis.rank_defect = covariance.rank_defect();
@@ -35,9 +40,8 @@ void find_rank_defect(const System& system, const Shape& shape, const Covariance
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         static constexpr std::array<const char*, 3> names{"inclination", "azimuth", "offset"};
-        const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
         for (std::size_t k = 0; k < 3; ++k) {
-            if (k == 1 && flat < 1e-9) continue;
+            if (k == 1 && !has_azimuth(shape, f)) continue;
             if (std::sqrt(covariance.open_variance(rows[k])) > 0.02) {
                 diagnosis.undetermined.push_back({system.stone().solid.facets[f].name, names[k]});
             }
@@ -156,51 +160,44 @@ void check_readings(const System& system, const Linearised& linear,
     }
 }
 
-void find_facet_sigmas(const System& system, const Shape& shape, const Outline& outline,
-                       const Covariance& covariance, const Vec3& middle, Diagnosis& diagnosis) {
-    const Layout layout = layout_of(shape);
-    const RowWriter writer(shape);
-    // Azimuths are told in the result's frame, which turns to lie as the mesh does.
-    const FunctionRow turn = writer.function(system.turn_of(shape));
-    const Eigen::VectorXd with_turn = covariance.with_all(turn, true);
-    const double turn_variance = turn.dot(with_turn);
-    for (int f = 0; f < layout.facets; ++f) {
-        const auto rows = facet_functions(shape, f, layout, middle);
-        const auto total = [&](std::size_t k) {
-            return std::sqrt(covariance.total_variance(rows[k]));
-        };
-        FacetSigma& sigma = diagnosis.facets[std::size_t(f)];
-        sigma.inclination = total(0);
-        sigma.offset = total(2);
-        const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        sigma.azimuth =
-            flat > 1e-9 ? std::sqrt(std::max(0.0, covariance.total_variance(rows[1]) +
-                                                      turn_variance + 2 * rows[1].dot(with_turn)))
-                        : std::numeric_limits<double>::quiet_NaN();
-        if (outline.loops[f].size() < 3) continue;
-        std::vector<Corner> loop;
-        for (int c : outline.loops[f]) loop.push_back(outline.corners[c]);
-        const FunctionRow row = writer.function(enclosed_area(loop)(shape));
-        sigma.area = std::sqrt(covariance.total_variance(row));
-    }
-}
-
 // Of more facets the matrix would be larger than anybody's use for it.
 constexpr std::size_t k_most_facets_together = 300;
 
-// Together, what `find_facet_sigmas` tells one by one; azimuths in the result's frame.
-void find_facet_covariance(const System& system, const Shape& shape, const Covariance& covariance,
-                           const Vec3& middle, Diagnosis& diagnosis) {
+// Inclination, azimuth and offset of each facet as the result tells them: azimuths in its frame,
+// which turns to lie as the mesh does.
+std::vector<FunctionRow> facet_rows(const System& system, const Shape& shape, const Vec3& middle) {
     const Layout layout = layout_of(shape);
-    const RowWriter writer(shape);
-    const FunctionRow turn = writer.function(system.turn_of(shape));
+    const FunctionRow turn = RowWriter(shape).function(system.turn_of(shape));
     std::vector<FunctionRow> rows;
     for (int f = 0; f < layout.facets; ++f) {
         std::array<FunctionRow, 3> three = facet_functions(shape, f, layout, middle);
-        const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        if (flat > 1e-9) three[1] = three[1] + turn;
+        if (has_azimuth(shape, f)) three[1] = three[1] + turn;
         for (FunctionRow& row : three) rows.push_back(std::move(row));
     }
+    return rows;
+}
+
+void find_facet_sigmas(const Shape& shape, const Outline& outline, const Covariance& covariance,
+                       const std::vector<FunctionRow>& rows, Diagnosis& diagnosis) {
+    const RowWriter writer(shape);
+    for (std::size_t f = 0; f < diagnosis.facets.size(); ++f) {
+        const auto sigma_of = [&](const FunctionRow& row) {
+            return std::sqrt(covariance.total_variance(row));
+        };
+        FacetSigma& sigma = diagnosis.facets[f];
+        sigma.inclination = sigma_of(rows[3 * f]);
+        sigma.azimuth = has_azimuth(shape, int(f)) ? sigma_of(rows[3 * f + 1])
+                                                   : std::numeric_limits<double>::quiet_NaN();
+        sigma.offset = sigma_of(rows[3 * f + 2]);
+        if (outline.loops[f].size() < 3) continue;
+        std::vector<Corner> loop;
+        for (int c : outline.loops[f]) loop.push_back(outline.corners[c]);
+        sigma.area = sigma_of(writer.function(enclosed_area(loop)(shape)));
+    }
+}
+
+void find_facet_covariance(const Covariance& covariance, const std::vector<FunctionRow>& rows,
+                           Diagnosis& diagnosis) {
     diagnosis.facet_covariance.assign(rows.size() * rows.size(), 0);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (rows[i].nonZeros() == 0) continue;
@@ -243,9 +240,10 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         diagnosis.disagreeing = inconsistent_exact_readings(system, shape, outline);
     }
     const Vec3 middle = middle_of(shape);
-    find_facet_sigmas(system, shape, *outline, *covariance, middle, diagnosis);
+    const std::vector<FunctionRow> rows = facet_rows(system, shape, middle);
+    find_facet_sigmas(shape, *outline, *covariance, rows, diagnosis);
     if (shape.normals.size() <= k_most_facets_together)
-        find_facet_covariance(system, shape, *covariance, middle, diagnosis);
+        find_facet_covariance(*covariance, rows, diagnosis);
     if (system.has_prior()) find_parts_read(shape, *covariance, middle, diagnosis);
     find_rank_defect(system, shape, *covariance, middle, diagnosis);
     return diagnosis;
