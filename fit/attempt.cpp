@@ -133,10 +133,9 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     tell(progress, 0.95);
 
     const Finished& finished = best.finished;
-    const Diagnosis diagnosis = diagnose(system, finished.shape, finished.outline,
-                                         {.significance = options.significance,
-                                          .binding = best.binding,
-                                          .held = conditions_of(system, finished.shape, best.held)});
+    const Diagnosis diagnosis =
+        diagnose(system, finished.shape, finished.outline,
+                 {.significance = options.significance, .binding = best.binding});
     const System::Pose pose = system.pose_of(finished.shape);
     fill_in_statistics(diagnosis, result);
     fill_in(system, problem.readings, finished.shape, diagnosis, pose, weights, result);

@@ -184,8 +184,8 @@ void describe_shape(const System& system, const Finished& finished,
     }
 }
 
-}  // namespace
-
+// Held corners as exact equations, as they lie; of an edge that is held at both ends one, since the
+// other says the same.
 std::vector<Equation> conditions_of(const System& system, const Shape& shape,
                                     const std::vector<ActiveCorner>& held) {
     std::vector<Equation> conditions;
@@ -205,6 +205,8 @@ std::vector<Equation> conditions_of(const System& system, const Shape& shape,
     }
     return conditions;
 }
+
+}  // namespace
 
 void describe_findings(const System& system, const Finished& finished,
                        const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,

@@ -9,11 +9,6 @@
 
 namespace culet {
 
-/// Held corners as exact equations, as they lie; of an edge that is held at both ends one, since
-/// the other says the same.
-std::vector<Equation> conditions_of(const System& system, const Shape& shape,
-                                    const std::vector<ActiveCorner>& held);
-
 /// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
 /// `held` are corners (point below facet) that the fit had to hold down.
 void describe_findings(const System& system, const Finished& finished,

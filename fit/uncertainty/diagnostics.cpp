@@ -235,7 +235,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.suspect_limit = two_sided_normal_quantile(
         options.significance / std::max<double>(1, double(observations.size())));
     check_readings(system, linear, observations, redundancy, diagnosis);
-    find_suspects(system, shape, outline, options, diagnosis);
+    find_suspects(system, options.significance, diagnosis);
     if (linear.worst_hard() > k_hard_limit) {
         diagnosis.disagreeing = inconsistent_exact_readings(system, shape, outline);
     }

@@ -55,7 +55,6 @@ struct Diagnosis {
     bool analysed = true;
     std::shared_ptr<const Covariance> covariance;  ///< of the unknowns; null for `full` = false
     double chi2 = 0, dof = 0;
-    bool throughout = false;  ///< no few readings explain the contradictions (snooping.h)
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;
     int rank_defect = 0;
@@ -70,8 +69,6 @@ struct DiagnosisOptions {
     /// Corners that the fit holds, each of which costs the readings a freedom: given which bounds
     /// bind, chi-square has so many degrees of freedom more (Silvapulle & Sen 2005, chapter 3).
     int binding = 0;
-    /// These, as exact equations: readings beside them are suspects only if they are with them.
-    std::vector<Equation> held{};
 };
 
 Diagnosis diagnose(const System& system, const Shape& shape,

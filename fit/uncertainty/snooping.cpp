@@ -136,10 +136,9 @@ std::vector<Index> less(std::vector<Index> set, std::size_t at) {
 
 }  // namespace
 
-Outliers find_outliers(const Residuals& residuals, double limit, double pair_limit,
-                       std::size_t most) {
+std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, double pair_limit,
+                                   std::size_t most) {
     Search search(residuals);
-    Outliers result;
     Search::State state = search.without({});
     const double enough = limit * limit;
     for (int round = 0; round < 50 && state.set.size() < most; ++round) {
@@ -181,12 +180,10 @@ Outliers find_outliers(const Residuals& residuals, double limit, double pair_lim
         Index standing_out = 0;
         for (Index i = 0; i < state.values.size(); ++i)
             standing_out += Search::gain_of(state, i) > enough ? 1 : 0;
-        result.throughout = standing_out > state.values.size() / 10 || state.set.size() >= k_many;
-        if (result.throughout) break;
+        if (standing_out > state.values.size() / 10 || state.set.size() >= k_many) break;
     }
 
     std::vector<Outlier> outliers;
-    std::vector<double> gains;
     for (std::size_t a = 0; a < state.set.size(); ++a) {
         Outlier outlier;
         outlier.equation = state.set[a];
@@ -202,15 +199,12 @@ Outliers find_outliers(const Residuals& residuals, double limit, double pair_lim
                 outlier.alternatives.push_back(j);
             }
         }
-        gains.push_back(state.gain - fewer.gain);
+        outlier.gain = state.gain - fewer.gain;
         outliers.push_back(std::move(outlier));
     }
-    std::vector<std::size_t> order(outliers.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return gains[a] > gains[b]; });
-    for (const std::size_t i : order) result.found.push_back(std::move(outliers[i]));
-    return result;
+    std::stable_sort(outliers.begin(), outliers.end(),
+                     [](const Outlier& a, const Outlier& b) { return a.gain > b.gain; });
+    return outliers;
 }
 
 }  // namespace culet

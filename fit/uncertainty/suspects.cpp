@@ -46,9 +46,9 @@ Residuals residuals_of(const std::vector<Observation>& observations, const Covar
 }
 
 void name_suspects(const System& system, const std::vector<Observation>& observations,
-                   const Outliers& outliers, Diagnosis& diagnosis) {
+                   const std::vector<Outlier>& outliers, Diagnosis& diagnosis) {
     const auto reading_of = [&](Eigen::Index i) { return observations[std::size_t(i)].reading; };
-    for (const Outlier& outlier : outliers.found) {
+    for (const Outlier& outlier : outliers) {
         const int reading = reading_of(outlier.equation);
         if (reading < 0 || diagnosis.readings[std::size_t(reading)].suspect) continue;
         diagnosis.readings[std::size_t(reading)].suspect = true;
@@ -68,16 +68,17 @@ void name_suspects(const System& system, const std::vector<Observation>& observa
     }
 }
 
-void snoop(const System& system, const Covariance& covariance, double significance,
-           Diagnosis& diagnosis) {
+}  // namespace
+
+void find_suspects(const System& system, double significance, Diagnosis& diagnosis) {
+    const Covariance& covariance = *diagnosis.covariance;
     const std::vector<Observation> observations = observations_of(covariance.linear());
     const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
     const Residuals residuals = residuals_of(observations, covariance);
     const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
-    const Outliers outliers =
+    const std::vector<Outlier> outliers =
         find_outliers(residuals, diagnosis.suspect_limit, chi2_quantile(significance / pairs, 2),
                       std::max<std::size_t>(3, observations.size() / 10));
-    diagnosis.throughout = outliers.throughout;
     name_suspects(system, observations, outliers, diagnosis);
     if (!(chi2_tail(diagnosis.chi2, diagnosis.dof) < significance) || count > k_most_searched) {
         return;
@@ -90,22 +91,6 @@ void snoop(const System& system, const Covariance& covariance, double significan
     }
     diagnosis.disagreeing =
         disagreeing_readings(residuals.values, std::move(matrix), owner, significance);
-}
-
-}  // namespace
-
-void find_suspects(const System& system, const Shape& shape,
-                   const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options,
-                   Diagnosis& diagnosis) {
-    snoop(system, *diagnosis.covariance, options.significance, diagnosis);
-    if (diagnosis.suspects.empty() || options.held.empty()) return;
-    // What holds a corner bends readings beside it that hardly anything else checks.
-    const Covariance from_there(linearise(system, shape, outline, options.held));
-    if (!from_there.usable()) return;
-    for (ReadingCheck& c : diagnosis.readings) c.suspect = false;
-    diagnosis.suspects.clear();
-    diagnosis.suspicions.clear();
-    snoop(system, from_there, options.significance, diagnosis);
 }
 
 }  // namespace culet

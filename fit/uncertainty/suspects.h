@@ -6,10 +6,8 @@
 namespace culet {
 
 /// Baarda's data snooping (snooping.h), and where chi-square fails an irreducible set of readings
-/// that disagrees. Fills `suspects`, `suspicions`, `throughout` and `disagreeing` of a diagnosis
+/// that disagrees. Fills `suspects`, `suspicions` and `disagreeing` of a diagnosis
 /// that holds its covariance, chi-square and limit.
-void find_suspects(const System& system, const Shape& shape,
-                   const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options,
-                   Diagnosis& diagnosis);
+void find_suspects(const System& system, double significance, Diagnosis& diagnosis);
 
 }  // namespace culet
