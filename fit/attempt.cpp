@@ -11,7 +11,6 @@
 #include "fit/findings/judge.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/symmetry_tests.h"
-#include "fit/hypotheses/angle_blunders.h"
 #include "fit/mesh/notes.h"
 #include "fit/model/system.h"
 #include "fit/starts/multistart.h"
@@ -114,7 +113,6 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
     result.unit = problem.stone.unit;
     std::optional<System> taken(std::in_place, problem.stone, problem.readings, options);
-    made.far_from_mesh = angles_far_from_mesh(*taken);
 
     Multistart multistart = search(*taken, options, progress);
     made.work = multistart.work;

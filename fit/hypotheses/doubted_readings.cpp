@@ -13,9 +13,42 @@ namespace culet {
 namespace {
 
 std::vector<Doubt> doubts_of(const Problem& given) {
-    if (!given.options.first_check || given.read_in_full) return {};
     return first_check(given.stone, given.readings,
                        given.options.prior.source == Prior::Source::catalogue);
+}
+
+std::vector<std::size_t> readings_of(const std::vector<Doubt>& doubts) {
+    std::vector<std::size_t> doubted;
+    for (const Doubt& d : doubts) doubted.push_back(d.reading);
+    std::sort(doubted.begin(), doubted.end());
+    return doubted;
+}
+
+bool is_among(const std::string& id, const std::vector<Reading>& readings) {
+    return std::any_of(readings.begin(), readings.end(),
+                       [&](const Reading& r) { return r.id == id; });
+}
+
+// Readings that hold the stone check each other: they are doubted where they contradict each other
+// and do not accuse one of the doubted alone.
+bool may_be_bent(const Problem& given, const FitResult& result, const std::vector<Doubt>& doubts) {
+    if (!given.read_in_full || result.status == FitStatus::not_converged) return true;
+    if (result.status != FitStatus::contradictory) return false;
+    return result.findings.suspects.size() != 1 ||
+           std::none_of(doubts.begin(), doubts.end(), [&](const Doubt& d) {
+               return given.readings[d.reading].id == result.findings.suspects.front();
+           });
+}
+
+// By a fit without it, where that tells: of inclinations.
+bool is_denied(const Reading& r, const FitResult& without) {
+    if (r.kind != ReadingKind::inclination || r.facets.size() != 1 ||
+        r.datum.kind != Datum::Kind::up) {
+        return true;
+    }
+    const FittedFacet& facet = without.facets[std::size_t(r.facets[0])];
+    return std::abs(facet.inclination - r.value) >
+           without.statistics.suspect_limit * std::hypot(facet.sigma_inclination, r.sigma);
 }
 
 // Readings of one row count once, as they do beside a prior.
@@ -46,25 +79,40 @@ double fall_at_first_sigmas(const Problem& given, const std::vector<Doubt>& doub
 
 }  // namespace
 
-std::optional<Problem> without_doubted(const Problem& given, const Attempt&) {
-    std::vector<std::size_t> doubted;
-    for (const Doubt& d : doubts_of(given)) doubted.push_back(d.reading);
-    if (doubted.empty()) return std::nullopt;
-    std::sort(doubted.begin(), doubted.end());
-    Problem changed = given;
+std::optional<Problem> without_doubted(const Problem& given, const Attempt& first) {
+    if (!given.options.first_check) return std::nullopt;
+    const std::vector<Doubt> doubts = doubts_of(given);
+    if (doubts.empty() || !may_be_bent(given, first.result, doubts)) return std::nullopt;
+    Problem changed = given.read_in_full ? with_few_starts(given, first) : given;
     changed.options.first_check = false;
-    changed.readings = without(given.readings, doubted);
+    changed.readings = without(given.readings, readings_of(doubts));
     return changed;
 }
 
-Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem&, FitResult again) {
+Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem& changed,
+                      FitResult again) {
     if (again.status == FitStatus::not_converged) return {};
-    const std::vector<Doubt> doubts = doubts_of(given);
+    std::vector<Doubt> doubts = doubts_of(given);
+    std::erase_if(doubts, [&](const Doubt& d) {
+        return is_among(given.readings[d.reading].id, changed.readings);
+    });
     const double gain = std::max(first.result.statistics.chi2 - again.statistics.chi2,
                                  fall_at_first_sigmas(given, doubts, first.result));
     if (first.result.status != FitStatus::not_converged &&
         !(gain > chi2_quantile(given.options.significance, rows_of(given, doubts)))) {
         return {};
+    }
+    // A rough mesh doubts what is right: what the others do not deny goes back.
+    std::vector<Doubt> denied = doubts;
+    if (given.read_in_full) {
+        std::erase_if(denied,
+                      [&](const Doubt& d) { return !is_denied(given.readings[d.reading], again); });
+    }
+    if (denied.empty()) return {};
+    if (denied.size() < doubts.size()) {
+        Problem next = changed;
+        next.readings = without(given.readings, readings_of(denied));
+        return {std::nullopt, std::move(next)};
     }
     put_back_doubted(given.readings, doubts, again);
     return {std::move(again), std::nullopt};

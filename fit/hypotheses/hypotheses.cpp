@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "fit/hypotheses/angle_blunders.h"
 #include "fit/hypotheses/doubted_readings.h"
 #include "fit/hypotheses/leave_one_out.h"
 #include "fit/hypotheses/mirrored_mesh.h"
@@ -35,8 +34,6 @@ constexpr Hypothesis k_hypotheses[] = {
     {"", with_prior, take_with_prior},
     // What the first check doubts is wrong.
     {k_readings_left_out, without_doubted, judge_doubted},
-    // Angles far off the mesh are wrong.
-    {k_readings_left_out, without_far_angles, judge_far_angles},
     // The first suspect is wrong.
     {"reading left out", without_first_suspect, judge_first_suspect},
 };

@@ -22,8 +22,7 @@ struct Problem {
 
 struct Attempt {
     FitResult result;
-    std::vector<std::size_t> far_from_mesh;  ///< angles_far_from_mesh
-    double work = 0;                         ///< of all starts, about, in multiplications
+    double work = 0;  ///< of all starts, about, in multiplications
 };
 
 /// Where what is wrong was found, the stone is soon found too: two starts, or one where those of

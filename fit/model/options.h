@@ -57,8 +57,8 @@ struct FitOptions {
     double significance = 0.001;
     Loss loss = Loss::none;
     Prior prior;
-    /// Hold every reading against its tier and the mesh first (first_check.h), where the readings
-    /// do not check each other: they leave parts of the stone open.
+    /// Hold every reading against its tier and the mesh (first_check.h): first of all where the
+    /// readings leave parts of the stone open, else where they contradict each other.
     bool first_check = false;
     /// False: the mesh is a cut design, whose size says nothing.
     bool mesh_has_size = true;

@@ -31,7 +31,10 @@ protected:
         });
     }
     FitResult fitted() const {
-        const Trial trial = fit_mesh(noisy_mesh(truth_.stone, 0.01, 4), readings_);
+        // As the program does.
+        FitOptions options;
+        options.first_check = true;
+        const Trial trial = fit_mesh(noisy_mesh(truth_.stone, 0.01, 4), readings_, options);
         EXPECT_EQ(trial.refusal, "");
         return trial.result;
     }
