@@ -217,6 +217,7 @@ TEST_F(FirstCheck, IsHeededOnlyWhereTheFitIsBetterWithoutTheReading) {
         again.status = FitStatus::converged;
         again.statistics.chi2 = c.chi2_without;
         again.readings.resize(7);
+        again.facets.resize(stone_.solid.facets.size());
         EXPECT_EQ(judge_doubted(given, first, *changed, again).explained.has_value(), c.is_left_out)
             << c.chi2_without << ", " << c.baarda;
     }
