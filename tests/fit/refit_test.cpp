@@ -108,7 +108,10 @@ TEST(Refit, AJawThatIsPulledAwayLetsGo) {
         const FitResult again = refitted(f, f.readings);
         // The last stage from the same shape, where no jaw rests on two corners at first.
         const System system(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
-        const Candidate free = finish_from(system, *shape_of(system, f.result.solid), 100);
+        const Parameters parameters = system.parameters();
+        const Shape laid =
+            turned_to_calipers({system, parameters}, *shape_of(system, f.result.solid));
+        const Candidate free = finish_from(system, laid, 100);
         EXPECT_EQ(again.log.start, "earlier result");
         EXPECT_LT(again.statistics.chi2, free.finished.chi2 + 1);
     }
