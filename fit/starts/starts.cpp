@@ -127,24 +127,6 @@ std::optional<Start> Starts::next() {
             case 6:
                 start = from_angles(mesh(), "mesh with the angles read");
                 break;
-            case 7:
-                start = stretched(0.6);
-                break;
-            case 8:
-                start = blend(0.5);
-                break;
-            case 9:
-                start = stretched(1.6);
-                break;
-            case 10:
-                start = from_angles(stretched(0.6), "flat canonical with the angles read");
-                break;
-            case 11:
-                start = blend(0.25);
-                break;
-            case 12:
-                start = stretched(0.35);
-                break;
             default:
                 return std::nullopt;
         }
@@ -259,27 +241,6 @@ std::optional<Start> Starts::affine() {
     }
     return over_mesh("canonical, as long and wide as the mesh",
                      mapped(*canonical_, to_glm(map), m.to - to_glm(map) * m.from));
-}
-
-std::optional<Start> Starts::stretched(double along_up) {
-    std::optional<Start> start = similar();
-    if (!start) return start;
-    start->name = along_up < 1 ? "flat canonical" : "tall canonical";
-    start->shape = mapped(std::move(start->shape), {1, 0, 0, 0, 1, 0, 0, 0, along_up}, Vec3(0));
-    if (system_.up_facet() >= 0) start->shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
-    return start;
-}
-
-std::optional<Start> Starts::blend(double of_mesh) {
-    std::optional<Start> start = similar();
-    if (!start) return start;
-    start->name = "between canonical and mesh";
-    start->is_convex = false;
-    const Shape& mesh = system_.mesh_shape();
-    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
-        start->shape.points[p] += of_mesh * (mesh.points[p] - start->shape.points[p]);
-    }
-    return start;
 }
 
 std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::string& name) const {

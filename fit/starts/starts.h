@@ -38,8 +38,6 @@ private:
     Start mesh() const;
     std::optional<Start> similar();
     std::optional<Start> affine();
-    std::optional<Start> stretched(double along_up);
-    std::optional<Start> blend(double of_mesh);
     std::optional<Start> from_angles(std::optional<Start> base, const std::string& name) const;
     Start over_mesh(const std::string& name, Shape shape) const;
     Shape upright(Shape shape) const;
