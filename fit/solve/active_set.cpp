@@ -1,7 +1,6 @@
 #include "fit/solve/active_set.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "fit/solve/constrained_newton.h"
 #include "fit/solve/sign_ambiguity.h"
@@ -22,58 +21,30 @@ constexpr double k_gain = 1e-3;
 constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
 // Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
 constexpr double k_cost_of_an_edge = 4;
-// Half diameters: far below what anything reads.
-constexpr double k_apart = 1e-5;
 
-bool is_same_place(const Shape& one, const Shape& other) {
-    for (std::size_t p = 0; p < one.points.size(); ++p) {
-        if (glm::distance(one.points[p], other.points[p]) > k_apart) return false;
-    }
-    return true;
-}
-
-// The best of what the readings may mean near one end: each meaning has an end of its own.
-class Meanings {
-public:
-    Meanings(Relaxation& relaxation, KktSolver& solver, const ActiveSetOptions& options)
-        : relaxation_(relaxation), solver_(solver), options_(options) {
-        penalty_.with_priors = false;
-    }
-
-    LocalOptimum best(LocalOptimum optimum) {
-        optimum_ = std::move(optimum);
-        for (int round = 0; round < k_most_meanings && !(optimum_.chi2 < options_.agreeable) &&
-                            solver_.work() < k_most_work;
-             ++round) {
-            relaxation_.forget_contacts(optimum_.shared_contacts);
-            const std::vector<Shape> sign_choices = better_signs(
-                relaxation_, solver_, optimum_.shape, penalty_, k_nearly_upright, k_most_leanings);
-            if (std::none_of(sign_choices.begin(), sign_choices.end(),
-                             [&](const Shape& other) { return gains_from(other); })) {
-                break;
-            }
-        }
-        return std::move(optimum_);
-    }
-
-private:
-    bool gains_from(const Shape& another) {
+// The best of the ends near this one that other signs of facets near upright lead to.
+LocalOptimum with_best_signs(Relaxation& relaxation, KktSolver& solver,
+                             const ActiveSetOptions& options, LocalOptimum optimum) {
+    PenaltyScale penalty;
+    penalty.with_priors = false;
+    const auto gains_from = [&](const Shape& another) {
         LocalOptimum other =
-            constrained_newton(relaxation_, solver_, another, {},
-                               {.iterations = options_.iterations, .goal = optimum_.chi2});
-        other.iterations += optimum_.iterations;
-        if (is_same_place(other.shape, optimum_.shape)) return false;
-        if (!(other.chi2 < optimum_.chi2 - k_gain)) return false;
-        optimum_ = std::move(other);
+            constrained_newton(relaxation, solver, another, {}, {.iterations = options.iterations});
+        other.iterations += optimum.iterations;
+        if (!(other.chi2 < optimum.chi2 - k_gain)) return false;
+        optimum = std::move(other);
         return true;
+    };
+    for (int round = 0; round < k_most_meanings && !(optimum.chi2 < options.agreeable) &&
+                        solver.work() < k_most_work;
+         ++round) {
+        relaxation.forget_contacts(optimum.shared_contacts);
+        const std::vector<Shape> others = better_signs(relaxation, solver, optimum.shape, penalty,
+                                                       k_nearly_upright, k_most_leanings);
+        if (std::none_of(others.begin(), others.end(), gains_from)) break;
     }
-
-    Relaxation& relaxation_;
-    KktSolver& solver_;
-    const ActiveSetOptions& options_;
-    PenaltyScale penalty_;
-    LocalOptimum optimum_;
-};
+    return optimum;
+}
 
 bool is_among(const std::vector<ActiveCorner>& all, const ActiveCorner& corner) {
     return std::find(all.begin(), all.end(), corner) != all.end();
@@ -154,18 +125,14 @@ ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
     LocalOptimum optimum = constrained_newton(
         relaxation, solver, start, {},
         {.iterations = options.iterations, .near_an_end = goes_on, .contacts_shared = goes_on});
-    optimum = Meanings(relaxation, solver, options).best(std::move(optimum));
+    optimum = with_best_signs(relaxation, solver, options, std::move(optimum));
     bring_to_meet(relaxation, {}, optimum);
     const double free_chi2 = optimum.chi2;
     hold_corners(relaxation, solver, options, optimum, result);
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, optimum.chi2 - free_chi2);
-    result.finished.shape = std::move(optimum.shape);
+    result.finished = std::move(optimum);
     result.finished.outline = relaxation.system().mesh_outline();
-    result.finished.converged = optimum.converged;
-    result.finished.iterations = optimum.iterations;
     result.finished.work = solver.work();
-    result.finished.chi2 = optimum.chi2;
-    result.finished.worst_hard = optimum.worst_hard;
     return result;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/solve/predicted_reduction.h"
 #include "fit/solve/second_order_correction.h"
 
 namespace culet {
@@ -21,17 +20,6 @@ constexpr double k_far_from_met = 1e-13;
 constexpr double k_near_met = 1e-3;
 constexpr double k_nearly_met = 1e-10;
 constexpr int k_most_choices = 12;
-// A shape that leans another way is better within so many steps, or far off: twice chi-square and
-// so much.
-constexpr int k_hurry = 10;
-constexpr double k_far_off = 100;
-// Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
-// of them, half of them refused, together gain no more than this in chi-square, what is left is a
-// tenth of a sigma or less; so is it where some are refused and they gain no more than the second.
-constexpr std::size_t k_creeping = 6;
-constexpr double k_crumb = 0.01, k_dust = 0.001;
-// In how many rounds a step may find out which corners it has to stop.
-constexpr int k_most_rounds = 4;
 // Steps in a row that gain nothing, at the end: this part of chi-square.
 constexpr int k_quiet = 2;
 constexpr double k_no_gain = 1e-8;
@@ -66,15 +54,6 @@ double step_precision(const JacobianRows& rows) {
     return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
 }
 
-bool creeps_on(const std::vector<double>& merits) {
-    if (merits.size() <= k_creeping) return false;
-    const auto from = merits.end() - std::ptrdiff_t(k_creeping) - 1;
-    std::size_t refused = 0;
-    for (auto m = from; m + 1 != merits.end(); ++m) refused += *m == *(m + 1);
-    const double gain = *from - merits.back();
-    return (gain < k_crumb && 2 * refused >= k_creeping) || (gain < k_dust && refused > 0);
-}
-
 // Steps from one shape to the nearest end.
 class Newton {
 public:
@@ -99,30 +78,24 @@ public:
     LocalOptimum run();
 
 private:
-    // One round's step, and what it came to.
     struct Step {
         bool factored = false, better = false;
         bool idle = false;  ///< Newton's own, and gone in rounding
         double length = 0;
     };
-    enum class Outcome { taken, refused, again };
 
     void choose(const Shape& shape, const std::shared_ptr<const Outline>& outline) {
         relaxation_.forget_contacts();
         relaxation_.choose(shape, true, outline);
     }
-    StepLinearisation linearised(const Shape& shape,
-                                 const std::vector<int>* active_hinges = nullptr) {
-        return relaxation_.linearisation(shape, penalty_, held_, active_hinges);
+    StepLinearisation linearised(const Shape& shape) {
+        return relaxation_.linearisation(shape, penalty_, held_);
     }
     void take_curvature_of_the_end();
     bool meaning_changes();
     bool ends(bool by_itself);
     Step step();
-    Outcome round(bool is_last, Step& made);
     bool factor();
-    bool releases(const KktSolver::Solution& solution);
-    Outcome try_shape(const KktSolver::Solution& solution, Step& made);
     void accept(Shape next, StepLinearisation there, const KktSolver::Solution& solution,
                 double before, double gain, double length);
     bool gives_up(const Step& made);
@@ -137,13 +110,9 @@ private:
     std::shared_ptr<const Outline> outline_;  ///< of a stone whose meets come apart
     StepLinearisation here_;                  ///< at the shape
     double damping_ = 0;
-    int quiet_ = 0, choices_ = 0, refused_ = 0;
-    std::vector<double> merits_;
-    bool curved_ = false;     ///< the next step is Newton's
-    Eigen::VectorXd forces_;  ///< of the equations, for their curvature
-    std::vector<SymmetricEntry> bends_;
-    std::vector<int> active_hinges_;
-    std::vector<std::vector<int>> pressed_;  ///< the sets that rounds of this step began with
+    int quiet_ = 0, choices_ = 0;
+    bool curved_ = false;       ///< the next step is Newton's
+    Eigen::VectorXd forces_;    ///< of the equations, for their curvature
     double length_before_ = 0;  ///< of the step before in this meaning, where there was one
     /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
     /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
@@ -168,7 +137,6 @@ bool Newton::meaning_changes() {
     StepLinearisation fresh = linearised(shape_);
     if (std::abs(fresh.merit - here_.merit) < k_same_meaning * (1 + here_.merit)) return false;
     ++choices_;
-    merits_.clear();
     here_ = std::move(fresh);
     quiet_ = 0;
     length_before_ = 0;
@@ -186,28 +154,16 @@ bool Newton::ends(bool by_itself) {
 
 // With curvature where the steps are Newton's; without it where it is not positive definite.
 bool Newton::factor() {
-    bends_.clear();
-    if (curved_) bends_ = relaxation_.curvature(shape_, forces_);
-    if (curved_ && solver_.factor(here_.rows, damping_ * metric_, bends_, least_)) return true;
+    if (curved_) {
+        const std::vector<SymmetricEntry> bends = relaxation_.curvature(shape_, forces_);
+        if (solver_.factor(here_.rows, damping_ * metric_, bends, least_)) return true;
+    }
     curved_ = false;
-    bends_.clear();
     if (solver_.factor(here_.rows, damping_ * metric_, {}, least_)) return true;
     if (least_ != k_least_close) return false;
     least_ = KktSolver::k_least_variance;
     may_be_close_ = false;
     return solver_.factor(here_.rows, damping_ * metric_);
-}
-
-// Corners that are held up, not down, are let go.
-bool Newton::releases(const KktSolver::Solution& solution) {
-    const std::size_t before = active_hinges_.size();
-    for (std::size_t k = 0; k < here_.holding.size(); ++k) {
-        if (solution.forces(here_.first_holding + Eigen::Index(k)) >= 0) continue;
-        const auto at =
-            std::lower_bound(active_hinges_.begin(), active_hinges_.end(), here_.holding_hinge[k]);
-        if (at != active_hinges_.end() && *at == here_.holding_hinge[k]) active_hinges_.erase(at);
-    }
-    return active_hinges_.size() < before;
 }
 
 void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Solution& solution,
@@ -221,8 +177,6 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
                  next_gain = std::abs(gain) * std::pow(shrinks, 4);
     length_before_ = length;
     if (curved_ && next_length < k_short && next_gain < k_no_gain * (1 + before)) quiet_ = k_quiet;
-    const bool whole = length <= k_longest;
-    const double predicted = predicted_merit(here_, solution, bends_);
     shape_ = std::move(next);
     // The exact Hessian near the end: weak parameters would creep.
     if (length < 1e-2) {
@@ -230,17 +184,17 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
         curved_ = true;
     }
     here_ = std::move(there);
-    // A step that was refused a moment ago would be so again.
-    if (refused_ == 0) damping_ = std::max(k_least_damping, damping_ / 5);
-    refused_ = 0;
+    damping_ = std::max(k_least_damping, damping_ / 5);
     // Once in each meaning, when there is little left to gain from it.
-    const bool as_promised = whole && std::abs(here_.merit - predicted) < k_little;
-    if (!asked_ && (next_gain < k_little || as_promised) && here_.hard_sum < k_all_but_met) {
-        meaning_changes();
-    }
+    if (!asked_ && next_gain < k_little && here_.hard_sum < k_all_but_met) meaning_changes();
 }
 
-Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& made) {
+Newton::Step Newton::step() {
+    Step made;
+    made.factored = factor();
+    if (!made.factored) return made;
+    const auto solution = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
+    if (!solution.good) return made;
     Eigen::VectorXd step = solution.unknowns;
     made.length = step.cwiseAbs().maxCoeff();
     if (made.length > k_longest) step *= k_longest / made.length;
@@ -251,13 +205,14 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
                              .met = made.length < k_near_met ? k_met : k_far_from_met,
                              .precision = k_correction_precision});
     if (corrected.stalls && may_be_close_) least_ = k_least_close;
+    Shape next = std::move(corrected.shape);
     std::shared_ptr<const Outline> outline;
     if (outline_) {
-        outline = outline_of(relaxation_.system(), corrected.shape);
-        if (!outline) return Outcome::refused;
-        choose(corrected.shape, outline);
+        outline = outline_of(relaxation_.system(), next);
+        if (!outline) return made;
+        choose(next, outline);
     }
-    StepLinearisation there = linearised(corrected.shape);
+    StepLinearisation there = linearised(next);
     // The hard equations first: their size is the size of what they leave undone. They are brought
     // to rounding at the end; so little does not count.
     const double before = here_.merit + 1e6 * std::max(0.0, here_.hard_sum - k_nearly_met),
@@ -265,46 +220,13 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
     made.better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
     if (made.better) {
         outline_ = std::move(outline);
-        accept(std::move(corrected.shape), std::move(there), solution, before, before - after,
-               made.length);
-        return Outcome::taken;
+        accept(std::move(next), std::move(there), solution, before, before - after, made.length);
+        return made;
     }
     if (outline_) choose(shape_, outline_);
-    if (!there.finite) return Outcome::refused;
     // Newton's step, and the sums' own rounding.
-    made.idle = curved_ && made.length < k_short && after - before < k_no_gain * (1 + before);
-    // Hinges that were pressed before in this step would lead there again.
-    if (std::find(pressed_.begin(), pressed_.end(), there.above) != pressed_.end()) {
-        return Outcome::refused;
-    }
-    pressed_.push_back(there.above);
-    active_hinges_ = std::move(there.above);
-    here_ = linearised(shape_, &active_hinges_);
-    return Outcome::again;
-}
-
-Newton::Outcome Newton::round(bool is_last, Step& made) {
-    made.factored = factor();
-    if (!made.factored) return Outcome::refused;
-    const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
-    if (!s.good) return Outcome::refused;
-    if (releases(s) && !is_last) {
-        pressed_.push_back(active_hinges_);
-        here_ = linearised(shape_, &active_hinges_);
-        return Outcome::again;
-    }
-    return try_shape(s, made);
-}
-
-// A step that lifts corners above their neighbours is taken again with those pressed down
-// (semismooth Newton), as in the earlier stages.
-Newton::Step Newton::step() {
-    Step made;
-    active_hinges_ = here_.above;
-    pressed_ = {active_hinges_};
-    for (int k = 1; k <= k_most_rounds; ++k) {
-        if (round(k == k_most_rounds, made) != Outcome::again) break;
-    }
+    made.idle = there.finite && curved_ && made.length < k_short &&
+                after - before < k_no_gain * (1 + before);
     return made;
 }
 
@@ -312,9 +234,7 @@ Newton::Step Newton::step() {
 bool Newton::gives_up(const Step& made) {
     curved_ = false;
     length_before_ = 0;
-    // The longer nothing helps, the larger the strides.
-    damping_ *= std::pow(10, std::clamp(++refused_ / 2, 1, 4));
-    if (active_hinges_ != here_.above) here_ = linearised(shape_);
+    damping_ *= 10;
     // Nothing more to gain at the size of rounding; or no step is better.
     const bool nothing_left = (made.factored && made.length < 1e-9) || made.idle || damping_ > 1e8;
     return nothing_left && ends(made.factored);
@@ -326,10 +246,7 @@ LocalOptimum Newton::run() {
         result_.iterations = i + 1;
         const Step made = step();
         if (!made.better && gives_up(made)) break;
-        merits_.push_back(here_.merit);
-        if (i >= k_hurry && !(here_.chi2 < 2 * options_.goal + k_far_off)) break;
-        const bool creeps = here_.hard_sum < k_all_but_met && creeps_on(merits_);
-        if ((quiet_ >= k_quiet || creeps) && ends(true)) break;
+        if (quiet_ >= k_quiet && ends(true)) break;
     }
     result_.shape = std::move(shape_);
     result_.outline = std::move(outline_);
@@ -350,7 +267,7 @@ LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const
     if (options.contacts_shared && !relaxation.contacts_hold(result.shape)) {
         NewtonOptions again = options;
         again.contacts_shared = false;
-        LocalOptimum freed = constrained_newton(relaxation, solver, result.shape, held, again);
+        LocalOptimum freed = constrained_newton(relaxation, solver, start, held, again);
         freed.iterations += result.iterations;
         return freed;
     }

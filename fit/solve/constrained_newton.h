@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "fit/solve/free_meets.h"
 #include "fit/solve/kkt_solver.h"
 #include "fit/solve/relaxation.h"
 
@@ -18,19 +19,13 @@ inline constexpr double k_met = 1e-15;
 /// factored with this variance, where that can be done.
 inline constexpr double k_least_close = 1e-11;
 
-struct LocalOptimum {
-    Shape shape;
-    bool converged = false;
-    int iterations = 0;
-    double chi2 = 0, worst_hard = 0;
+/// Its `outline` is that of a stone whose meets come apart.
+struct LocalOptimum : Finished {
     std::vector<SharedContact> shared_contacts;  ///< of the meaning that it is the end of
-    std::shared_ptr<const Outline> outline;      ///< of a stone whose meets come apart
 };
 
 struct NewtonOptions {
     int iterations = 100;
-    /// After a few steps it ends where chi-square is not near to it.
-    double goal = 1e300;
     /// The equations bend as they do where the steps will end, so that the first step may already
     /// be Newton's.
     bool near_an_end = false;

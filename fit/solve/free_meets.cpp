@@ -5,35 +5,26 @@
 namespace culet {
 
 Finished finish(const System& system, const Shape& start, int iterations) {
-    Finished result;
-    result.shape = start;
-    result.outline = outline_of(system, start);
-    if (!result.outline) {
-        result.outline = system.mesh_outline();
-        result.enclosed = false;
-        return result;
+    LocalOptimum end;
+    end.shape = start;
+    end.outline = outline_of(system, start);
+    if (!end.outline) {
+        end.outline = system.mesh_outline();
+        end.enclosed = false;
+        return end;
     }
     const Parameters parameters = system.parameters();
     Relaxation relaxation(system, parameters);
     KktSolver solver;
-    LocalOptimum end =
-        constrained_newton(relaxation, solver, start, {},
-                           {.iterations = iterations, .outline = std::move(result.outline)});
+    end = constrained_newton(relaxation, solver, start, {},
+                             {.iterations = iterations, .outline = std::move(end.outline)});
     bring_to_meet(relaxation, {}, end);
-    if (auto outline = outline_of(system, end.shape)) {
-        end.outline = std::move(outline);
-    } else {
-        result.enclosed = false;
-    }
+    std::shared_ptr<const Outline> outline = outline_of(system, end.shape);
+    end.enclosed = outline != nullptr;
+    if (outline) end.outline = std::move(outline);
     look_at_end(relaxation, {}, end, end.outline);
-    result.shape = std::move(end.shape);
-    result.outline = std::move(end.outline);
-    result.converged = end.converged;
-    result.iterations = end.iterations;
-    result.work = solver.work();
-    result.chi2 = end.chi2;
-    result.worst_hard = end.worst_hard;
-    return result;
+    end.work = solver.work();
+    return end;
 }
 
 }  // namespace culet

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <memory>
-#include <set>
 #include <utility>
 
 #include "fit/solve/manifolds.h"
@@ -19,8 +17,6 @@ namespace {
 
 // Stages only have to lead to the next one: they end where a step gains less than this part.
 constexpr double k_enough = 1e-3;
-// In how many rounds corners that have risen above a facet that they did not count for are added.
-constexpr int k_most_relaxations = 4;
 // Corners that lie less than this many times the stage's penalty scale below a neighbour facet may
 // rise above it. With 1 instead of 5, two of ten step cuts drawn wrong by 10 % were lost.
 constexpr double k_near = 5;
@@ -194,100 +190,63 @@ Formula positive_part(Formula formula) {
     };
 }
 
-class Stage {
-public:
-    Stage(const Relaxation& relaxation, const Shape& shape, const PenaltyScale& penalty,
-          const RelaxOptions& options)
-        : relaxation_(relaxation),
-          penalty_(penalty),
-          options_(options),
-          blocks_(relaxation.parameters(), shape, options.keep_normals) {
-        ceres::Problem::Options settings;
-        settings.evaluation_callback = &blocks_;
-        settings.disable_all_safety_checks = true;
-        problem_ = std::make_unique<ceres::Problem>(settings);
-        blocks_.add_to(*problem_);
-        for (const Relaxation::Residual& r : relaxation.residuals(penalty)) {
-            add(r.formula, r.sigma, r.is_reading);
-        }
-        add_hinges(k_near * penalty.incidence);
+// The term of a formula over its sigma, if it varies with anything.
+void add(const Formula& formula, double sigma, Blocks& blocks, ceres::Problem& problem) {
+    std::vector<int> of;
+    for (const Quantity::Slope& s : formula(blocks.shape()).slopes) {
+        of.push_back(blocks.of_block(s).block);
     }
+    std::sort(of.begin(), of.end());
+    of.erase(std::unique(of.begin(), of.end()), of.end());
+    std::vector<double*> numbers;
+    for (const int block : of) numbers.push_back(blocks.numbers(block));
+    if (numbers.empty()) return;
+    problem.AddResidualBlock(new Term(blocks, formula, 1 / sigma, std::move(of)), nullptr, numbers);
+}
 
-    const Shape& shape() const { return blocks_.shape(); }
-
-    int solve(const Progress& progress, double fraction) {
-        Interruptor interruptor(progress, fraction);
-        ceres::Solver::Options solver;
-        solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-        // Whatever threads there are, the same sums in the same order.
-        solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-        solver.num_threads = 1;
-        // Hinges that press nothing have no slope. Left out of the pattern they fill no factor:
-        // stages of 979 facets take a sixth of the time.
-        solver.dynamic_sparsity = true;
-        solver.function_tolerance = k_enough;
-        solver.initial_trust_region_radius = k_first_trust;
-        solver.logging_type = ceres::SILENT;
-        solver.callbacks.push_back(&interruptor);
-        int steps = 0;
-        for (int round = 0; round < k_most_relaxations && steps < options_.most_steps; ++round) {
-            solver.max_num_iterations = options_.most_steps - steps;
-            ceres::Solver::Summary summary;
-            ceres::Solve(solver, problem_.get(), &summary);
-            if (summary.termination_type == ceres::USER_FAILURE) throw Interrupted();
-            steps += summary.num_successful_steps + summary.num_unsuccessful_steps;
-            blocks_.PrepareForEvaluation(false, true);
-            if (!add_hinges(0)) break;
-        }
-        return steps;
-    }
-
-private:
-    void add(const Formula& formula, double sigma, bool is_reading) {
-        std::vector<int> of;
-        for (const Quantity::Slope& s : formula(blocks_.shape()).slopes) {
-            of.push_back(blocks_.of_block(s).block);
-        }
-        std::sort(of.begin(), of.end());
-        of.erase(std::unique(of.begin(), of.end()), of.end());
-        std::vector<double*> numbers;
-        for (const int block : of) numbers.push_back(blocks_.numbers(block));
-        if (numbers.empty()) return;
-        ceres::LossFunction* loss = nullptr;
-        if (is_reading && options_.loss == Loss::huber) loss = new ceres::HuberLoss(k_huber);
-        if (is_reading && options_.loss == Loss::cauchy) loss = new ceres::CauchyLoss(k_cauchy);
-        problem_->AddResidualBlock(new Term(blocks_, formula, 1 / sigma, std::move(of)), loss,
-                                   numbers);
-    }
-
-    // Those that stand so little below a neighbour facet, or above it. False when there are none.
-    bool add_hinges(double margin) {
-        bool any = false;
-        for (const ActiveCorner& corner : relaxation_.above(blocks_.shape(), margin)) {
-            if (!hinges_.insert({corner.facet, corner.point}).second) continue;
-            const Relaxation::Residual r = relaxation_.hinge(corner, penalty_);
-            add(positive_part(r.formula), r.sigma, false);
-            any = true;
-        }
-        return any;
-    }
-
-    const Relaxation& relaxation_;
-    const PenaltyScale& penalty_;
-    const RelaxOptions& options_;
-    Blocks blocks_;
-    std::unique_ptr<ceres::Problem> problem_;
-    std::set<std::pair<int, int>> hinges_;  // that count: facet, point
-};
+ceres::Solver::Options solver_options(int most_steps) {
+    ceres::Solver::Options solver;
+    solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    // Whatever threads there are, the same sums in the same order.
+    solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    solver.num_threads = 1;
+    // Hinges that press nothing have no slope. Left out of the pattern they fill no factor:
+    // stages of 979 facets take a sixth of the time.
+    solver.dynamic_sparsity = true;
+    solver.function_tolerance = k_enough;
+    solver.initial_trust_region_radius = k_first_trust;
+    solver.logging_type = ceres::SILENT;
+    solver.max_num_iterations = most_steps;
+    return solver;
+}
 
 }  // namespace
 
 Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale& penalty,
             const RelaxOptions& options, const Progress& progress, double fraction, int& steps) {
     if (progress && !progress(fraction)) throw Interrupted();
-    Stage stage(relaxation, shape, penalty, options);
-    steps += stage.solve(progress, fraction);
-    return stage.shape();
+    Blocks blocks(relaxation.parameters(), shape, options.keep_normals);
+    ceres::Problem::Options settings;
+    settings.evaluation_callback = &blocks;
+    settings.disable_all_safety_checks = true;
+    ceres::Problem problem(settings);
+    blocks.add_to(problem);
+    for (const Relaxation::Residual& r : relaxation.residuals(penalty)) {
+        add(r.formula, r.sigma, blocks, problem);
+    }
+    for (const ActiveCorner& corner : relaxation.above(shape, k_near * penalty.incidence)) {
+        const Relaxation::Residual r = relaxation.hinge(corner, penalty);
+        add(positive_part(r.formula), r.sigma, blocks, problem);
+    }
+    Interruptor interruptor(progress, fraction);
+    ceres::Solver::Options solver = solver_options(options.most_steps);
+    solver.callbacks.push_back(&interruptor);
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary);
+    if (summary.termination_type == ceres::USER_FAILURE) throw Interrupted();
+    steps += summary.num_successful_steps + summary.num_unsuccessful_steps;
+    blocks.PrepareForEvaluation(false, true);
+    return blocks.shape();
 }
 
 }  // namespace culet

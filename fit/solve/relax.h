@@ -3,19 +3,14 @@
 // and hinges, each softened as the stage wants it, agree best (weighted least squares by the method
 // of Levenberg and Marquardt, Ceres).
 
-#include "fit/model/options.h"
 #include "fit/solve/relaxation.h"
 #include "stone/progress.h"
 
 namespace culet {
 
-/// Of residuals in sigmas (Huber 1964; Holland & Welsch 1977).
-inline constexpr double k_huber = 1.345, k_cauchy = 2.385;
-
 struct RelaxOptions {
     bool keep_normals = false;  ///< facets move along their normals, and do not tilt
     int most_steps = 40;
-    Loss loss = Loss::none;  ///< of readings
 };
 
 /// The shape at the end; how many steps it took is added to `steps`. The readings mean at all of

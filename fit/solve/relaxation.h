@@ -48,13 +48,8 @@ struct StepLinearisation {
     double prior = 0;     ///< the priors' part of it
     double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
     double hard_worst = 0;
-    double chi2 = 0;  ///< of readings and soft meets, at their own uncertainties
-    /// Hinges that are positive: corners above a neighbour facet, or above where they are held
-    /// below it. Indices of the relaxation's own, sorted.
-    std::vector<int> above;
+    double chi2 = 0;                    ///< of readings and soft meets, at their own uncertainties
     std::vector<ActiveCorner> holding;  ///< those held corners that have a row
-    std::vector<int> holding_hinge;     ///< each one's index in `above`
-    int first_holding = 0;              ///< row
     bool finite = true;
 };
 
@@ -93,17 +88,12 @@ public:
     /// Rows are of incidences, readings, corners that are held, and last of hinges that count: a
     /// hinge that says nothing would fill the factors all the same. A corner that is held has a row
     /// where it would rise, and none where nothing pulls it up.
-    /// `active_hinges`: hinges whose rows count instead of those that are positive here. A step
-    /// that stops corners before they rise above a facet has to know which will (semismooth
-    /// Newton).
     StepLinearisation linearisation(const Shape& shape, const PenaltyScale& penalty,
-                                    const std::vector<ActiveCorner>& held = {},
-                                    const std::vector<int>* active_hinges = nullptr);
+                                    const std::vector<ActiveCorner>& held = {});
     /// formula = 0, within sigma: each equation of a stage but its hinges, one of each orbit.
     struct Residual {
         Formula formula;
         double sigma = 1;
-        bool is_reading = false;
     };
     /// They look at this relaxation and `penalty` as long as they are asked.
     std::vector<Residual> residuals(const PenaltyScale& penalty) const;
@@ -156,8 +146,7 @@ public:
     };
     std::vector<Caliper> calipers_that_tell_the_turn() const;
 
-    /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
-    /// inclinations and edges, without which a turn of the whole stone would seem to change them.
+    /// Second derivatives of the Lagrangian: those of the incidences, which are bilinear.
     std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:

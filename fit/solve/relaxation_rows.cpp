@@ -24,12 +24,10 @@ void write_incidence(const Shape& shape, int facet, int point, Parameters::Row& 
 // The equations of a stage at one shape, kind by kind, in the order of their rows.
 class Relaxation::Assembly {
 public:
-    Assembly(const Relaxation& of, const Shape& shape, const PenaltyScale& penalty,
-             const std::vector<int>* active_hinges)
+    Assembly(const Relaxation& of, const Shape& shape, const PenaltyScale& penalty)
         : of_(of),
           shape_(shape),
           penalty_(penalty),
-          active_hinges_(active_hinges),
           tangent_basis_(of.parameters_.tangent_basis(shape)),
           row_(tangent_basis_, of.parameters_.size()) {
         sum_.rows.reserve(of.most_rows_, of.most_entries_);
@@ -51,12 +49,10 @@ private:
         sum_.hard_worst = std::max(sum_.hard_worst, std::abs(residual));
     }
     void close(double residual, double variance);
-    bool is_active(int hinge, bool is_above);
 
     const Relaxation& of_;
     const Shape& shape_;
     const PenaltyScale& penalty_;
-    const std::vector<int>* active_hinges_;
     Parameters::TangentBasis tangent_basis_;
     Parameters::Row row_;
     std::vector<int> held_hinges_;
@@ -96,29 +92,19 @@ void Relaxation::Assembly::add_readings() {
     }
 }
 
-// Notes a hinge that is above, and tells whether it has a row.
-bool Relaxation::Assembly::is_active(int hinge, bool is_above) {
-    if (is_above) sum_.above.push_back(hinge);
-    return active_hinges_
-               ? std::binary_search(active_hinges_->begin(), active_hinges_->end(), hinge)
-               : is_above;
-}
-
 // Hard but for what an edge's other end asks: squares of such weight would forbid every step that
 // bends.
 void Relaxation::Assembly::add_held_corners(const std::vector<ActiveCorner>& held) {
-    sum_.first_holding = sum_.rows.count();
     for (const ActiveCorner& h : held) {
         held_hinges_.push_back(of_.hinge_of(h));
         const double residual = of_.height(shape_, h.facet, h.point) + k_hold_below;
         if (!std::isfinite(residual)) sum_.finite = false;
         count_hard(std::max(0.0, residual));
-        // What holds it brings it to its level; whether it still should, the force there tells.
-        if (!is_active(held_hinges_.back(), residual > -k_at_level)) continue;
+        // Nothing pulls up what lies below.
+        if (!(residual > -k_at_level)) continue;
         write_incidence(shape_, h.facet, h.point, row_);
         row_.close(sum_.rows, residual, k_hold_sigma * k_hold_sigma);
         sum_.holding.push_back(h);
-        sum_.holding_hinge.push_back(held_hinges_.back());
     }
     std::sort(held_hinges_.begin(), held_hinges_.end());
 }
@@ -141,8 +127,8 @@ void Relaxation::Assembly::add_hinges() {
         const double variance = penalty_.hinge * penalty_.hinge / of_.hinge_images_[std::size_t(i)];
         if (!std::isfinite(residual)) sum_.finite = false;
         if (std::binary_search(held_hinges_.begin(), held_hinges_.end(), i)) continue;
-        if (residual > 0) sum_.merit += residual * residual / variance;
-        if (!is_active(i, residual > 0)) continue;
+        if (!(residual > 0)) continue;
+        sum_.merit += residual * residual / variance;
         write_incidence(shape_, f, p, row_);
         row_.close(sum_.rows, residual, variance);
     }
@@ -164,16 +150,14 @@ void Relaxation::Assembly::add_priors() {
 }
 
 StepLinearisation Relaxation::Assembly::take() {
-    std::sort(sum_.above.begin(), sum_.above.end());
     sum_.merit += sum_.prior;
     if (!std::isfinite(sum_.merit)) sum_.finite = false;
     return std::move(sum_);
 }
 
 StepLinearisation Relaxation::linearisation(const Shape& shape, const PenaltyScale& penalty,
-                                            const std::vector<ActiveCorner>& held,
-                                            const std::vector<int>* active_hinges) {
-    Assembly assembly(*this, shape, penalty, active_hinges);
+                                            const std::vector<ActiveCorner>& held) {
+    Assembly assembly(*this, shape, penalty);
     assembly.add_incidences();
     assembly.add_readings();
     assembly.add_held_corners(held);
@@ -191,17 +175,16 @@ std::vector<Relaxation::Residual> Relaxation::residuals(const PenaltyScale& pena
     for (std::size_t i = 0; i < incidences_.size(); ++i) {
         const Incidence& incidence = system_.incidences()[std::size_t(incidences_[i])];
         all.push_back({culet::height(incidence.facet, Corner{incidence.point}),
-                       std::sqrt(incidence_variance(i, penalty)), false});
+                       std::sqrt(incidence_variance(i, penalty))});
     }
     for (const Equation& e : equations_) {
         if (!penalty.with_readings) break;
         all.push_back({[&e, &penalty](const Shape& shape) { return misfit_of(e, shape, penalty); },
-                       std::sqrt(variance_of(e, penalty)),
-                       !e.exact && e.role == Equation::Role::reading});
+                       std::sqrt(variance_of(e, penalty))});
     }
     for (const SharedContact& contact : shared_contacts_) {
         all.push_back({extent(Corner{contact.one}, Corner{contact.other}, contact.direction),
-                       std::hypot(k_contact_sigma, penalty.incidence), false});
+                       std::hypot(k_contact_sigma, penalty.incidence)});
     }
     for (const int p : points_) {
         if (!penalty.with_priors) break;
@@ -209,7 +192,7 @@ std::vector<Relaxation::Residual> Relaxation::residuals(const PenaltyScale& pena
         for (int k = 0; k < 3; ++k) {
             Vec3 axis(0);
             axis[k] = 1;
-            all.push_back({point_component(p, axis, drawn[k]), penalty.mesh_sigma, false});
+            all.push_back({point_component(p, axis, drawn[k]), penalty.mesh_sigma});
         }
     }
     return all;
@@ -218,8 +201,7 @@ std::vector<Relaxation::Residual> Relaxation::residuals(const PenaltyScale& pena
 Relaxation::Residual Relaxation::hinge(const ActiveCorner& corner,
                                        const PenaltyScale& penalty) const {
     const double images = hinge_images_[std::size_t(hinge_of(corner))];
-    return {culet::height(corner.facet, Corner{corner.point}), penalty.hinge / std::sqrt(images),
-            false};
+    return {culet::height(corner.facet, Corner{corner.point}), penalty.hinge / std::sqrt(images)};
 }
 
 Relaxation::Missed Relaxation::missed(const Shape& shape, const PenaltyScale& penalty,

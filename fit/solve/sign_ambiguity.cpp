@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "fit/solve/second_order_correction.h"
-
 namespace culet {
 
 namespace {
@@ -19,7 +17,6 @@ constexpr double k_precision = 1e-4;
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the parameters is no longer linear.
 constexpr double k_farthest = 0.5;
-constexpr Correction k_back{.most = 6, .met = 1e-10, .precision = k_precision};
 // Chains begin at each facet; of more than so many at those whose first turn costs least.
 constexpr std::size_t k_most_begins = 128;
 
@@ -196,12 +193,8 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
     for (const Eigen::VectorXd& right : better_sign_choices(folded, solver, pulls, most)) {
         const auto s = solver.solve(none, right, k_precision);
         if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_farthest) continue;
-        Shape other = relaxation.parameters().retracted_with_turn(
-            shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
-        // What nothing holds moves far, and off what must hold exactly.
-        others.push_back(onto_hard_equations(relaxation, solver, linearisation, penalty,
-                                             std::move(other), k_back)
-                             .shape);
+        others.push_back(relaxation.parameters().retracted_with_turn(
+            shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())}));
     }
     return others;
 }

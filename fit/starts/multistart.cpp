@@ -83,11 +83,7 @@ Candidate finish_candidate(const System& system, Relaxation& relaxation, const S
         candidate.sound = enclosed.closed && enclosed.missing.empty();
         return candidate;
     }
-    ActiveSetFit exact = fit_active_set(relaxation, shape, options);
-    candidate.finished = std::move(exact.finished);
-    candidate.held = std::move(exact.held);
-    candidate.cost_of_holding = exact.cost_of_holding;
-    candidate.is_no_stone = exact.is_no_stone;
+    static_cast<ActiveSetFit&>(candidate) = fit_active_set(relaxation, shape, options);
     candidate.binding = relaxation.binding(candidate.finished.shape, candidate.held);
     candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
                       volume(system.met_solid(candidate.finished.shape)) > 0;

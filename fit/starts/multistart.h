@@ -12,15 +12,11 @@
 
 namespace culet {
 
-struct Candidate {
-    Finished finished;
-    std::string start;               ///< its name
-    bool sound = false;              ///< closed, convex where it must be, with all facets
-    bool agrees = false;             ///< passes the chi-square test
-    bool is_no_stone = false;        ///< active_set.h
-    std::vector<ActiveCorner> held;  ///< corners that the readings want above a neighbour facet
-    double cost_of_holding = 0;
-    int binding = 0;  ///< how many of them bind: each like one more exact reading
+struct Candidate : ActiveSetFit {
+    std::string start;    ///< its name
+    bool sound = false;   ///< closed, convex where it must be, with all facets
+    bool agrees = false;  ///< passes the chi-square test
+    int binding = 0;      ///< how many of `held` bind: each like one more exact reading
 
     /// A stone that could be cut, and whose hard equations hold.
     bool holds() const { return sound && finished.worst_hard < k_hard_limit; }

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "fit/model/linear.h"
-#include "fit/solve/relax.h"
 #include "fit/starts/refit.h"
 
 namespace culet {
 
 namespace {
 
+// Of residuals in sigmas (Huber 1964; Holland & Welsch 1977).
+constexpr double k_huber = 1.345, k_cauchy = 2.385;
 constexpr int k_rounds = 40;
 // In multiplications (KktSolver::work), some seconds: of large stones a few rounds have to do.
 constexpr double k_most_work = 5e9;
