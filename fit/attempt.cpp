@@ -113,6 +113,7 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
     result.unit = problem.stone.unit;
     std::optional<System> taken(std::in_place, problem.stone, problem.readings, options);
+    made.mesh_turn = taken->mesh_turn();
 
     Multistart multistart = search(*taken, options, progress);
     made.work = multistart.work;

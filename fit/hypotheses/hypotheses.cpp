@@ -5,6 +5,7 @@
 #include "fit/hypotheses/doubted_readings.h"
 #include "fit/hypotheses/leave_one_out.h"
 #include "fit/hypotheses/mirrored_mesh.h"
+#include "fit/hypotheses/turned_azimuths.h"
 
 namespace culet {
 
@@ -34,6 +35,8 @@ constexpr Hypothesis k_hypotheses[] = {
     {"", with_prior, take_with_prior},
     // What the first check doubts is wrong.
     {k_readings_left_out, without_doubted, judge_doubted},
+    // All azimuths count from another mark.
+    {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},
     // The first suspect is wrong.
     {"reading left out", without_first_suspect, judge_first_suspect},
 };

@@ -1,4 +1,4 @@
-// Readings that leave out a whole kind.
+// Readings that leave out a whole kind, or that share one error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@ namespace {
 using namespace bench;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::vector<WrittenReading> angles_of(const Truth& truth, unsigned seed) {
     std::vector<WrittenReading> readings = read_by_instruments(truth, seed);
@@ -66,6 +67,28 @@ TEST(Unread, AllLengthsOfAPearLeaveItsSizeAsInTheMesh) {
     EXPECT_NEAR(width_along(result.solid, {0, 0, 1}) / width_along(truth.stone.solid, {0, 0, 1}), 1,
                 0.1);
     for (const FittedReading& r : result.readings) EXPECT_NE(r.kind, ReadingKind::depth);
+}
+
+// A goniometer whose zero was put to the wrong mark: widths are not to blame.
+TEST(Unread, ThatAzimuthsCountFromElsewhereIsSaidOnce) {
+    const Truth truth = make_truth(TruthKind::step, false, 1);
+    std::vector<WrittenReading> readings = read_by_instruments(truth, 3);
+    for (WrittenReading azimuth : read_azimuths(truth, 4)) {
+        *azimuth.value += 90;
+        readings.push_back(std::move(azimuth));
+    }
+    Stone mesh = truth.stone;
+    mesh.azimuth_from_mesh = true;
+    const FitResult result = fit_mesh(mesh, readings).result;
+    EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
+    EXPECT_THAT(result.message, HasSubstr("all azimuths read count from 90 degrees beside"));
+    EXPECT_THAT(result.findings.suspects, IsEmpty());
+    EXPECT_LT(result.statistics.chi2, result.statistics.chi2_limit);
+    // As it was read, and fitted in the same count.
+    for (const FittedReading& r : result.readings) {
+        if (r.kind != ReadingKind::azimuth) continue;
+        EXPECT_LT(std::abs(std::remainder(r.fitted - r.value, 2 * std::numbers::pi)), 6 * r.sigma);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#include "fit/hypotheses/turned_azimuths.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// Who reads from the wrong mark is off by a mark; what the mesh's own errors turn it by is less.
+constexpr double k_mark_deg = 15, k_near_deg = 4;
+// What explains a contradiction takes most of chi-square with it.
+constexpr double k_chi2_left_turned = 0.5;
+
+bool counts_from_zero(const Reading& r) {
+    return r.kind == ReadingKind::azimuth && r.datum.kind != Datum::Kind::facet;
+}
+
+// By how many degrees, in whole marks; 0: none.
+double marks_deg(const Attempt& first) {
+    const double turned_deg = degrees(std::remainder(first.mesh_turn, 2 * std::numbers::pi));
+    const double mark_deg = k_mark_deg * std::round(turned_deg / k_mark_deg);
+    return std::abs(turned_deg - mark_deg) > k_near_deg ? 0 : mark_deg;
+}
+
+}  // namespace
+
+std::optional<Problem> azimuths_turned_back(const Problem& given, const Attempt& first) {
+    const FitStatus status = first.result.status;
+    if (!given.stone.azimuth_from_mesh || given.mirrored ||
+        (status != FitStatus::contradictory && status != FitStatus::not_converged)) {
+        return std::nullopt;
+    }
+    const double mark_deg = marks_deg(first);
+    if (mark_deg == 0) return std::nullopt;
+    Problem back = with_few_starts(given, first);
+    for (Reading& r : back.readings) {
+        if (counts_from_zero(r)) r.value -= radians(mark_deg);
+    }
+    return back;
+}
+
+Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const Problem&,
+                              FitResult again) {
+    if (again.status == FitStatus::not_converged ||
+        !(again.statistics.chi2 < k_chi2_left_turned * first.result.statistics.chi2)) {
+        return {};
+    }
+    const double mark_deg = marks_deg(first);
+    for (FittedReading& f : again.readings) {
+        for (const Reading& r : given.readings) {
+            if (r.id != f.id || !counts_from_zero(r)) continue;
+            f.value = r.value;
+            f.fitted += radians(mark_deg);
+        }
+    }
+    const std::string why = fmt::format(
+        "all azimuths read count from {:g} degrees beside the mesh, and the widths do not: the fit "
+        "took {:g} degrees off each of them",
+        std::abs(mark_deg), mark_deg);
+    again.log.notes.insert(again.log.notes.begin(), why);
+    again.message = again.status == FitStatus::converged ? why : why + "; " + again.message;
+    again.status = FitStatus::contradictory;
+    return {std::move(again), std::nullopt};
+}
+
+}  // namespace culet
