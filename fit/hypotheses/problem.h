@@ -23,7 +23,7 @@ struct Problem {
 struct Attempt {
     FitResult result;
     double mesh_turn = 0;  ///< by how much the azimuths read are ahead of the mesh's; radians
-    double work = 0;  ///< of all starts, about, in multiplications
+    double work = 0;       ///< of all starts, about, in multiplications
 };
 
 /// Where what is wrong was found, the stone is soon found too: two starts, or one where those of

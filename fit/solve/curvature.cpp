@@ -1,11 +1,92 @@
 // Second derivatives of the equations, for steps that end fast: without them parameters that the
-// readings hold weakly would creep. Those of the readings save no step (bench/corpus_bench.cpp).
+// readings hold weakly would creep.
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "fit/solve/relaxation.h"
 
 namespace culet {
+
+namespace {
+
+// An edge l = d . (to - from) along the unit vector d = left x right / |left x right|. Where both
+// corners lie on both planes the edge is l d, and its second derivative by two parameters i, k is
+// d_i . e_k + d_k . e_i - l d_i . d_k, where d_i and e_i are the derivatives of the direction and
+// of the edge.
+template <typename Add>
+void bend_edge(const Quantity& length, const Shape& shape,
+               const Parameters::TangentBasis& tangent_basis, double force, Add add) {
+    if (length.slopes.size() != 4 || length.slopes[3].by != Quantity::By::normal) return;
+    const int to = length.slopes[0].index, from = length.slopes[1].index,
+              left = length.slopes[2].index, right = length.slopes[3].index;
+    const Vec3 &l = shape.normals[left], &r = shape.normals[right], &d = length.slopes[0].slope;
+    const double sine = glm::length(glm::cross(l, r));
+    struct Freedom {
+        int column;
+        Vec3 direction, edge;
+    };
+    std::array<Freedom, 12> parameters{};
+    std::size_t count = 0;
+    const auto turning = [&](int facet, const auto& change) {
+        const Parameters::Slots& slots = tangent_basis.normals[facet];
+        for (int k = 0; k < slots.count; ++k) {
+            const Vec3 turned = change(slots.along[std::size_t(k)]) / sine;
+            parameters[count++] = {slots.column + k, turned - glm::dot(turned, d) * d, Vec3(0)};
+        }
+    };
+    turning(left, [&](const Vec3& v) { return glm::cross(v, r); });
+    turning(right, [&](const Vec3& v) { return glm::cross(l, v); });
+    const auto moving = [&](int point, double sign) {
+        const Parameters::Slots& slots = tangent_basis.points[point];
+        for (int k = 0; k < slots.count; ++k) {
+            parameters[count++] = {slots.column + k, Vec3(0), sign * slots.along[std::size_t(k)]};
+        }
+    };
+    moving(to, 1);
+    moving(from, -1);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Freedom &a = parameters[i], &b = parameters[k];
+            if (a.column < b.column) continue;
+            add(a.column, b.column,
+                force * (glm::dot(a.direction, b.edge) + glm::dot(b.direction, a.edge) -
+                         length.value * glm::dot(a.direction, b.direction)));
+        }
+    }
+}
+
+// A distance l between corners turns with e_i . e_k / l, the part along it left out.
+template <typename Add>
+void bend_distance(const Quantity& length, const Parameters::TangentBasis& tangent_basis,
+                   double force, Add add) {
+    if (length.slopes.size() != 2 || !(length.value > 0)) return;
+    struct Freedom {
+        int column;
+        Vec3 across;
+    };
+    std::array<Freedom, 6> parameters{};
+    std::size_t count = 0;
+    const Vec3& along = length.slopes[0].slope;
+    for (std::size_t end = 0; end < 2; ++end) {
+        if (length.slopes[end].by != Quantity::By::point) return;
+        const Parameters::Slots& slots = tangent_basis.points[length.slopes[end].index];
+        for (int k = 0; k < slots.count; ++k) {
+            const Vec3& step = slots.along[std::size_t(k)];
+            const Vec3 across = step - glm::dot(step, along) * along;
+            parameters[count++] = {slots.column + k, end == 0 ? across : -across};
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Freedom &a = parameters[i], &b = parameters[k];
+            if (a.column < b.column) continue;
+            add(a.column, b.column, force * glm::dot(a.across, b.across) / length.value);
+        }
+    }
+}
+
+}  // namespace
 
 std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
                                                   const Eigen::VectorXd& forces) const {
@@ -28,6 +109,39 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
                     {row, column,
                      force * glm::dot(n.along[std::size_t(a)], x.along[std::size_t(b)])});
             }
+        }
+    }
+    const auto add = [&](int a, int b, double value) {
+        entries.push_back({std::max(a, b), std::min(a, b), value});
+    };
+    for (std::size_t i = 0; i < equations_.size(); ++i) {
+        const Equation& e = equations_[i];
+        const double force = forces(Eigen::Index(incidences_.size() + i));
+        if (e.reading < 0) continue;  // of the prior
+        const Reading& reading = system_.readings()[std::size_t(e.reading)];
+        if (reading.aggregate != Aggregate::single) continue;
+        if (reading.kind == ReadingKind::inclination && reading.datum.kind == Datum::Kind::up) {
+            const int f = reading.facets[0];
+            const Parameters::Slots& n = tangent_basis.normals[f];
+            const Vec3& normal = shape.normals[f];
+            const double flat = std::hypot(normal.x, normal.y);
+            if (n.count != 2 || flat < 1e-3) continue;
+            // An angle from z grows by half its cotangent for a step across.
+            const Vec3 across{-normal.y / flat, normal.x / flat, 0};
+            const Quantity q = e.formula(shape);
+            const double side = q.slopes.empty() || q.slopes[0].slope.z <= 0 ? 1 : -1;
+            const double bend = force * side * normal.z / flat;
+            for (int a = 0; a < 2; ++a) {
+                for (int b = 0; b <= a; ++b) {
+                    add(n.column + a, n.column + b,
+                        bend * glm::dot(across, n.along[std::size_t(a)]) *
+                            glm::dot(across, n.along[std::size_t(b)]));
+                }
+            }
+        } else if (reading.kind == ReadingKind::edge) {
+            const Quantity length = e.formula(shape);
+            bend_edge(length, shape, tangent_basis, force, add);
+            bend_distance(length, tangent_basis, force, add);
         }
     }
     return entries;

@@ -146,7 +146,8 @@ public:
     };
     std::vector<Caliper> calipers_that_tell_the_turn() const;
 
-    /// Second derivatives of the Lagrangian: those of the incidences, which are bilinear.
+    /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
+    /// inclinations and edges, without which a turn of the whole stone would seem to change them.
     std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:
