@@ -127,7 +127,7 @@ void add_command_fit(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     fit->add_option("--starts", command->starts,
-                    "most starts to try when the first does not explain the readings (13)")
+                    "most starts to try when the first does not explain the readings (7)")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     fit->add_option("--from", command->from,

@@ -51,7 +51,7 @@ struct FitOptions {
     /// Largest number of steps of the last stage.
     int iterations = 100;
     /// Most starts that are tried before the best of what they gave is returned; see starts.h.
-    int starts = 13;
+    int starts = 7;
     /// Family level of both tests: the chi-square test of all readings, and (shared out among them
     /// by Bonferroni) the test of each.
     double significance = 0.001;

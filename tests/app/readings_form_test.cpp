@@ -49,7 +49,7 @@ TEST_F(BenchForm, CutFillInFit) {
     EXPECT_EQ(early.exit_code, 2);
     EXPECT_THAT(early.err, HasSubstr(".csv"));
 
-    fill_in(file("form.csv"), "inclination,[CP][1-8],|width,[0-9]*,|depth,,");
+    fill_in(file("form.csv"), "inclination,[CP]@[0-9]+,|width,[0-9]*,|depth,,");
     const ProgramRun fit = run_culet(
         {"fit", file("stone.toml"), "-o", file("fitted.obj"), "--report", file("fit.json")});
     EXPECT_LE(fit.exit_code, 1) << fit.err;
