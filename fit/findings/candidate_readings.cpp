@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "fit/findings/tier_letters.h"
+#include "stone/tiers.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -57,6 +57,11 @@ public:
           tools_(tools_at_hand(system)),
           length_sigma_(
               usual_sigma(system, {Kind::width, Kind::depth, Kind::table_width}, k_length_sigma)) {
+        const std::vector<FacetTier> tiers = tiers_of(system.stone().solid, system.stone().up);
+        tier_of_.resize(facets().size());
+        for (std::size_t t = 0; t < tiers.size(); ++t) {
+            for (const int f : tiers[t].facets) tier_of_[std::size_t(f)] = std::to_string(t);
+        }
         // They are large, and stay where they are.
         all_.reserve(2 * (facets().size() + system.edges().edges.size()) + shape.points.size() +
                      40);
@@ -84,6 +89,7 @@ private:
     const std::shared_ptr<const Outline>& outline_;
     RowWriter writer_;
     std::set<Kind> tools_;
+    std::vector<std::string> tier_of_;  ///< of each facet, by the form
     double length_sigma_;
     std::vector<CandidateReading> all_;
 };
@@ -110,9 +116,9 @@ void CandidateList::add_facet_angles() {
         const Vec3& n = shape_.normals[f];
         if (std::hypot(n.x, n.y) < 1e-6) continue;
         const std::string& name = facets()[f].name;
-        put(Kind::inclination, {name}, tier_letters(name), tilt_from_up(int(f)), tilt, 1);
-        put(Kind::azimuth, {name}, tier_letters(name),
-            azimuth_error(int(f), -1, std::atan2(n.y, n.x)), turn, 1);
+        put(Kind::inclination, {name}, tier_of_[f], tilt_from_up(int(f)), tilt, 1);
+        put(Kind::azimuth, {name}, tier_of_[f], azimuth_error(int(f), -1, std::atan2(n.y, n.x)),
+            turn, 1);
     }
 }
 
@@ -125,8 +131,9 @@ void CandidateList::add_edges() {
         if (e.left < 0 || e.right < 0) continue;
         const std::vector<std::string> of{facets()[std::size_t(e.left)].name,
                                           facets()[std::size_t(e.right)].name};
-        const std::string tiers = std::min(tier_letters(of[0]), tier_letters(of[1])) + "/" +
-                                  std::max(tier_letters(of[0]), tier_letters(of[1]));
+        const auto [one, other] =
+            std::minmax(tier_of_[std::size_t(e.left)], tier_of_[std::size_t(e.right)]);
+        const std::string tiers = one + "/" + other;
         if (!system_.splits()) {
             put(Kind::edge, of, tiers,
                 corner_distance(Corner{e.from, {-1, -1, -1}}, Corner{e.to, {-1, -1, -1}}), length,
@@ -173,7 +180,7 @@ void CandidateList::add_heights_of_table() {
         const std::vector<int>& own = system_.edges().facets_of_vertex[v];
         if (std::find(own.begin(), own.end(), up) != own.end()) continue;
         std::set<std::string> tiers;
-        for (const int f : own) tiers.insert(tier_letters(facets()[std::size_t(f)].name));
+        for (const int f : own) tiers.insert(tier_of_[std::size_t(f)]);
         std::string group;
         for (const std::string& tier : tiers) group += tier + ",";
         put_length(Kind::distance, {facets()[std::size_t(up)].name, fmt::format("v{}", v)}, group,

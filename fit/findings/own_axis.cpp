@@ -7,8 +7,8 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-#include "fit/findings/tier_letters.h"
 #include "fit/model/eigenvector.h"
+#include "stone/tiers.h"
 
 namespace culet {
 
@@ -20,20 +20,14 @@ constexpr double k_near_form = 0.05;
 // A direction is told from the next best when it is this much better.
 constexpr double k_least_gap = 1e-3;
 
-std::string tier_name(const System& system, const std::vector<int>& facets) {
-    const auto name = [&](int f) { return system.stone().solid.facets[f].name; };
-    const auto letters = [&](int f) { return tier_letters(name(f)); };
-    const std::string first = letters(facets.front());
-    const bool alike = !first.empty() && std::all_of(facets.begin(), facets.end(), [&](int f) {
-        return letters(f) == first && name(f) != first;
-    });
-    if (!alike) return name(facets.front()) + ".." + name(facets.back());
-    // Two tiers may share their letters: halves to the left and to the right.
-    std::size_t total = 0;
-    for (std::size_t f = 0; f < system.stone().solid.facets.size(); ++f) {
-        total += letters(static_cast<int>(f)) == first ? 1 : 0;
+std::string tier_name(const Solid& solid, const std::vector<FacetTier>& drawn,
+                      const std::vector<int>& facets) {
+    for (const FacetTier& tier : drawn) {
+        if (!tier.pattern.empty() && std::is_permutation(tier.facets.begin(), tier.facets.end(),
+                                                         facets.begin(), facets.end()))
+            return tier.pattern;
     }
-    if (total == facets.size()) return first + "*";
+    const auto name = [&](int f) { return solid.facets[std::size_t(f)].name; };
     return name(facets.front()) + ".." + name(facets.back());
 }
 
@@ -185,13 +179,15 @@ AxisGroup form_group(const System& system, const Shape& shape) {
 }
 
 std::vector<Tier> tiers_of(const System& system, const Shape& shape, const AxisGroup& group) {
+    const Solid& solid = system.stone().solid;
+    const std::vector<FacetTier> drawn = culet::tiers_of(solid, system.stone().up);
     std::vector<Tier> tiers;
     for (const FacetOrbit& orbit : orbits_of(group, shape.normals.size())) {
         if (orbit.facets.size() < 2) continue;
         Tier tier;
         tier.facets = orbit.facets;
         std::sort(tier.facets.begin(), tier.facets.end());
-        tier.name = tier_name(system, tier.facets);
+        tier.name = tier_name(solid, drawn, tier.facets);
         tiers.push_back(std::move(tier));
     }
     return tiers;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "fit/findings/tier_letters.h"
 #include "fit/model/facet_functions.h"
 #include "stone/dense_algebra.h"
+#include "stone/tiers.h"
 
 namespace culet {
 
@@ -18,10 +18,15 @@ namespace {
 // what the mesh is trusted for.
 constexpr double k_moves = 0.02;
 
+// `C` of C12; nothing where the name is a number.
+std::string letters_of(const std::string& name) {
+    return name.substr(0, name.find_last_not_of("0123456789") + 1);
+}
+
 // Names in a row as a run: C1 to C8.
 std::string listed(const std::vector<std::string>& names) {
     const auto number = [&](const std::string& name) -> long {
-        const std::string digits = name.substr(tier_letters(name).size());
+        const std::string digits = name.substr(letters_of(name).size());
         return digits.empty() || digits.size() > 9 ? -1 : std::stol(digits);
     };
     std::string text;
@@ -30,7 +35,7 @@ std::string listed(const std::vector<std::string>& names) {
         std::size_t end = i + 1;
         while (end < names.size() && number(names[i]) >= 0 &&
                number(names[end]) == number(names[i]) + long(end - i) &&
-               tier_letters(names[end]) == tier_letters(names[i])) {
+               letters_of(names[end]) == letters_of(names[i])) {
             ++end;
         }
         if (written == 6) return text + fmt::format(" and {} more", names.size() - i);
@@ -51,10 +56,15 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
     std::vector<std::string> sentences;
     if (undetermined.empty()) return sentences;
     const Solid& mesh = system.stone().solid;
-    std::map<std::string, int> facet_of, tier_size;
+    std::map<std::string, int> facet_of;
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         facet_of.emplace(mesh.facets[f].name, int(f));
-        ++tier_size[tier_letters(mesh.facets[f].name)];
+    }
+    // By the form: numbers of facets say nothing of tiers.
+    const std::vector<FacetTier> tiers = tiers_of(mesh, system.stone().up);
+    std::vector<std::size_t> tier_of(mesh.facets.size(), 0);
+    for (std::size_t t = 0; t < tiers.size(); ++t) {
+        for (const int f : tiers[t].facets) tier_of[std::size_t(f)] = t;
     }
     const auto role = [&](int f, bool several) -> std::string {
         const Vec3& n = shape.normals[std::size_t(f)];
@@ -66,10 +76,11 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
     const Vec3 middle = middle_of(shape);
     const Layout layout = layout_of(shape);
     // In the order in which tiers first appear.
-    std::vector<std::pair<std::string, std::string>> order;
-    std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
+    std::vector<std::pair<std::size_t, std::string>> order;
+    std::map<std::pair<std::size_t, std::string>, std::vector<std::string>> groups;
     for (const Undetermined& u : undetermined) {
-        const auto key = std::make_pair(tier_letters(u.facet), u.freedom);
+        const std::size_t tier = tier_of[std::size_t(facet_of.at(u.facet))];
+        const auto key = std::make_pair(tier, u.freedom);
         if (groups[key].empty()) order.push_back(key);
         groups[key].push_back(u.facet);
     }
@@ -82,7 +93,7 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
                                             role(first, false), names[0]));
             continue;
         }
-        const bool whole = int(names.size()) == tier_size[key.first];
+        const bool whole = names.size() == tiers[key.first].facets.size();
         std::string sentence = fmt::format("nothing measured fixes the {}s of {}{} {}", freedom,
                                            whole ? "the " : "", role(first, true), listed(names));
         if (covariance.open().cols() > 0) {
