@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "stone/checks.h"
+#include "stone/cuts/cuts.h"
 #include "tests/fit/fit_trials.h"
 #include "tests/fit/test_stones.h"
 
@@ -67,6 +68,30 @@ TEST(Unread, AllLengthsOfAPearLeaveItsSizeAsInTheMesh) {
     EXPECT_NEAR(width_along(result.solid, {0, 0, 1}) / width_along(truth.stone.solid, {0, 0, 1}), 1,
                 0.1);
     for (const FittedReading& r : result.readings) EXPECT_NE(r.kind, ReadingKind::depth);
+}
+
+// Numbers say nothing of tiers: all facets share their letter, and what is open is said of stars,
+// halves and mains by themselves, each by its side of the girdle.
+TEST(Unread, NumberedFacetsAreGroupedByTheirForm) {
+    Stone stone;
+    stone.solid = make_cut("round-brilliant");
+    std::vector<std::string> mains;
+    for (std::size_t f = 0; f < stone.solid.facets.size(); ++f) {
+        std::string& name = stone.solid.facets[f].name;
+        const bool is_main = name[0] == 'P';
+        name = "f" + std::to_string(f + 1);
+        if (is_main) mains.push_back(name);
+    }
+    ASSERT_EQ(mains.size(), 8u);
+    stone.solid.design.reset();
+    stone.up_facet = "f1";
+    const std::vector<Reading> readings{test::width(stone.solid, 0, 0.01),
+                                        test::width(stone.solid, 45, 0.01)};
+    const FitResult result = fit_stone(stone, readings);
+    EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
+    EXPECT_THAT(result.findings.undetermined_words,
+                Contains("nothing measured fixes the inclinations of the pavilion facets " +
+                         mains.front() + " to " + mains.back()));
 }
 
 // A goniometer whose zero was put to the wrong mark: widths are not to blame.
