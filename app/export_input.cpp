@@ -75,10 +75,7 @@ ExportInput read_for_export(const std::filesystem::path& file, const ExportChoic
                         : kind == FileKind::scene ? scene_stone(file, choices)
                                                   : bare_solid(file, choices);
     if (choices.width_mm) {
-        // Whether the mesh's own size is likely is no question any more.
-        if (const std::string odd = doubtful_size(input.stone.solid); !odd.empty())
-            std::erase_if(input.notes,
-                          [&](const std::string& note) { return note.ends_with(odd); });
+        withdraw_size_doubt(input.stone.solid, input.notes);
         scale_to_width(input.stone.solid, *choices.width_mm);
         input.stone.unit = LengthUnit::mm;
     }

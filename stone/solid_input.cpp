@@ -127,6 +127,12 @@ SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) 
     return input;
 }
 
+void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes) {
+    // Some notes begin with the file's name.
+    if (const std::string odd = doubtful_size(solid); !odd.empty())
+        std::erase_if(notes, [&](const std::string& note) { return note.ends_with(odd); });
+}
+
 SolidFile read_solid(const std::filesystem::path& file, Standing standing) {
     SolidInput input = solid_in(file, {}, standing);
     return {std::move(input.solid), std::move(input.notes), std::move(input.details),

@@ -32,4 +32,8 @@ bool is_solid_file(const std::filesystem::path& file);
 /// coordinates beyond 1e50, and for a mesh less than 1e-50 across.
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
 
+/// Where the width is given besides, a mesh's own size is no question any more: takes what
+/// `load_solid` or `read_stone` noted on it (`doubtful_size`) out of `notes`.
+void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes);
+
 }  // namespace culet

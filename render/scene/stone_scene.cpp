@@ -89,9 +89,7 @@ void set_size(const std::filesystem::path& file, InputKind kind,
     const bool is_sized =
         kind == InputKind::stone || (kind == InputKind::mesh && has_size(stone.solid));
     if (wanted) {
-        // Whether the mesh's own size is likely is no question any more.
-        if (const std::string odd = doubtful_size(stone.solid); !odd.empty())
-            std::erase_if(notes, [&](const std::string& note) { return note.ends_with(odd); });
+        withdraw_size_doubt(stone.solid, notes);
         scale(stone.solid, *wanted / width);
     } else if (!is_sized) {
         scale(stone.solid, k_usual_width_mm / width);

@@ -32,6 +32,7 @@ SolidFile read_solid(const std::filesystem::path& file, Standing) {
 std::string doubtful_size(const Solid&) {
     return {};
 }
+void withdraw_size_doubt(const Solid&, std::vector<std::string>&) {}
 Spectrum read_wavelength_table(const std::filesystem::path& file, const char*,
                                std::vector<std::string>&) {
     refuse(file);
