@@ -40,6 +40,16 @@ struct FacetTier {
 /// In the order of their first facets.
 std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
 
+/// Of each of so many facets the index of its tier, whose `facets` list it; -1: it is of none.
+template <class Tier>
+std::vector<int> tier_of_each(const std::vector<Tier>& tiers, std::size_t facets) {
+    std::vector<int> tier_of(facets, -1);
+    for (std::size_t t = 0; t < tiers.size(); ++t) {
+        for (const int f : tiers[t].facets) tier_of[std::size_t(f)] = int(t);
+    }
+    return tier_of;
+}
+
 /// What each facet's name has in common with those of its tier: `C` of C1; `A` of A.1, and of A
 /// where there is an A.1; `C1` of C1NE and `G` of GNE; nothing of f12, and of what facets above the
 /// girdle and below it have in common: an exporter's numbers.

@@ -57,11 +57,9 @@ public:
           tools_(tools_at_hand(system)),
           length_sigma_(
               usual_sigma(system, {Kind::width, Kind::depth, Kind::table_width}, k_length_sigma)) {
-        const std::vector<FacetTier> tiers = tiers_of(system.stone().solid, system.stone().up);
-        tier_of_.resize(facets().size());
-        for (std::size_t t = 0; t < tiers.size(); ++t) {
-            for (const int f : tiers[t].facets) tier_of_[std::size_t(f)] = std::to_string(t);
-        }
+        const Solid& solid = system.stone().solid;
+        for (const int t : tier_of_each(tiers_of(solid, system.stone().up), solid.facets.size()))
+            tier_of_.push_back(std::to_string(t));
         // They are large, and stay where they are.
         all_.reserve(2 * (facets().size() + system.edges().edges.size()) + shape.points.size() +
                      40);

@@ -11,6 +11,7 @@
 
 #include "fit/findings/first_check_parts.h"
 #include "fit/readings/named_tiers.h"
+#include "stone/tiers.h"
 
 namespace culet {
 
@@ -72,11 +73,8 @@ void check_inclinations(const Stone& stone, const std::vector<Reading>& readings
         (r.aggregate == Aggregate::mean ? means : all)
             .push_back({std::move(row), r.facets[0], mesh});
     }
-    std::vector<int> tier_of(stone.solid.facets.size(), -1);
     const std::vector<NamedTier> tiers = named_tiers(stone.solid, up);
-    for (std::size_t t = 0; t < tiers.size(); ++t) {
-        for (const int f : tiers[t].facets) tier_of[std::size_t(f)] = int(t);
-    }
+    const std::vector<int> tier_of = tier_of_each(tiers, stone.solid.facets.size());
     const double from_mesh = mesh_sigma(all, is_design);
     for (const ReadAngle& own : all) {
         const int tier = tier_of[std::size_t(own.facet)];

@@ -62,10 +62,7 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
     }
     // By the form: numbers of facets say nothing of tiers.
     const std::vector<FacetTier> tiers = tiers_of(mesh, system.stone().up);
-    std::vector<std::size_t> tier_of(mesh.facets.size(), 0);
-    for (std::size_t t = 0; t < tiers.size(); ++t) {
-        for (const int f : tiers[t].facets) tier_of[std::size_t(f)] = t;
-    }
+    const std::vector<int> tier_of = tier_of_each(tiers, mesh.facets.size());
     const auto role = [&](int f, bool several) -> std::string {
         const Vec3& n = shape.normals[std::size_t(f)];
         const std::string s = several ? "s" : "";
@@ -76,11 +73,10 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
     const Vec3 middle = middle_of(shape);
     const Layout layout = layout_of(shape);
     // In the order in which tiers first appear.
-    std::vector<std::pair<std::size_t, std::string>> order;
-    std::map<std::pair<std::size_t, std::string>, std::vector<std::string>> groups;
+    std::vector<std::pair<int, std::string>> order;
+    std::map<std::pair<int, std::string>, std::vector<std::string>> groups;
     for (const Undetermined& u : undetermined) {
-        const std::size_t tier = tier_of[std::size_t(facet_of.at(u.facet))];
-        const auto key = std::make_pair(tier, u.freedom);
+        const auto key = std::make_pair(tier_of[std::size_t(facet_of.at(u.facet))], u.freedom);
         if (groups[key].empty()) order.push_back(key);
         groups[key].push_back(u.facet);
     }
@@ -93,7 +89,7 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
                                             role(first, false), names[0]));
             continue;
         }
-        const bool whole = names.size() == tiers[key.first].facets.size();
+        const bool whole = names.size() == tiers[std::size_t(key.first)].facets.size();
         std::string sentence = fmt::format("nothing measured fixes the {}s of {}{} {}", freedom,
                                            whole ? "the " : "", role(first, true), listed(names));
         if (covariance.open().cols() > 0) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "stone/tiers.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -154,7 +155,7 @@ PriorModel make_prior(const Prior& prior, const Solid& solid, int up_facet, doub
     model.sigmas = stated_sigmas(prior, half_width);
     model.azimuth_ratio = prior.azimuth_sigma / prior.inclination_sigma;
     const std::vector<NamedTier> tiers = named_tiers(solid, Vec3{0, 0, 1});
-    std::vector<int> tier_of(shape.normals.size(), -1);
+    const std::vector<int> tier_of = tier_of_each(tiers, shape.normals.size());
     std::vector<double> polars;
     for (const Vec3& n : shape.normals) polars.push_back(polar(n));
     if (prior.source == Prior::Source::mesh) {
@@ -168,7 +169,6 @@ PriorModel make_prior(const Prior& prior, const Solid& solid, int up_facet, doub
         model.angle_extras.push_back(extra());
         model.azimuth_extras.push_back(extra());
         model.offset_extras.push_back(extra());
-        for (const int f : tiers[t].facets) tier_of[std::size_t(f)] = int(t);
     }
     for (int f = 0; f < int(shape.normals.size()); ++f) {
         const int tier = tier_of[std::size_t(f)];
