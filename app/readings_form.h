@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "stone/repeating_gear.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -14,7 +15,7 @@ namespace culet {
 struct FormOptions {
     std::filesystem::path readings, page, stone;
     std::string material;
-    double gear = 96;  ///< teeth of the index wheel, the design's
+    double gear = k_usual_gear;  ///< teeth of the index wheel, the design's
 };
 
 /// Adds --readings, --form and --stone; --material is the command's own.

@@ -56,6 +56,12 @@ public:
         return tooth > 0 ? tooth : tooth + teeth;
     }
 
+    /// Empty: none.
+    std::string told_tooth(std::size_t f) const {
+        const auto number = tooth(f);
+        return number ? fmt::format("{:g}", *number) : std::string();
+    }
+
 private:
     const Solid& solid_;
     double gear_;
@@ -68,23 +74,19 @@ private:
 std::vector<std::string> index_teeth(const Solid& solid, double gear) {
     std::vector<std::string> teeth;
     const Places places(solid, gear);
-    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const auto tooth = places.tooth(f);
-        teeth.push_back(tooth ? fmt::format("{:g}", *tooth) : std::string());
-    }
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) teeth.push_back(places.told_tooth(f));
     return teeth;
 }
 
 std::vector<std::string> index_names(const Solid& solid, double gear) {
-    const std::vector<std::string> teeth = index_teeth(solid, gear);
     const Places places(solid, gear);
     const std::string wheel = gear == k_usual_gear ? "" : fmt::format("of{:g}", gear);
     std::vector<std::string> names;
     std::map<std::string, int> count;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const std::string tier = places.tier(f);
-        const bool named = !tier.empty() && !teeth[f].empty();
-        names.push_back(named ? tier + "@" + teeth[f] + wheel : solid.facets[f].name);
+        const std::string tier = places.tier(f), tooth = places.told_tooth(f);
+        const bool named = !tier.empty() && !tooth.empty();
+        names.push_back(named ? tier + "@" + tooth + wheel : solid.facets[f].name);
         ++count[names.back()];
     }
     for (std::size_t f = 0; f < names.size(); ++f) {

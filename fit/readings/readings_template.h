@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "stone/repeating_gear.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -42,7 +43,7 @@ struct ReadingsForm {
 /// standard cut. Names that a reading cannot hold are left out. The first lines say how the form
 /// is filled in. `stone.up` is up; lengths are in `stone.unit`. `has_material`: without one the
 /// weight's value is not known. Facets of a design's tier are named by its index (index_names.h).
-ReadingsForm readings_form(const Stone& stone, bool has_material, double gear = 96,
+ReadingsForm readings_form(const Stone& stone, bool has_material, double gear = k_usual_gear,
                            const BenchSigmas& sigmas = {});
 
 /// A stone file for `culet fit`, of a mesh and a form that lie where these paths say, as seen from
