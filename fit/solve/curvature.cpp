@@ -95,7 +95,7 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
     std::vector<SymmetricEntry> entries;
     const Parameters::TangentBasis tangent_basis = parameters_.tangent_basis(shape);
     for (std::size_t i = 0; i < incidences_.size(); ++i) {
-        const Incidence& incidence = system_.incidences()[incidences_[i]];
+        const OrbitPair& incidence = incidences_[i];
         const double force = forces(Eigen::Index(i));
         const Parameters::Slots &n = tangent_basis.normals[incidence.facet],
                                 &x = tangent_basis.points[incidence.point];

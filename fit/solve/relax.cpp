@@ -231,12 +231,19 @@ Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale
     settings.disable_all_safety_checks = true;
     ceres::Problem problem(settings);
     blocks.add_to(problem);
-    for (const Relaxation::Residual& r : relaxation.residuals(penalty)) {
-        add(r.formula, r.sigma, blocks, problem);
+    using Term = Relaxation::Term;
+    for (const Term& term :
+         relaxation.terms(penalty, {}, relaxation.above(shape, k_near * penalty.incidence))) {
+        const bool is_hinge = term.kind == Term::Kind::hinge;
+        add(is_hinge ? positive_part(term.formula) : term.formula, std::sqrt(term.variance), blocks,
+            problem);
     }
-    for (const ActiveCorner& corner : relaxation.above(shape, k_near * penalty.incidence)) {
-        const Relaxation::Residual r = relaxation.hinge(corner, penalty);
-        add(positive_part(r.formula), r.sigma, blocks, problem);
+    const Shape& mesh = relaxation.system().mesh_shape();
+    for (int i = 0; i < 3 * int(mesh.points.size()) && penalty.with_priors; ++i) {
+        Vec3 axis(0);
+        axis[i % 3] = 1;
+        add(point_component(i / 3, axis, mesh.points[std::size_t(i / 3)][i % 3]),
+            penalty.mesh_sigma, blocks, problem);
     }
     Interruptor interruptor(progress, fraction);
     ceres::Solver::Options solver = solver_options(options.most_steps);

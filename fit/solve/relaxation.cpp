@@ -60,20 +60,15 @@ Relaxation::Relaxation(const System& system, const Parameters& parameters)
                       points = system.mesh_shape().points.size();
     OrbitPairs incident(parameters, facets, points), hinged(parameters, facets, points);
     for (std::size_t i = 0; i < system.incidences().size(); ++i) {
-        const Incidence& incidence = system.incidences()[i];
-        if (const int images = incident.take(incidence.facet, incidence.point)) {
-            incidences_.push_back(static_cast<int>(i));
-            incidence_images_.push_back(images);
-        }
+        const auto& [point, facet, how, sigma, reading] = system.incidences()[i];
+        if (const int images = incident.take(facet, point))
+            incidences_.push_back({facet, point, double(images), int(i)});
     }
     points_.resize(points);
     std::iota(points_.begin(), points_.end(), 0);
     choose(system.mesh_shape(), false);
     for (const auto& [f, p] : system.hinges()) {
-        if (const int images = hinged.take(f, p)) {
-            hinges_.emplace_back(f, p);
-            hinge_images_.push_back(images);
-        }
+        if (const int images = hinged.take(f, p)) hinges_.push_back({f, p, double(images), -1});
     }
 }
 
@@ -141,26 +136,21 @@ bool Relaxation::contacts_hold(const Shape& shape) const {
     return true;
 }
 
-int Relaxation::hinge_of(const ActiveCorner& held) const {
-    const auto at =
-        std::lower_bound(hinges_.begin(), hinges_.end(), std::make_pair(held.facet, held.point));
-    return static_cast<int>(at - hinges_.begin());
+const Relaxation::OrbitPair* Relaxation::hinge_of(const ActiveCorner& corner) const {
+    return &*std::lower_bound(hinges_.begin(), hinges_.end(), corner,
+                              [](const OrbitPair& h, const ActiveCorner& c) {
+                                  return std::pair(h.facet, h.point) < std::pair(c.facet, c.point);
+                              });
 }
 
 double Relaxation::height(const Shape& shape, int facet, int point) const {
     return glm::dot(shape.normals[facet], shape.points[point]) - shape.offsets[facet];
 }
 
-double Relaxation::incidence_variance(std::size_t incidence, const PenaltyScale& penalty) const {
-    const double own =
-        system_.incidence_sigma(system_.incidences()[std::size_t(incidences_[incidence])]);
-    return (own * own + penalty.incidence * penalty.incidence) / incidence_images_[incidence];
-}
-
 Relaxation::Counts Relaxation::counts() const {
     Counts counts;
-    for (int i : incidences_) {
-        const MeetTreatment how = system_.incidences()[i].how;
+    for (const OrbitPair& i : incidences_) {
+        const MeetTreatment how = system_.incidences()[std::size_t(i.incidence)].how;
         counts.hard += how == MeetTreatment::exact;
         counts.soft += how == MeetTreatment::soft;
     }
@@ -173,8 +163,9 @@ double Relaxation::expected_misfit(const PenaltyScale& penalty) const {
     const auto add = [&](double sigma, double soft) {
         if (sigma > 0) sum += sigma * sigma / (sigma * sigma + soft * soft);
     };
-    for (int i : incidences_) {
-        add(system_.incidence_sigma(system_.incidences()[i]), penalty.incidence);
+    for (const OrbitPair& i : incidences_) {
+        add(system_.incidence_sigma(system_.incidences()[std::size_t(i.incidence)]),
+            penalty.incidence);
     }
     for (const Equation& e : equations_) add(e.exact ? 0 : e.sigma, penalty.readings);
     return sum;
@@ -219,8 +210,8 @@ int Relaxation::binding(const Shape& shape, const std::vector<ActiveCorner>& hel
 
 std::vector<ActiveCorner> Relaxation::above(const Shape& shape, double margin) const {
     std::vector<ActiveCorner> result;
-    for (const auto& [f, p] : hinges_) {
-        if (height(shape, f, p) + margin > 0) result.push_back({f, p});
+    for (const OrbitPair& h : hinges_) {
+        if (height(shape, h.facet, h.point) + margin > 0) result.push_back({h.facet, h.point});
     }
     return result;
 }

@@ -43,12 +43,11 @@ struct SharedContact {
 /// All equations at one shape.
 struct StepLinearisation {
     JacobianRows rows;  ///< incidences first, in the system's order
-    Eigen::VectorXd prior_stiffness, prior_gradient;
+    Eigen::VectorXd prior_stiffness;
     double merit = 0;     ///< sum of squares of all that is soft, priors and hinges included
     double prior = 0;     ///< the priors' part of it
     double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
-    double hard_worst = 0;
-    double chi2 = 0;                    ///< of readings and soft meets, at their own uncertainties
+    double chi2 = 0;      ///< of readings and soft meets, at their own uncertainties
     std::vector<ActiveCorner> holding;  ///< those held corners that have a row
     bool finite = true;
 };
@@ -85,20 +84,26 @@ public:
         begins_ = true;
     }
 
-    /// Rows are of incidences, readings, corners that are held, and last of hinges that count: a
-    /// hinge that says nothing would fill the factors all the same. A corner that is held has a row
+    /// One equation of a stage: formula = 0, within the root of the variance.
+    struct Term {
+        enum class Kind { equation, held_corner, contact, hinge };
+        Formula formula;
+        double variance = 0;  ///< 0: it holds exactly
+        Kind kind = Kind::equation;
+        ActiveCorner corner{};                ///< of a held corner
+        double chi2_weight = 0, scatter = 0;  ///< of what chi-square counts
+    };
+    /// In this order: incidences, readings (one of each orbit), corners that are held, contacts
+    /// that share a jaw, and hinges, of which those that are held already are left out. The terms
+    /// look at this relaxation and `penalty` as long as they are asked.
+    std::vector<Term> terms(const PenaltyScale& penalty, const std::vector<ActiveCorner>& held = {},
+                            const std::vector<ActiveCorner>& hinges = {}) const;
+
+    /// The terms at a shape, as rows in the parameters, with the hinges that are positive there:
+    /// one that says nothing would fill the factors all the same. A corner that is held has a row
     /// where it would rise, and none where nothing pulls it up.
     StepLinearisation linearisation(const Shape& shape, const PenaltyScale& penalty,
-                                    const std::vector<ActiveCorner>& held = {});
-    /// formula = 0, within sigma: each equation of a stage but its hinges, one of each orbit.
-    struct Residual {
-        Formula formula;
-        double sigma = 1;
-    };
-    /// They look at this relaxation and `penalty` as long as they are asked.
-    std::vector<Residual> residuals(const PenaltyScale& penalty) const;
-    /// That of a corner above a neighbour facet: as `above` names them.
-    Residual hinge(const ActiveCorner& corner, const PenaltyScale& penalty) const;
+                                    const std::vector<ActiveCorner>& held = {}) const;
 
     /// By how much hard equations are missed, corners that share a jaw, and readings of no more
     /// variance than `sharp`: in the rows of a linearisation that holds these corners, zero in
@@ -151,23 +156,26 @@ public:
     std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:
-    class Assembly;
     double height(const Shape& shape, int facet, int point) const;
-    /// Of one of `incidences_`; 0: it holds exactly.
-    double incidence_variance(std::size_t incidence, const PenaltyScale& penalty) const;
     const std::vector<int>& corners_between_jaws(const Equation& caliper) const;
-    int hinge_of(const ActiveCorner& held) const;
+    void add_priors(const Shape& shape, const PenaltyScale& penalty,
+                    const Parameters::TangentBasis& basis, StepLinearisation& sum) const;
+    struct OrbitPair;
+    const OrbitPair* hinge_of(const ActiveCorner& corner) const;
     bool binds(const Shape& shape, const ActiveCorner& held) const;
 
     const System& system_;
     const Parameters& parameters_;
-    std::vector<int> incidences_;              // one of each orbit
-    std::vector<std::pair<int, int>> hinges_;  // facet, point: likewise
-    std::vector<double> incidence_images_, hinge_images_;
-    std::vector<int> points_;                       // all of them
-    std::vector<Equation> equations_;               // of the readings, as chosen
-    std::size_t most_rows_ = 0, most_entries_ = 0;  // of the linearisations so far
-    bool begins_ = true;                            // nothing chosen since contacts were forgotten
+    // One facet and point of each orbit, and how many go with it.
+    struct OrbitPair {
+        int facet = -1, point = -1;
+        double images = 1;
+        int incidence = -1;  // index in the system's, or -1
+    };
+    std::vector<OrbitPair> incidences_, hinges_;
+    std::vector<int> points_;          // all of them
+    std::vector<Equation> equations_;  // of the readings, as chosen
+    bool begins_ = true;               // nothing chosen since contacts were forgotten
     std::vector<SharedContact> shared_contacts_;
     // Of each reading and jaw, the corners that it has left.
     std::map<std::pair<int, int>, std::vector<int>> left_;
