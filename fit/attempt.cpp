@@ -4,13 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "fit/find_symmetry.h"
 #include "fit/findings/assess.h"
 #include "fit/findings/describe.h"
 #include "fit/findings/fitted_parts.h"
 #include "fit/findings/judge.h"
 #include "fit/findings/shape_findings.h"
-#include "fit/findings/symmetry_tests.h"
 #include "fit/mesh/notes.h"
 #include "fit/model/system.h"
 #include "fit/starts/multistart.h"
@@ -140,14 +138,6 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     fill_in(system, problem.readings, finished.shape, diagnosis, pose, weights, result);
     assess(system, finished, diagnosis, result);
     describe_findings(system, finished, best.held, diagnosis, pose, result);
-    if (options.find_symmetry &&
-        std::any_of(problem.readings.begin(), problem.readings.end(), declares_whole_symmetry)) {
-        FitOptions from_here = problem.options;
-        from_here.start = result.solid;
-        from_here.allow_topology = false;
-        result.findings.symmetry =
-            find_symmetry(problem.stone, problem.readings, from_here, progress);
-    }
     judge(system, finished, diagnosis, result);
     return made;
 }

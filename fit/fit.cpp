@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "fit/attempt.h"
+#include "fit/findings/symmetry_tests.h"
 #include "fit/findings/tier_findings.h"
 #include "fit/hypotheses/hypotheses.h"
 #include "fit/hypotheses/preparations.h"
@@ -134,6 +136,13 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const bool asks = options.first_check || options.prior.source != Prior::Source::none;
     given.read_in_full = !asks || readings_hold_all(stone, readings, options);
     FitResult result = solved(given, hypotheses(), stops.progress());
+    if (options.find_symmetry && !result.findings.symmetry &&
+        std::any_of(readings.begin(), readings.end(), declares_whole_symmetry)) {
+        FitOptions from_here = options;
+        from_here.start = result.solid;
+        from_here.allow_topology = false;
+        result.findings.symmetry = find_symmetry(stone, readings, from_here, stops.progress());
+    }
     result.solid.design = stone.solid.design;
     const bool is_design = options.prior.source == Prior::Source::catalogue;
     result.findings.named_tiers =
@@ -150,6 +159,16 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (progress) progress(1);
     return result;
+}
+
+SymmetryReport find_symmetry(const Stone& stone, const std::vector<Reading>& readings,
+                             const FitOptions& options, const Progress& progress) {
+    std::vector<Reading> free = readings;
+    std::erase_if(free, declares_whole_symmetry);
+    FitOptions asking = options;
+    asking.find_symmetry = true;
+    asking.findings = true;
+    return fit_stone(stone, free, asking, progress).findings.symmetry.value_or(SymmetryReport());
 }
 
 Stone fitted_stone(const Stone& drawn, const FitResult& result) {

@@ -35,6 +35,12 @@ FitResult fit_stone(const FitInput& input, const FitOptions& options = {},
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options = {}, const Progress& progress = {});
 
+/// Which symmetry the readings support, and how well they could have told otherwise
+/// (findings/symmetry_tests.h): of a fit without the readings that declare it. `options.start` may
+/// be the stone as fitted with them. Throws InputError as `fit_stone` does.
+SymmetryReport find_symmetry(const Stone& stone, const std::vector<Reading>& readings,
+                             const FitOptions& options = {}, const Progress& progress = {});
+
 /// The stone with the fitted solid, which stands upright: its up direction is +z.
 Stone fitted_stone(const Stone& drawn, const FitResult& result);
 

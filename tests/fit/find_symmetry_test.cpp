@@ -1,5 +1,5 @@
 // Symmetry that is found in readings: which group, how sure, and how far the stone is from it.
-#include "fit/find_symmetry.h"
+#include "fit/fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "fit/find_symmetry.h"
+#include "fit/fit.h"
 #include "stone/checks.h"
 #include "tests/fit/test_stones.h"
 
