@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fit/hypotheses/constants.h"
 #include "fit/hypotheses/doubted_readings.h"
 #include "fit/hypotheses/leave_one_out.h"
 #include "fit/hypotheses/mirrored_mesh.h"
@@ -48,10 +49,8 @@ std::span<const Hypothesis> hypotheses() {
 }
 
 Problem with_few_starts(Problem problem, const Attempt& first) {
-    constexpr int k_starts_without = 2;
-    constexpr double k_dear = 2e9;
     problem.options.starts =
-        std::min(problem.options.starts, first.work > k_dear ? 1 : k_starts_without);
+        std::min(problem.options.starts, first.work > k_trials.dear_work ? 1 : k_trials.few_starts);
     return problem;
 }
 

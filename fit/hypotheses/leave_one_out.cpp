@@ -4,16 +4,12 @@
 #include <cmath>
 
 #include "fit/findings/blunder.h"
+#include "fit/hypotheses/constants.h"
 #include "fit/uncertainty/statistics.h"
 
 namespace culet {
 
 namespace {
-
-// Of the value itself: what is so uncertain pulls at nothing.
-constexpr double k_next_to_nothing = 1e3;
-// What explains why there is no stone takes nearly all of chi-square with it.
-constexpr double k_part_left = 0.01;
 
 // Index of the first suspect, where it is a reading that may be wrong.
 std::optional<std::size_t> first_suspect(const Problem& given, const FitResult& result) {
@@ -35,7 +31,7 @@ std::optional<Problem> without_first_suspect(const Problem& given, const Attempt
     if (!at) return std::nullopt;
     Problem others = with_few_starts(given, first);
     Reading& wrong = others.readings[*at];
-    wrong.sigma = k_next_to_nothing * (std::abs(wrong.value) + wrong.sigma);
+    wrong.sigma = k_trials.next_to_nothing * (std::abs(wrong.value) + wrong.sigma);
     wrong.rounding = 0;
     return others;
 }
@@ -43,7 +39,7 @@ std::optional<Problem> without_first_suspect(const Problem& given, const Attempt
 Verdict judge_first_suspect(const Problem& given, const Attempt& first, const Problem& changed,
                             FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.statistics.chi2 < k_part_left * first.result.statistics.chi2)) {
+        !(again.statistics.chi2 < k_trials.chi2_left_without * first.result.statistics.chi2)) {
         return {};
     }
     const std::size_t at = *first_suspect(given, first.result);

@@ -1,15 +1,9 @@
 #include "fit/hypotheses/mirrored_mesh.h"
 
+#include "fit/hypotheses/constants.h"
 #include "fit/mesh/repair.h"
 
 namespace culet {
-
-namespace {
-
-// What it costs in chi-square to take the mesh for its mirror image: five sigmas.
-constexpr double k_price = 25;
-
-}  // namespace
 
 std::optional<Problem> mesh_mirrored(const Problem& given, const Attempt& first) {
     const FitStatus status = first.result.status;
@@ -28,7 +22,7 @@ std::optional<Problem> mesh_mirrored(const Problem& given, const Attempt& first)
 Verdict judge_mirrored_mesh(const Problem& given, const Attempt& first, const Problem&,
                             FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.statistics.chi2 + k_price < first.result.statistics.chi2)) {
+        !(again.statistics.chi2 + k_trials.price_of_mirror < first.result.statistics.chi2)) {
         return {};
     }
     const std::string note =

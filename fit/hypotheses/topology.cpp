@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "fit/hypotheses/constants.h"
 #include "fit/hypotheses/topology_stage.h"
 #include "stone/checks.h"
 #include "stone/half_edges.h"
@@ -14,10 +15,6 @@
 namespace culet {
 
 namespace {
-
-// Of the diameter; and how many are tried.
-constexpr double k_doubtful = 0.1;
-constexpr std::size_t k_most_doubtful = 6;
 
 std::set<std::pair<std::string, std::string>> edges_of(const Solid& solid) {
     std::set<std::pair<std::string, std::string>> names;
@@ -133,12 +130,13 @@ std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
     for (const Edge& e : half_edges(mesh).edges) {
         const Vec3 d = fitted.vertices[std::size_t(e.from)] - fitted.vertices[std::size_t(e.to)];
         const double length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-        if (length < k_doubtful * diameter(fitted)) edges.push_back({length, {e.from, e.to}});
+        if (length < k_topology.doubtful * diameter(fitted))
+            edges.push_back({length, {e.from, e.to}});
     }
     std::sort(edges.begin(), edges.end());
     std::vector<std::pair<int, int>> shortest;
     for (const auto& [length, edge] : edges) {
-        if (shortest.size() < k_most_doubtful) shortest.push_back(edge);
+        if (shortest.size() < k_topology.most_doubtful) shortest.push_back(edge);
     }
     return shortest;
 }

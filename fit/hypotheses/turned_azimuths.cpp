@@ -1,4 +1,5 @@
 #include "fit/hypotheses/turned_azimuths.h"
+#include "fit/hypotheses/constants.h"
 
 #include <fmt/format.h>
 
@@ -11,11 +12,6 @@ namespace culet {
 
 namespace {
 
-// Who reads from the wrong mark is off by a mark; what the mesh's own errors turn it by is less.
-constexpr double k_mark_deg = 15, k_near_deg = 4;
-// What explains a contradiction takes most of chi-square with it.
-constexpr double k_chi2_left_turned = 0.5;
-
 bool counts_from_zero(const Reading& r) {
     return r.kind == ReadingKind::azimuth && r.datum.kind != Datum::Kind::facet;
 }
@@ -23,8 +19,8 @@ bool counts_from_zero(const Reading& r) {
 // By how many degrees, in whole marks; 0: none.
 double marks_deg(const Attempt& first) {
     const double turned_deg = degrees(std::remainder(first.mesh_turn, 2 * std::numbers::pi));
-    const double mark_deg = k_mark_deg * std::round(turned_deg / k_mark_deg);
-    return std::abs(turned_deg - mark_deg) > k_near_deg ? 0 : mark_deg;
+    const double mark_deg = k_trials.mark_deg * std::round(turned_deg / k_trials.mark_deg);
+    return std::abs(turned_deg - mark_deg) > k_trials.near_deg ? 0 : mark_deg;
 }
 
 }  // namespace
@@ -47,7 +43,7 @@ std::optional<Problem> azimuths_turned_back(const Problem& given, const Attempt&
 Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const Problem&,
                               FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.statistics.chi2 < k_chi2_left_turned * first.result.statistics.chi2)) {
+        !(again.statistics.chi2 < k_trials.chi2_left_turned * first.result.statistics.chi2)) {
         return {};
     }
     const double mark_deg = marks_deg(first);

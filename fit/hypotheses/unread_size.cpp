@@ -1,18 +1,11 @@
 #include "fit/hypotheses/unread_size.h"
+#include "fit/hypotheses/constants.h"
 
 #include <algorithm>
 
 #include "stone/checks.h"
 
 namespace culet {
-
-namespace {
-
-// Of the size. Not exact: where the angles are no stone's, nothing can be, and the size is not what
-// they contradict.
-constexpr double k_as_good_as_exact = 1e-6;
-
-}  // namespace
 
 bool says_size(const std::vector<Reading>& readings) {
     return std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
@@ -27,7 +20,7 @@ Reading size_of_mesh(const Stone& stone) {
     size.id = "size of the mesh";
     size.kind = ReadingKind::depth;
     size.value = width_along(stone.solid, up);
-    size.sigma = k_as_good_as_exact * size.value;
+    size.sigma = k_trials.as_good_as_exact * size.value;
     return size;
 }
 

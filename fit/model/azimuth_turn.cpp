@@ -1,18 +1,10 @@
 #include "fit/model/azimuth_turn.h"
+#include "fit/model/constants.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace culet {
-
-namespace {
-
-// Of the mesh's own frame one is surer than of any drawing: five sigmas.
-constexpr double k_surely = 5;
-// So few differences say nothing of how they scatter.
-constexpr int k_fewest = 3;
-
-}  // namespace
 
 double azimuth_turn(const std::vector<Reading>& readings,
                     const std::function<Vec3(int facet)>& normal_of, bool zero_is_meshs) {
@@ -34,7 +26,8 @@ double azimuth_turn(const std::vector<Reading>& readings,
     const double length = std::hypot(east, north);
     const double along = doubled_east * std::cos(2 * turn) + doubled_north * std::sin(2 * turn);
     const double sigma = std::sqrt(std::max(0.0, (count - along) / 2)) / length;
-    return count >= k_fewest && std::abs(turn) > k_surely * sigma ? turn : 0;
+    return count >= k_frame.least_differences && std::abs(turn) > k_frame.sure_turn * sigma ? turn
+                                                                                            : 0;
 }
 
 }  // namespace culet

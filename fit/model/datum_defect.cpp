@@ -1,4 +1,5 @@
 #include "fit/model/datum_defect.h"
+#include "fit/model/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ Eigen::MatrixXd datum_defect(const Linearised& linear) {
     if (linear.turn.size() > 0) {
         const double size = linear.turn.dot(linear.metric.cwiseProduct(linear.turn));
         const double hard = (linear.hard_rows * linear.turn).norm();
-        if ((linear.soft_rows * linear.turn).squaredNorm() < k_determined * size &&
+        if ((linear.soft_rows * linear.turn).squaredNorm() < k_shapes.determined * size &&
             hard < 1e-9 * linear.turn.norm()) {
             all.push_back(linear.turn);
         }
@@ -44,7 +45,7 @@ Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd
     for (; open > 0; --open) {
         left += directions.col(open - 1).cwiseAbs2().cwiseProduct(metric) /
                 std::max(information(open - 1), std::numeric_limits<double>::min());
-        if (!(left.maxCoeff() < 1 / k_determined)) break;
+        if (!(left.maxCoeff() < 1 / k_shapes.determined)) break;
     }
     return open;
 }

@@ -9,12 +9,6 @@
 
 namespace culet {
 
-/// Held less than twice as tightly by the readings as by the mesh: not determined. In information.
-inline constexpr double k_determined = 4;
-/// For the question what is open, a reading is tight enough at this weight: squares of larger ones
-/// would drown a weight of one in rounding.
-inline constexpr double k_tight = 1e6;
-
 /// Orthonormal in the metric, one a column. The turn about up is one of them also where readings
 /// see it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's
 /// shape.

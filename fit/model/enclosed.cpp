@@ -4,15 +4,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/model/constants.h"
 #include "fit/model/system.h"
 
 namespace culet {
 
 namespace {
-
-// Exact meets come out of the planes as edges of rounding length; real edges are longer than this
-// part of the half diameter by far.
-constexpr double k_rounding_edge = 1e-10;
 
 // The three of these planes that cross most squarely.
 std::array<int, 3> squarest(const Shape& shape, const std::vector<int>& planes) {
@@ -50,7 +47,7 @@ System::Enclosed System::enclosed(const Shape& shape) const {
         for (const NamedPlane& plane : planes) result.missing.push_back(plane.name);
         return result;
     }
-    ContractedSolid tidy = contract_near_meets(cut.solid, k_rounding_edge);
+    ContractedSolid tidy = contract_near_meets(cut.solid, k_shapes.rounding_edge);
     result.solid = std::move(tidy.solid);
     result.closed = true;
 
@@ -78,8 +75,8 @@ System::Enclosed System::enclosed(const Shape& shape) const {
     for (std::size_t v = 0; v < planes_of.size(); ++v) {
         Corner corner;
         for (std::size_t p = 0; p < edges_.facets_of_vertex.size() && corner.point < 0; ++p) {
-            if (!exact[p] ||
-                glm::length(shape.points[p] - result.solid.vertices[v]) > 10 * k_rounding_edge) {
+            if (!exact[p] || glm::length(shape.points[p] - result.solid.vertices[v]) >
+                                 10 * k_shapes.rounding_edge) {
                 continue;
             }
             corner.point = static_cast<int>(p);

@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <iterator>
 
+#include "fit/model/constants.h"
 #include "fit/model/symmetry_contrasts.h"
 #include "fit/model/system.h"
 
 namespace culet {
-
-namespace {
-
-// Softening of incidences that are released: they come apart by this much of the half diameter
-// before the point that stands for them lags behind.
-constexpr double k_released_sigma = 0.2;
-
-}  // namespace
 
 std::vector<Equation> System::equations(const Shape& shape,
                                         const std::shared_ptr<const Outline>& outline) const {
@@ -52,7 +45,7 @@ std::vector<Equation> System::equations(const Shape& shape,
 
 double System::incidence_sigma(const Incidence& incidence) const {
     return incidence.how == MeetTreatment::exact      ? 0
-           : incidence.how == MeetTreatment::released ? k_released_sigma
+           : incidence.how == MeetTreatment::released ? k_shapes.released_sigma
            : incidence.sigma > 0                      ? incidence.sigma
                                                       : group_sigmas_[is_girdle(incidence.facet)];
 }

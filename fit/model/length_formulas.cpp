@@ -1,5 +1,6 @@
 // What lengths, areas and volumes should have been.
 
+#include "fit/model/constants.h"
 #include "fit/model/residuals.h"
 
 #include <cmath>
@@ -10,9 +11,6 @@ namespace culet {
 namespace {
 
 using By = Quantity::By;
-
-// Sine between planes below which rounding has half the digits of the line they share.
-constexpr double k_one_plane = 1e-8;
 
 }  // namespace
 
@@ -43,7 +41,7 @@ Formula edge_length(int left, int right, const Corner& from, const Corner& to) {
         const Vec3 across = glm::cross(l, r);
         const double sine = glm::length(across);
         // Planes this near to one plane cross along a line that rounding chooses.
-        if (sine < k_one_plane) return corner_distance(from, to)(shape);
+        if (sine < k_shapes.one_plane) return corner_distance(from, to)(shape);
         const Vec3 along = across / sine, edge = place_of(shape, to) - place_of(shape, from);
         Quantity q{glm::dot(along, edge), {}};
         add_corner(q, shape, to, along);

@@ -1,4 +1,5 @@
 #include "fit/model/linear.h"
+#include "fit/model/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -168,7 +169,7 @@ Linearised linearise(const System& system, const Shape& shape,
     const std::vector<bool> loose = loose_points(system);
     for (int p = 0; p < linear.layout.points; ++p) {
         if (loose[std::size_t(p)])
-            linear.metric.segment(linear.layout.point(p), 3) *= k_loose_point;
+            linear.metric.segment(linear.layout.point(p), 3) *= k_shapes.loose_point;
     }
     std::vector<Eigen::VectorXd> motions = rigid_motions(system, shape);
     linear.turn = motions[5];

@@ -53,9 +53,8 @@ struct Linearised {
 };
 
 /// The point of a meet that was let go belongs to nothing: it follows its planes, and wherever it
-/// lies, nothing is open. In a metric it weighs `k_loose_point` of what others do.
+/// lies, nothing is open. In a metric it weighs `k_shapes.loose_point` of what others do.
 std::vector<bool> loose_points(const System& system);
-inline constexpr double k_loose_point = 0.08;
 
 /// `held` are further hard equations.
 Linearised linearise(const System& system, const Shape& shape,

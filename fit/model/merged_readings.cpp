@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/model/constants.h"
 #include "fit/model/inclination_side.h"
 #include "fit/model/system.h"
 
@@ -12,12 +13,11 @@ bool System::may_be_merged(const std::vector<int>& group, const Replicates& repl
                            const Shape& shape) const {
     const Reading& first = readings_[std::size_t(group.front())];
     if (first.kind == ReadingKind::azimuth) {
-        // Further off, some would be wrapped to the other side.
-        constexpr double k_most = 3;
         const int datum = first.datum.kind == Datum::Kind::facet ? first.datum.facet : -1;
         const double error = azimuth_error(first.facets[0], datum, replicates.value)(shape).value;
-        return std::all_of(replicates.all.begin(), replicates.all.end(),
-                           [&](const Replicate& r) { return std::abs(error - r.off) < k_most; });
+        return std::all_of(replicates.all.begin(), replicates.all.end(), [&](const Replicate& r) {
+            return std::abs(error - r.off) < k_shapes.farthest_azimuth;
+        });
     }
     if (first.kind != ReadingKind::inclination || first.datum.kind != Datum::Kind::up) return true;
     return std::all_of(group.begin(), group.end(), [&](int r) {

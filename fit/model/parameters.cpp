@@ -1,4 +1,5 @@
 #include "fit/model/parameters.h"
+#include "fit/model/constants.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -9,10 +10,6 @@
 namespace culet {
 
 namespace {
-
-// What a step of one means: a mesh may be off by 20 % of its width in its points; tilts, offsets
-// and extras are of the order of one.
-constexpr double k_point_weight = 1 / (0.4 * 0.4);
 
 // Directions in which the thing may move within what is kept.
 std::vector<Vec3> directions_of(const KeptDirections& kept) {
@@ -78,7 +75,7 @@ Parameters::Parameters(const Shape& shape, int up_facet, Orbits orbits,
             directions_of(orbits_.empty() ? KeptDirections() : orbits_.kept_by_point[p]);
         std::copy(along.begin(), along.end(), point_along_[p].begin());
         point_count_[p] = static_cast<int>(along.size());
-        point_column_[p] = take(point_count_[p], k_point_weight * point_images_[p]);
+        point_column_[p] = take(point_count_[p], k_shapes.point_weight * point_images_[p]);
     }
     extra_column_.assign(std::size_t(layout_.extras), -1);
     for (std::size_t e = 0; e < extra_column_.size(); ++e) {

@@ -1,4 +1,5 @@
 #include "fit/model/prior.h"
+#include "fit/model/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,19 +15,6 @@ namespace culet {
 
 namespace {
 
-// Facets of a tier differ by less than a tier does from the catalogue: a dop is set once a tier. Of
-// a hand-made mesh each facet is off by itself.
-constexpr double k_facets_of_design = 0.3, k_facets_of_drawing = 1;
-// Below this a facet is level, and its azimuth says nothing.
-constexpr double k_level_deg = 5;
-// A tier of a drawing whose angles lie within so many of its sigmas is meant to have one angle.
-constexpr double k_meant_alike = 6;
-
-// How many observations the stated sigmas count for.
-constexpr double k_facets_count = 2, k_tiers_count = 1;
-// However alike the readings are: no stone is cut ten times better than supposed.
-constexpr double k_least_part = 0.1;
-
 // A facet's inclination as read, less its start.
 struct Seen {
     double off = 0, variance = 0;
@@ -40,7 +28,7 @@ double mean_of(const std::vector<Seen>& tier) {
 
 PriorSigmas stated_sigmas(const Prior& prior, double half_width) {
     const double facets =
-        prior.source == Prior::Source::mesh ? k_facets_of_drawing : k_facets_of_design;
+        prior.source == Prior::Source::mesh ? k_prior.facets_of_drawing : k_prior.facets_of_design;
     const double offset = prior.offset_sigma * 2 * half_width;
     return {prior.inclination_sigma, facets * prior.inclination_sigma, offset, facets * offset};
 }
@@ -70,7 +58,7 @@ void level_tiers(const std::vector<NamedTier>& tiers, double sigma, std::vector<
         std::vector<double> angles;
         for (const int f : tier.facets) angles.push_back(polars[std::size_t(f)]);
         const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-        if (*most - *least > k_meant_alike * sigma) continue;
+        if (*most - *least > k_prior.meant_alike * sigma) continue;
         const double middle = upper_median(angles);
         for (const int f : tier.facets) polars[std::size_t(f)] = middle;
     }
@@ -124,8 +112,8 @@ void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readi
             if (by_facet.count(f) > 0) tiers.back().push_back(by_facet[f]);
         }
     }
-    double squares = k_facets_count * std::pow(level(PriorLevel::facet_angle), 2);
-    double freedom = k_facets_count;
+    double squares = k_prior.facets_count * std::pow(level(PriorLevel::facet_angle), 2);
+    double freedom = k_prior.facets_count;
     for (const std::vector<Seen>& tier : tiers) {
         const double mean = mean_of(tier);
         for (const Seen& seen : tier) {
@@ -133,11 +121,11 @@ void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readi
         }
         freedom += std::max(0.0, double(tier.size()) - 1);
     }
-    const double least = std::pow(k_least_part * level(PriorLevel::facet_angle), 2);
+    const double least = std::pow(k_prior.least_part * level(PriorLevel::facet_angle), 2);
     const double of_facets = std::max(least, squares / freedom);
     level(PriorLevel::facet_angle) = std::sqrt(of_facets);
-    squares = k_tiers_count * std::pow(level(PriorLevel::tier_angle), 2);
-    freedom = k_tiers_count;
+    squares = k_prior.tiers_count * std::pow(level(PriorLevel::tier_angle), 2);
+    freedom = k_prior.tiers_count;
     for (const std::vector<Seen>& tier : tiers) {
         if (tier.empty()) continue;
         double noise = 0;
@@ -145,8 +133,8 @@ void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readi
         squares += std::pow(mean_of(tier), 2) - noise / double(tier.size());
         ++freedom;
     }
-    level(PriorLevel::tier_angle) = std::sqrt(
-        std::max(std::pow(k_least_part * level(PriorLevel::tier_angle), 2), squares / freedom));
+    level(PriorLevel::tier_angle) = std::sqrt(std::max(
+        std::pow(k_prior.least_part * level(PriorLevel::tier_angle), 2), squares / freedom));
 }
 
 PriorModel make_prior(const Prior& prior, const Solid& solid, int up_facet, double half_width,
@@ -180,7 +168,7 @@ PriorModel make_prior(const Prior& prior, const Solid& solid, int up_facet, doub
         const double tilt = polars[std::size_t(f)];
         if (f == up_facet) {
             // Level by the frame.
-        } else if (std::min(tilt, std::numbers::pi - tilt) < radians(k_level_deg)) {
+        } else if (std::min(tilt, std::numbers::pi - tilt) < radians(k_prior.level_deg)) {
             model.terms.push_back({Of::level_x, f, -1, n.x});
             model.terms.push_back({Of::level_y, f, -1, n.y});
         } else {

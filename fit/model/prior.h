@@ -55,9 +55,6 @@ void count_beside_prior(const Shape& shape, const Solid& solid, double meet_miss
                         const std::function<double(const Reading&)>& unit_of,
                         std::vector<Reading>& readings);
 
-/// By how much facets of a well cut stone miss a common corner, as part of its width.
-inline constexpr double k_meet_miss = 0.001;
-
 /// What the inclinations that were read, each of one facet or one row, say of the angles' sigmas.
 void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readings,
                            PriorModel& model);

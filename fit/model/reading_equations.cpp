@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "fit/model/constants.h"
 #include "fit/model/inclination_side.h"
 #include "fit/model/outline_corners.h"
 #include "fit/model/symmetry_contrasts.h"
@@ -15,15 +16,13 @@ namespace culet {
 
 namespace {
 
-// Of an edge's length: planes whose sine is less are told apart by less than the edge's ends are.
-constexpr double k_nearly_one_plane = 0.3;
-
 // The line in which two planes cross turns round where they pass through one plane, the line
 // through two corners where these pass each other. Lengths go by the one that is farther from
 // turning: a facet that turns by an angle moves corners by about as many half diameters.
 bool is_nearly_one_plane(const Shape& shape, int a, int b, const Corner& from, const Corner& to) {
     const double sine = glm::length(glm::cross(shape.normals[a], shape.normals[b]));
-    return sine < k_nearly_one_plane * glm::length(place_of(shape, to) - place_of(shape, from));
+    return sine <
+           k_shapes.nearly_one_plane * glm::length(place_of(shape, to) - place_of(shape, from));
 }
 
 // Formulas of one reading's terms under its aggregate.

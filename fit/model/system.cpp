@@ -11,6 +11,7 @@
 
 #include "fit/model/azimuth_turn.h"
 #include "fit/model/canonical.h"
+#include "fit/model/constants.h"
 #include "fit/readings/rounding.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -18,15 +19,6 @@
 #include "stone/upright.h"
 
 namespace culet {
-
-namespace {
-
-// A stone is drawn standing on an axis of its file; within this of one, the tilt is a slip of hand.
-constexpr double k_snap = 20;
-// Facets within this of upright are the girdle's; no crown or pavilion facet comes near.
-constexpr double k_girdle_tilt = 10;
-
-}  // namespace
 
 System::System(const Stone& stone, const std::vector<Reading>& readings, const FitOptions& options)
     : stone_(stone), readings_(readings), solid_(stone.solid) {
@@ -51,7 +43,7 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
         estimate_angle_sigmas(solid_, readings_, prior_);
         const bool exact = options.meets == MeetTreatment::exact && !options.meets_shown;
         count_beside_prior(
-            mesh_shape_, solid_, exact ? k_meet_miss * 2 * half_width() : 0,
+            mesh_shape_, solid_, exact ? k_prior.meet_miss * 2 * half_width() : 0,
             [&](const Reading& r) { return unit_of(r); }, readings_);
     }
     find_exchanges();
@@ -129,7 +121,7 @@ void System::bring_upright() {
     upright_ = turn_upright(up);
     Vec3 out_up = up;
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(up[axis]) < std::cos(radians(k_snap))) continue;
+        if (std::abs(up[axis]) < std::cos(radians(k_frame.snap_deg))) continue;
         out_up = Vec3(0);
         out_up[axis] = up[axis] > 0 ? 1 : -1;
     }
@@ -269,14 +261,14 @@ void System::add_extras() {
 }
 
 bool System::is_girdle(int facet) const {
-    return std::abs(solid_.facets[facet].plane.normal.z) < std::sin(radians(k_girdle_tilt));
+    return std::abs(solid_.facets[facet].plane.normal.z) <
+           std::sin(radians(k_frame.girdle_tilt_deg));
 }
 
 double System::half_width() const {
-    constexpr int k_directions = 36;  // 5 degrees apart
     double widest = 0;
-    for (int k = 0; k < k_directions; ++k) {
-        const double a = std::numbers::pi * k / k_directions;
+    for (int k = 0; k < k_frame.width_directions; ++k) {
+        const double a = std::numbers::pi * k / k_frame.width_directions;
         widest = std::max(widest, width_along(solid_, Vec3{std::cos(a), std::sin(a), 0}));
     }
     return 0.5 * widest;

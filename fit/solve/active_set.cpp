@@ -2,25 +2,13 @@
 
 #include <algorithm>
 
+#include "fit/solve/constants.h"
 #include "fit/solve/constrained_newton.h"
 #include "fit/solve/sign_ambiguity.h"
 
 namespace culet {
 
 namespace {
-
-// Rounds: each finds another meaning, or corners to hold.
-constexpr int k_most_meanings = 8, k_most_holding = 8;
-// No other meanings are looked for once that took so many multiplications (of a thousand facets,
-// one end of which takes some 15 s).
-constexpr double k_most_work = 1.5e10;
-// Of chi-square: ends that differ by less are one.
-constexpr double k_gain = 1e-3;
-// In half diameters, far above rounding and far below what corners are held below a facet; and far
-// above that.
-constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
-// Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
-constexpr double k_cost_of_an_edge = 4;
 
 // The best of the ends near this one that other signs of facets near upright lead to.
 LocalOptimum with_best_signs(Relaxation& relaxation, KktSolver& solver,
@@ -31,16 +19,17 @@ LocalOptimum with_best_signs(Relaxation& relaxation, KktSolver& solver,
         LocalOptimum other =
             constrained_newton(relaxation, solver, another, {}, {.iterations = options.iterations});
         other.iterations += optimum.iterations;
-        if (!(other.chi2 < optimum.chi2 - k_gain)) return false;
+        if (!(other.chi2 < optimum.chi2 - k_signs.same_end)) return false;
         optimum = std::move(other);
         return true;
     };
-    for (int round = 0; round < k_most_meanings && !(optimum.chi2 < options.agreeable) &&
-                        solver.work() < k_most_work;
+    for (int round = 0; round < k_signs.most_rounds && !(optimum.chi2 < options.agreeable) &&
+                        solver.work() < k_signs.most_work;
          ++round) {
         relaxation.forget_contacts(optimum.shared_contacts);
-        const std::vector<Shape> others = better_signs(relaxation, solver, optimum.shape, penalty,
-                                                       k_nearly_upright, k_most_leanings);
+        const std::vector<Shape> others =
+            better_signs(relaxation, solver, optimum.shape, penalty, k_signs.nearly_upright,
+                         k_signs.most_choices);
         if (std::none_of(others.begin(), others.end(), gains_from)) break;
     }
     return optimum;
@@ -54,10 +43,10 @@ bool is_among(const std::vector<ActiveCorner>& all, const ActiveCorner& corner) 
 // turn over if they could, unless drawn so (in rounding, beside others that are held).
 std::vector<ActiveCorner> corners_to_hold(const Relaxation& relaxation, const Shape& shape) {
     std::vector<ActiveCorner> above = relaxation.above(shape);
-    const std::vector<ActiveCorner> nearly = relaxation.above(shape, k_no_length);
+    const std::vector<ActiveCorner> nearly = relaxation.above(shape, k_held.no_length);
     if (nearly.size() == above.size()) return above;
     const std::vector<ActiveCorner> drawn =
-        relaxation.above(relaxation.system().mesh_shape(), k_drawn);
+        relaxation.above(relaxation.system().mesh_shape(), k_held.drawn);
     for (const ActiveCorner& h : nearly) {
         if (!is_among(drawn, h) && !is_among(above, h)) above.push_back(h);
     }
@@ -88,10 +77,10 @@ void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOpti
                   LocalOptimum& optimum, ActiveSetFit& result) {
     // A few steps a round, or it leads nowhere.
     int left = options.iterations;
-    for (int round = 0; round < k_most_holding && left > 0 && optimum.chi2 < options.hopeless;
+    for (int round = 0; round < k_held.most_rounds && left > 0 && optimum.chi2 < options.hopeless;
          ++round) {
         // What does not meet will not with more corners held.
-        if (optimum.worst_hard > k_all_but_met) break;
+        if (optimum.worst_hard > k_newton.all_but_met) break;
         const bool come_down = round == 0 && relaxation.above(optimum.shape).empty();
         const std::vector<ActiveCorner> above = corners_to_hold(relaxation, optimum.shape);
         if (!hold_more(relaxation, above, result.held)) break;
@@ -107,7 +96,7 @@ void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOpti
         bring_to_meet(relaxation, result.held, next);
         left -= next.iterations;
         next.iterations += optimum.iterations;
-        if (come_down && !(next.chi2 < optimum.chi2 + k_cost_of_an_edge)) {
+        if (come_down && !(next.chi2 < optimum.chi2 + k_held.cost_of_an_edge)) {
             result.held.clear();
             break;
         }

@@ -1,3 +1,4 @@
+#include "fit/solve/constants.h"
 #include "fit/solve/constrained_newton.h"
 #include "fit/solve/second_order_correction.h"
 
@@ -5,20 +6,18 @@ namespace culet {
 
 namespace {
 
-constexpr double k_rounding = 1e-14;
-
 // Smallest steps onto the hard equations, until rounding is all that is left.
 Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<ActiveCorner>& held) {
     PenaltyScale penalty;
     penalty.with_priors = penalty.with_hinges = false;
     double missed = relaxation.worst_hard(shape);
-    for (const double least : {KktSolver::k_least_variance, k_least_close}) {
-        if (missed < k_rounding) break;
+    for (const double least : {k_kkt.least_variance, k_kkt.least_variance_close}) {
+        if (missed < k_newton.rounding) break;
         const StepLinearisation here = relaxation.linearisation(shape, penalty, held);
         KktSolver solver;
         if (!solver.factor(here.rows, relaxation.metric(), {}, least)) break;
         Shape next = onto_hard_equations(relaxation, solver, here, penalty, shape,
-                                         {.most = 10, .met = k_met, .precision = 1e-13})
+                                         {.most = 10, .met = k_newton.met, .precision = 1e-13})
                          .shape;
         const double missed_there = relaxation.worst_hard(next);
         if (!(missed_there < missed)) continue;
@@ -43,7 +42,7 @@ void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
 void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                    LocalOptimum& optimum) {
     optimum.shape = onto_constraints(relaxation, std::move(optimum.shape), held);
-    if (!held.empty() && relaxation.worst_hard(optimum.shape) > k_rounding) {
+    if (!held.empty() && relaxation.worst_hard(optimum.shape) > k_newton.rounding) {
         // Corners held next to an edge of no length bind so tightly that meets give way. The meets
         // alone, from here, move less than what corners are held below.
         Shape met = onto_constraints(relaxation, optimum.shape, {});

@@ -11,18 +11,12 @@
 #include <vector>
 
 #include "fit/model/orbits.h"
+#include "fit/solve/constants.h"
 #include "stone/units.h"
 
 namespace culet {
 
 namespace {
-
-// By how much a result may lie otherwise than it was fitted.
-constexpr double k_range_deg = 0.3;
-// Corners so far below the outermost, in half diameters, are not touched within that.
-constexpr double k_out_of_reach = 0.05;
-// In half diameters, far above rounding and below anything that is read.
-constexpr double k_level = 1e-9;
 
 // One side of a caliper, and the corners that it may touch.
 struct Jaw {
@@ -47,7 +41,8 @@ struct Jaw {
                                    std::numbers::pi);
                 if (!(std::abs(turn) < range)) continue;
                 const glm::dmat3 back = turn_about_z(-turn);
-                if (glm::dot(back * out, corners[i]) > farthest(back) - k_level) to.push_back(turn);
+                if (glm::dot(back * out, corners[i]) > farthest(back) - k_jaws.level)
+                    to.push_back(turn);
             }
         }
     }
@@ -56,7 +51,7 @@ struct Jaw {
 Jaw jaw_at(const Vec3& out, const std::vector<int>& corners, const Shape& shape) {
     Jaw jaw{out, {}};
     for (const int p : corners) jaw.corners.push_back(shape.points[std::size_t(p)]);
-    const double least = jaw.farthest(glm::dmat3(1.0)) - k_out_of_reach;
+    const double least = jaw.farthest(glm::dmat3(1.0)) - k_jaws.out_of_reach;
     std::erase_if(jaw.corners, [&](const Vec3& p) { return glm::dot(out, p) < least; });
     return jaw;
 }
@@ -81,7 +76,7 @@ Shape turned_to_calipers(const Relaxation& relaxation, const Shape& shape) {
         return sum;
     };
     // Smooth between the turns at which a jaw changes corners, and often least at one of these.
-    const double range = radians(k_range_deg);
+    const double range = radians(k_jaws.turn_range_deg);
     std::vector<double> turns{-range, 0, range};
     for (const std::array<Jaw, 2>& both : jaws) {
         for (const Jaw& jaw : both) jaw.add_changes(range, turns);

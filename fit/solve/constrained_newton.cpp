@@ -3,41 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/solve/constants.h"
 #include "fit/solve/second_order_correction.h"
 
 namespace culet {
 
 namespace {
-
-// Parameters that the readings hold to better than the mesh does are moved by all but this part of
-// their way in each step; those that no reading holds do not move.
-constexpr double k_first_damping = 1e-2;
-constexpr double k_least_damping = 1e-6;
-
-// Corrections of longer steps end here.
-constexpr double k_far_from_met = 1e-13;
-// Corrections of steps so short may be the last ones.
-constexpr double k_near_met = 1e-3;
-constexpr double k_nearly_met = 1e-10;
-constexpr int k_most_choices = 12;
-// Steps in a row that gain nothing, at the end: this part of chi-square.
-constexpr int k_quiet = 2;
-constexpr double k_no_gain = 1e-8;
-// Of Newton's steps: the next would be gone in rounding.
-constexpr double k_short = 1e-7;
-// Part of chi-square: meanings that differ by less are one. Jaws that touch two corners at once
-// change their mind about places a ten-millionth of a sigma apart.
-constexpr double k_same_meaning = 1e-7;
-// Of chi-square: where a step gains less, the shape tells what the readings mean.
-constexpr double k_little = 0.05;
-
-// Half a unit is half the stone's radius: no linearisation holds so far.
-constexpr double k_longest = 0.2;
-
-// Of a long step the first ones take little each; what they leave would count against the step.
-constexpr int k_most_corrections = 12;
-// What a correction leaves, the next one takes.
-constexpr double k_correction_precision = 1e-3;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -72,7 +43,7 @@ public:
         choose(shape_, outline_);
         if (options.contacts_shared) relaxation.share_level_corners(shape_);
         here_ = linearised(shape_);
-        damping_ = options.near_an_end ? k_least_damping : k_first_damping;
+        damping_ = options.near_an_end ? k_newton.least_damping : k_newton.first_damping;
     }
 
     LocalOptimum run();
@@ -117,7 +88,7 @@ private:
     /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
     /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
     bool asked_ = false;
-    double least_ = KktSolver::k_least_variance;
+    double least_ = k_kkt.least_variance;
     bool may_be_close_ = true;
     LocalOptimum result_;
 };
@@ -131,11 +102,12 @@ void Newton::take_curvature_of_the_end() {
 }
 
 bool Newton::meaning_changes() {
-    if (outline_ || choices_ > k_most_choices) return false;  // chosen at each shape
+    if (outline_ || choices_ > k_newton.most_branches) return false;  // chosen at each shape
     asked_ = true;
     relaxation_.choose(shape_, true);
     StepLinearisation fresh = linearised(shape_);
-    if (std::abs(fresh.merit - here_.merit) < k_same_meaning * (1 + here_.merit)) return false;
+    if (std::abs(fresh.merit - here_.merit) < k_newton.same_branch * (1 + here_.merit))
+        return false;
     ++choices_;
     here_ = std::move(fresh);
     quiet_ = 0;
@@ -160,15 +132,15 @@ bool Newton::factor() {
     }
     curved_ = false;
     if (solver_.factor(here_.rows, damping_ * metric_, {}, least_)) return true;
-    if (least_ != k_least_close) return false;
-    least_ = KktSolver::k_least_variance;
+    if (least_ != k_kkt.least_variance_close) return false;
+    least_ = k_kkt.least_variance;
     may_be_close_ = false;
     return solver_.factor(here_.rows, damping_ * metric_);
 }
 
 void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Solution& solution,
                     double before, double gain, double length) {
-    quiet_ = gain < k_no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
+    quiet_ = gain < k_newton.no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
     // The next of Newton's steps would be shorter by the square of what this one is, and would gain
     // less by the square of that.
     const double shrinks =
@@ -176,7 +148,8 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
     const double next_length = length * shrinks * shrinks,
                  next_gain = std::abs(gain) * std::pow(shrinks, 4);
     length_before_ = length;
-    if (curved_ && next_length < k_short && next_gain < k_no_gain * (1 + before)) quiet_ = k_quiet;
+    if (curved_ && next_length < k_newton.short_step && next_gain < k_newton.no_gain * (1 + before))
+        quiet_ = k_newton.quiet_steps;
     shape_ = std::move(next);
     // The exact Hessian near the end: weak parameters would creep.
     if (length < 1e-2) {
@@ -184,9 +157,10 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
         curved_ = true;
     }
     here_ = std::move(there);
-    damping_ = std::max(k_least_damping, damping_ / 5);
+    damping_ = std::max(k_newton.least_damping, damping_ / 5);
     // Once in each meaning, when there is little left to gain from it.
-    if (!asked_ && next_gain < k_little && here_.hard_sum < k_all_but_met) meaning_changes();
+    if (!asked_ && next_gain < k_newton.little && here_.hard_sum < k_newton.all_but_met)
+        meaning_changes();
 }
 
 Newton::Step Newton::step() {
@@ -197,14 +171,14 @@ Newton::Step Newton::step() {
     if (!solution.good) return made;
     Eigen::VectorXd step = solution.unknowns;
     made.length = step.cwiseAbs().maxCoeff();
-    if (made.length > k_longest) step *= k_longest / made.length;
-    Corrected corrected =
-        onto_hard_equations(relaxation_, solver_, here_, penalty_,
-                            relaxation_.parameters().retracted_with_turn(shape_, steps(step)),
-                            {.most = k_most_corrections,
-                             .met = made.length < k_near_met ? k_met : k_far_from_met,
-                             .precision = k_correction_precision});
-    if (corrected.stalls && may_be_close_) least_ = k_least_close;
+    if (made.length > k_newton.longest) step *= k_newton.longest / made.length;
+    Corrected corrected = onto_hard_equations(
+        relaxation_, solver_, here_, penalty_,
+        relaxation_.parameters().retracted_with_turn(shape_, steps(step)),
+        {.most = k_newton.most_corrections,
+         .met = made.length < k_newton.near ? k_newton.met : k_newton.far_from_met,
+         .precision = k_newton.correction_precision});
+    if (corrected.stalls && may_be_close_) least_ = k_kkt.least_variance_close;
     Shape next = std::move(corrected.shape);
     std::shared_ptr<const Outline> outline;
     if (outline_) {
@@ -215,8 +189,8 @@ Newton::Step Newton::step() {
     StepLinearisation there = linearised(next);
     // The hard equations first: their size is the size of what they leave undone. They are brought
     // to rounding at the end; so little does not count.
-    const double before = here_.merit + 1e6 * std::max(0.0, here_.hard_sum - k_nearly_met),
-                 after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
+    const double before = here_.merit + 1e6 * std::max(0.0, here_.hard_sum - k_newton.nearly_met),
+                 after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_newton.nearly_met);
     made.better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
     if (made.better) {
         outline_ = std::move(outline);
@@ -225,8 +199,8 @@ Newton::Step Newton::step() {
     }
     if (outline_) choose(shape_, outline_);
     // Newton's step, and the sums' own rounding.
-    made.idle = there.finite && curved_ && made.length < k_short &&
-                after - before < k_no_gain * (1 + before);
+    made.idle = there.finite && curved_ && made.length < k_newton.short_step &&
+                after - before < k_newton.no_gain * (1 + before);
     return made;
 }
 
@@ -246,7 +220,7 @@ LocalOptimum Newton::run() {
         result_.iterations = i + 1;
         const Step made = step();
         if (!made.better && gives_up(made)) break;
-        if (quiet_ >= k_quiet && ends(true)) break;
+        if (quiet_ >= k_newton.quiet_steps && ends(true)) break;
     }
     result_.shape = std::move(shape_);
     result_.outline = std::move(outline_);

@@ -11,14 +11,6 @@
 
 namespace culet {
 
-/// Meets that miss by more, all together, do not meet.
-inline constexpr double k_all_but_met = 1e-6;
-/// Of what meets to rounding: each residual is a sum of four products of numbers up to one.
-inline constexpr double k_met = 1e-15;
-/// Exact equations that are nearly one (of corners held where planes are nearly parallel) are
-/// factored with this variance, where that can be done.
-inline constexpr double k_least_close = 1e-11;
-
 /// Its `outline` is that of a stone whose meets come apart.
 struct LocalOptimum : Finished {
     std::vector<SharedContact> shared_contacts;  ///< of the meaning that it is the end of

@@ -5,12 +5,9 @@
 #include <memory>
 
 #include "fit/model/system.h"
+#include "fit/solve/constants.h"
 
 namespace culet {
-
-/// What is left of hard equations after the last stage is rounding: not more than this part of the
-/// half diameter, or so many radians. Exact readings that miss by more contradict each other.
-inline constexpr double k_hard_limit = 1e-12;
 
 struct Finished {
     Shape shape;

@@ -1,4 +1,5 @@
 #include "fit/solve/kkt_solver.h"
+#include "fit/solve/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,18 +9,8 @@ namespace culet {
 
 namespace {
 
-constexpr int k_refinements = 12;
-// Measured, in multiplications of a factorisation: what finding the order of elimination, and the
-// solutions that follow a factorisation, take of each row.
-constexpr double k_ordered = 2000, k_solved = 400;
-// A refinement that leaves more than this part of what was left leads nowhere.
-constexpr double k_least_progress = 0.7;
-// Larger solutions are those of a matrix that is singular but for rounding. Up to here their
-// products with any entry, and sums of such, are numbers.
-constexpr double k_most = 1e150;
-
 bool are_sound(const Eigen::MatrixXd& numbers) {
-    return numbers.allFinite() && (numbers.array().abs() < k_most).all();
+    return numbers.allFinite() && (numbers.array().abs() < k_kkt.largest).all();
 }
 
 bool have_one_pattern(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix<double>& b) {
@@ -59,9 +50,9 @@ bool KktSolver::factor(const JacobianRows& rows, const Eigen::VectorXd& stiffnes
     assemble(rows, stiffness, curvature, least);
     if (!have_one_pattern(before, matrix_)) {
         factors_.analyse(matrix_);
-        work_ += k_ordered * double(matrix_.rows());
+        work_ += k_kkt.ordering_work * double(matrix_.rows());
     }
-    work_ += k_solved * double(matrix_.rows());
+    work_ += k_kkt.solving_work * double(matrix_.rows());
     if (!factors_.factor(matrix_)) return false;
     const Matrix& lower = factors_.lower();
     for (Eigen::Index j = 0; j < lower.cols(); ++j) {
@@ -86,12 +77,12 @@ Eigen::VectorXd KktSolver::refined(const Eigen::VectorXd& right, double precisio
     const double enough = precision * right.lpNorm<Eigen::Infinity>();
     Eigen::VectorXd left = left_by(x);
     double size = left.lpNorm<Eigen::Infinity>();
-    for (int round = 0; round < k_refinements && size > enough; ++round) {
+    for (int round = 0; round < k_kkt.refinements && size > enough; ++round) {
         const Eigen::VectorXd next = x + factors_.solve(left);
         if (!are_sound(next)) break;
         Eigen::VectorXd next_left = left_by(next);
         const double next_size = next_left.lpNorm<Eigen::Infinity>();
-        if (!(next_size < k_least_progress * size)) break;
+        if (!(next_size < k_kkt.least_progress * size)) break;
         x = next;
         left = std::move(next_left);
         size = next_size;

@@ -16,6 +16,7 @@
 
 #include "fit/model/jacobian_rows.h"
 #include "fit/model/sparse_ldl.h"
+#include "fit/solve/constants.h"
 
 namespace culet {
 
@@ -28,10 +29,8 @@ public:
     /// smaller it is, the nearer to each other exact equations may be before refinement fails, and
     /// the sooner equations that repeat each other cannot be factored.
     bool factor(const JacobianRows& rows, const Eigen::VectorXd& stiffness,
-                const std::vector<SymmetricEntry>& curvature = {}, double least = k_least_variance);
-    /// Far above rounding, far below the variance of anything that is read (lengths are in half
-    /// diameters).
-    static constexpr double k_least_variance = 1e-9;
+                const std::vector<SymmetricEntry>& curvature = {},
+                double least = k_kkt.least_variance);
     struct Solution {
         Eigen::VectorXd unknowns, forces;
         bool good = false;

@@ -1,4 +1,5 @@
 #include "fit/solve/null_space.h"
+#include "fit/solve/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +12,6 @@ namespace culet {
 namespace {
 
 using Entries = std::vector<std::pair<int, double>>;
-
-// What is left of an equation after substitution, relative to what went into it, when it only
-// repeats others.
-constexpr double k_repeats = 1e-10;
-// And relative to what its rounding errors are in proportion to: fifty times the unit of rounding,
-// as many terms as are added up.
-constexpr double k_rounding_of_rows = 1e-14;
-// A preferred column is taken when its entry is at least this part of the largest.
-constexpr double k_preferred = 0.1;
-// Entries this much smaller than the largest of their sum are what cancellation leaves.
-constexpr double k_cancelled = 1e-15;
 
 // Forward elimination: an expression stands in unknowns that were left when it was made. What
 // became of those since is put in at the end, once, from the last one made to the first.
@@ -39,14 +29,15 @@ public:
         substitute(equation);
         double largest = 0;
         for (const auto& [column, value] : row_) largest = std::max(largest, std::abs(value));
-        if (!(largest > k_repeats * most_ && largest > k_rounding_of_rows * doubt_)) return false;
+        if (!(largest > k_null_space.repeats * most_ && largest > k_null_space.rounding * doubt_))
+            return false;
         int pivot = -1;
         double best = 0, at_pivot = 0;
         for (const auto& [column, value] : row_) {
             const bool preferred = column >= first_preferred && column < end_preferred;
             const double rank =
                 std::abs(value) +
-                (preferred && std::abs(value) > k_preferred * largest ? 2 * largest : 0);
+                (preferred && std::abs(value) > k_null_space.preferred * largest ? 2 * largest : 0);
             if (rank > best) {
                 best = rank;
                 pivot = column;
@@ -99,7 +90,7 @@ private:
     // What is left of an unknown in the sum, which loses it.
     double taken(int column) {
         const std::size_t c = std::size_t(column);
-        const double value = std::abs(sum_[c]) > k_cancelled * size_[c] ? sum_[c] : 0;
+        const double value = std::abs(sum_[c]) > k_null_space.cancelled * size_[c] ? sum_[c] : 0;
         sum_[c] = size_[c] = 0;
         return value;
     }

@@ -8,20 +8,13 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "fit/solve/constants.h"
 #include "fit/solve/manifolds.h"
 #include "stone/errors.h"
 
 namespace culet {
 
 namespace {
-
-// Stages only have to lead to the next one: they end where a step gains less than this part.
-constexpr double k_enough = 1e-3;
-// Corners that lie less than this many times the stage's penalty scale below a neighbour facet may
-// rise above it. With 1 instead of 5, two of ten step cuts drawn wrong by 10 % were lost.
-constexpr double k_near = 5;
-// Of the corpus none was lost with 1e3; with Ceres' own 1e4 one was.
-constexpr double k_first_trust = 1e3;
 
 // The shape as blocks of numbers: of each orbit the first facet and the first point, and the extra
 // unknowns. Ceres moves the blocks; the whole shape follows.
@@ -213,8 +206,8 @@ ceres::Solver::Options solver_options(int most_steps) {
     // Hinges that press nothing have no slope. Left out of the pattern they fill no factor:
     // stages of 979 facets take a sixth of the time.
     solver.dynamic_sparsity = true;
-    solver.function_tolerance = k_enough;
-    solver.initial_trust_region_radius = k_first_trust;
+    solver.function_tolerance = k_stage.least_gain;
+    solver.initial_trust_region_radius = k_stage.first_trust;
     solver.logging_type = ceres::SILENT;
     solver.max_num_iterations = most_steps;
     return solver;
@@ -232,8 +225,8 @@ Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale
     ceres::Problem problem(settings);
     blocks.add_to(problem);
     using Term = Relaxation::Term;
-    for (const Term& term :
-         relaxation.terms(penalty, {}, relaxation.above(shape, k_near * penalty.incidence))) {
+    for (const Term& term : relaxation.terms(
+             penalty, {}, relaxation.above(shape, k_stage.hinge_margin * penalty.incidence))) {
         const bool is_hinge = term.kind == Term::Kind::hinge;
         add(is_hinge ? positive_part(term.formula) : term.formula, std::sqrt(term.variance), blocks,
             problem);

@@ -6,18 +6,14 @@
 #include <map>
 #include <numeric>
 
+#include "fit/model/constants.h"
 #include "fit/model/linear.h"
+#include "fit/solve/constants.h"
 #include "fit/solve/relaxation_terms.h"
 
 namespace culet {
 
 namespace {
-
-// Level at the end of an earlier fit, in half diameters: as exactly as a turn can be found.
-constexpr double k_was_level = 1e-7;
-// Of the force of a reading that is off by its sigma: with less a shared contact holds nothing, be
-// it level by symmetry or on a level facet.
-constexpr double k_no_force = 1e-3;
 
 // One pair of facet and point of each orbit, and how many go with it.
 class OrbitPairs {
@@ -112,7 +108,7 @@ void Relaxation::share_level_corners(const Shape& shape) {
             for (const int c : corners_between_jaws(e)) {
                 const double below =
                     glm::dot(e.caliper, shape.points[std::size_t(touched)] - shape.points[c]);
-                if (c == touched || !(std::abs(below) < k_was_level)) continue;
+                if (c == touched || !(std::abs(below) < k_jaws.was_level)) continue;
                 shared_contacts_.push_back({touched, c, e.caliper, static_cast<int>(i), jaw});
             }
         }
@@ -124,8 +120,9 @@ bool Relaxation::contacts_hold(const Shape& shape) const {
     for (const SharedContact& contact : shared_contacts_) {
         const Equation& e = equations_[std::size_t(contact.equation)];
         const double pull = (e.formula(shape).value - e.value) / (e.sigma * e.sigma);
-        const double force = off_level(shape, contact) / (k_contact_sigma * k_contact_sigma);
-        if (std::abs(force) * e.sigma < k_no_force) continue;
+        const double force =
+            off_level(shape, contact) / (k_jaws.contact_sigma * k_jaws.contact_sigma);
+        if (std::abs(force) * e.sigma < k_jaws.no_force) continue;
         const int touched = e.touched[std::size_t(contact.jaw)].point;
         const double share =
             (contact.jaw == 0) == (touched == contact.one) ? -force / pull : force / pull;
@@ -155,6 +152,8 @@ Relaxation::Counts Relaxation::counts() const {
         counts.soft += how == MeetTreatment::soft;
     }
     for (const Equation& e : equations_) (e.exact ? counts.hard : counts.soft) += e.readings();
+    const int shifts = parameters_.orbits().empty() ? 3 : 1;
+    counts.free = std::max(0, parameters_.size() - counts.hard - shifts);
     return counts;
 }
 
@@ -179,13 +178,13 @@ Eigen::VectorXd Relaxation::metric() const {
     const std::vector<bool> loose = loose_points(system_);
     for (std::size_t p = 0; p < loose.size(); ++p) {
         if (loose[p])
-            metric.segment(basis.points[p].column, basis.points[p].count) *= k_loose_point;
+            metric.segment(basis.points[p].column, basis.points[p].count) *= k_shapes.loose_point;
     }
     return metric;
 }
 
 bool Relaxation::binds(const Shape& shape, const ActiveCorner& held) const {
-    return height(shape, held.facet, held.point) > -1.5 * k_hold_below;
+    return height(shape, held.facet, held.point) > -1.5 * k_held.below;
 }
 
 bool are_ends_of_one_edge(const System& system, const ActiveCorner& one,

@@ -122,9 +122,10 @@ public:
     int binding(const Shape& shape, const std::vector<ActiveCorner>& held) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }
 
-    /// Readings and soft meets; equations that hold exactly.
+    /// Readings and soft meets; equations that hold exactly; and directions that these leave free,
+    /// less the shifts that nothing sees.
     struct Counts {
-        int soft = 0, hard = 0;
+        int soft = 0, hard = 0, free = 0;
     };
     Counts counts() const;
     /// What the true stone is expected to leave of such a stage's merit, but for its priors.

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/solve/constants.h"
 #include "fit/solve/relaxation.h"
 #include "fit/solve/relaxation_terms.h"
 
@@ -36,16 +37,17 @@ std::vector<Relaxation::Term> Relaxation::terms(const PenaltyScale& penalty,
     for (const ActiveCorner& h : held) {
         all.push_back({[h](const Shape& shape) {
                            Quantity q = culet::height(h.facet, Corner{h.point})(shape);
-                           q.value += k_hold_below;
+                           q.value += k_held.below;
                            return q;
                        },
-                       k_hold_sigma * k_hold_sigma, Term::Kind::held_corner});
+                       k_held.sigma * k_held.sigma, Term::Kind::held_corner});
         all.back().corner = h;
     }
     for (const SharedContact& contact : shared_contacts_) {
-        all.push_back({extent(Corner{contact.one}, Corner{contact.other}, contact.direction),
-                       k_contact_sigma * k_contact_sigma + penalty.incidence * penalty.incidence,
-                       Term::Kind::contact});
+        all.push_back(
+            {extent(Corner{contact.one}, Corner{contact.other}, contact.direction),
+             k_jaws.contact_sigma * k_jaws.contact_sigma + penalty.incidence * penalty.incidence,
+             Term::Kind::contact});
     }
     for (const ActiveCorner& h : hinges) {
         if (std::find(held.begin(), held.end(), h) != held.end()) continue;
@@ -70,7 +72,7 @@ StepLinearisation Relaxation::linearisation(const Shape& shape, const PenaltySca
             sum.hard_sum += is_held ? std::max(0.0, q.value) : std::abs(q.value);
         }
         // Nothing pulls up what lies below where it is held.
-        if (is_held && !(q.value > -k_at_level)) continue;
+        if (is_held && !(q.value > -k_held.at_level)) continue;
         if (is_held) {
             sum.holding.push_back(term.corner);
         } else if (term.variance > 0) {

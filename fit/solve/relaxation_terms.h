@@ -4,29 +4,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/solve/constants.h"
 #include "fit/solve/relaxation.h"
 
 namespace culet {
-
-// Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
-// far above rounding, far below anything one could measure.
-inline constexpr double k_hold_below = 1e-7;
-// About so far: an edge that would turn over asks its two ends to be held, which one length of the
-// edge can do but about.
-inline constexpr double k_hold_sigma = 1e-8;
-// Held corners this near to their level lie at it.
-inline constexpr double k_at_level = 0.1 * k_hold_below;
-// Corners that share a caliper's jaw are level to this part of the half diameter.
-inline constexpr double k_contact_sigma = 1e-6;
-// Lengths are rounded off over this many times the stage's penalty scale, or the kink still shows.
-inline constexpr double k_round = 3;
 
 // Formula less value as a stage has it. Lengths have a kink at zero: sqrt(l^2 + s^2) on both sides,
 // so that what is shorter than s is all the same to the stage, and has no direction to be held to.
 inline Quantity misfit_of(const Equation& e, const Shape& shape, const PenaltyScale& penalty) {
     Quantity q = e.formula(shape);
     if (e.has_kink && penalty.incidence > 0) {
-        const double s = k_round * penalty.incidence, round = std::hypot(q.value, s);
+        const double s = k_stage.kink_width * penalty.incidence, round = std::hypot(q.value, s);
         for (Quantity::Slope& slope : q.slopes) slope.slope *= q.value / round;
         q.value = round - std::hypot(e.value, s);
     } else {

@@ -1,17 +1,10 @@
 #include "fit/solve/second_order_correction.h"
+#include "fit/solve/constants.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace culet {
-
-namespace {
-
-// Variance of equations whose bend is mended within a step: exact ones, corners that are held,
-// and readings sharper than rounding.
-constexpr double k_all_but_exact = 1e-15;
-
-}  // namespace
 
 Corrected onto_hard_equations(const Relaxation& relaxation, const KktSolver& solver,
                               const StepLinearisation& linearisation, const PenaltyScale& penalty,
@@ -21,7 +14,7 @@ Corrected onto_hard_equations(const Relaxation& relaxation, const KktSolver& sol
     double off_before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < correction.most; ++k) {
         const Relaxation::Missed missed =
-            relaxation.missed(shape, penalty, linearisation.holding, k_all_but_exact);
+            relaxation.missed(shape, penalty, linearisation.holding, k_newton.corrected_variance);
         if (missed.worst < correction.met) break;
         if (!(missed.worst < 0.5 * off_before)) return {std::move(shape), true};
         off_before = missed.worst;

@@ -1,4 +1,5 @@
 #include "fit/solve/sign_ambiguity.h"
+#include "fit/solve/constants.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -9,16 +10,6 @@
 namespace culet {
 
 namespace {
-
-constexpr double k_damping = 1e-6;
-// Of what one turn does to the others.
-constexpr double k_precision = 1e-4;
-// Of chi-square; less is not worth another round.
-constexpr double k_least_gain = 0.01;
-// A step this long in one of the parameters is no longer linear.
-constexpr double k_farthest = 0.5;
-// Chains begin at each facet; of more than so many at those whose first turn costs least.
-constexpr std::size_t k_most_begins = 128;
 
 // Which facets to turn so that 2 r't + t'B t is least, t being 1 for those that are turned and 0
 // for the others: one and two at a time as long as that gains, then by chains of turns (Kernighan &
@@ -35,7 +26,7 @@ public:
         while (left-- > 0 && gain_by_one_or_two()) continue;
     }
     bool gain_by_one_or_two() {
-        double best = -k_least_gain;
+        double best = -k_signs.least_gain;
         Eigen::Index first = -1, second = -1;
         for (Eigen::Index i = 0; i < r_.size(); ++i) {
             const double one = alone(i);
@@ -63,11 +54,11 @@ public:
     std::vector<Turns> ends_of_chains() const {
         std::vector<Eigen::Index> begins;
         for (Eigen::Index i = 0; i < r_.size(); ++i) begins.push_back(i);
-        if (begins.size() > k_most_begins) {
+        if (begins.size() > k_signs.most_begins) {
             std::stable_sort(begins.begin(), begins.end(), [this](Eigen::Index a, Eigen::Index b) {
                 return alone(a) < alone(b);
             });
-            begins.resize(k_most_begins);
+            begins.resize(k_signs.most_begins);
         }
         std::vector<Turns> ends;
         for (const Eigen::Index begin : begins) {
@@ -123,7 +114,7 @@ std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::Matrix
                      [](const Turns& a, const Turns& b) { return a.change() < b.change(); });
     std::vector<std::vector<char>> best;
     for (const Turns& end : ends) {
-        if (!(end.change() < -k_least_gain) || best.size() == most) break;
+        if (!(end.change() < -k_signs.least_gain) || best.size() == most) break;
         if (std::find(best.begin(), best.end(), end.turned()) == best.end())
             best.push_back(end.turned());
     }
@@ -147,7 +138,7 @@ std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::F
             shifts(row, i) = shift;
         }
     }
-    const auto solved = solver.solve_all(Eigen::MatrixXd(), shifts, k_precision);
+    const auto solved = solver.solve_all(Eigen::MatrixXd(), shifts, k_signs.precision);
     if (!solved.good) return {};
     Eigen::MatrixXd big = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -181,7 +172,7 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
     if (folded.empty()) return {};
     const StepLinearisation linearisation = relaxation.linearisation(shape, penalty);
     if (!solver.factor(linearisation.rows,
-                       linearisation.prior_stiffness + k_damping * relaxation.metric()))
+                       linearisation.prior_stiffness + k_signs.damping * relaxation.metric()))
         return {};
     Eigen::VectorXd pulls = linearisation.rows.residuals();
     for (Eigen::Index i = 0; i < pulls.size(); ++i) {
@@ -191,8 +182,8 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.parameters().size());
     std::vector<Shape> others;
     for (const Eigen::VectorXd& right : better_sign_choices(folded, solver, pulls, most)) {
-        const auto s = solver.solve(none, right, k_precision);
-        if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_farthest) continue;
+        const auto s = solver.solve(none, right, k_signs.precision);
+        if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_signs.farthest) continue;
         others.push_back(relaxation.parameters().retracted_with_turn(
             shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())}));
     }

@@ -9,11 +9,6 @@
 
 namespace culet {
 
-/// Sine: facets that may lean either way at the end of a search.
-inline constexpr double k_nearly_upright = 0.1;
-/// Several choices of sign that promise to be better are tried there: what is promised is linear.
-inline constexpr std::size_t k_most_leanings = 4;
-
 /// By how much the merit changes when the readings of some facets are taken the other way follows
 /// from the residuals r and the matrix R = 1 - J C J' of their redundancies (both in units of
 /// sigma), exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and

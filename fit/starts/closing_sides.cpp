@@ -1,4 +1,5 @@
 #include "fit/starts/closing_sides.h"
+#include "fit/starts/search_policy.h"
 
 #include <algorithm>
 #include <array>
@@ -11,26 +12,6 @@
 namespace culet {
 
 namespace {
-
-// Sums of two squared normal errors exceed this once in a thousand times: where edges close better
-// nothing is asked.
-constexpr double k_open = 13.8;
-// Of one facet, in chi-square: beyond it something else is wrong.
-constexpr double k_most_misfit = 50;
-// A side is known where the other costs five sigmas more.
-constexpr double k_known = 25;
-constexpr double k_least_gain = 1e-6;
-// Turns in one chain, from everywhere and from one facet on.
-constexpr int k_chain = 60, k_local_chain = 14;
-// Chains that cost so much in between lead nowhere.
-constexpr double k_highest = 200;
-constexpr int k_most_rounds = 100;
-// What was not read is off by as much as a hand-made mesh is: a part of an edge's own length.
-constexpr double k_drawn_length = 0.3;
-// An edge's direction is not known at all where its planes are this near to parallel.
-constexpr double k_least_sine = 1e-9, k_any_direction = 1.5;
-// Variance of lengths that are exact.
-constexpr double k_rounding = 1e-24;
 
 struct Sided {
     std::array<Vec3, 2> normal{};  // looking down, looking up
@@ -63,7 +44,7 @@ private:
             left += w.along[own][other];
             variance += w.variance[own][other];
         }
-        return std::min(glm::dot(left, left) / variance, k_most_misfit);
+        return std::min(glm::dot(left, left) / variance, k_closing.most_misfit);
     }
     double around(int facet) const {
         double sum = misfit(std::size_t(facet));
@@ -167,7 +148,7 @@ Closing::Closing(const System& system, const std::vector<int>& known, double rou
             [](const auto& entry, const std::pair<int, int>& p) { return entry.first < p; });
         double length =
             glm::distance(mesh.points[std::size_t(e.from)], mesh.points[std::size_t(e.to)]);
-        double sigma = std::hypot(std::numbers::sqrt2 * rough, k_drawn_length * length);
+        double sigma = std::hypot(std::numbers::sqrt2 * rough, k_closing.drawn_length * length);
         if (at != read.end() && at->first == pair) {
             const Reading& r = *at->second;
             length = r.value / system.unit_of(r);
@@ -181,11 +162,11 @@ Closing::Closing(const System& system, const std::vector<int>& known, double rou
             for (const std::size_t i : {0, 1}) {
                 for (const std::size_t k : {0, 1}) {
                     const Vec3 u = glm::cross(a.normal[i], b.normal[k]);
-                    const double sine = std::max(k_least_sine, glm::length(u));
-                    const double swing = std::min(k_any_direction, turn / sine);
+                    const double sine = std::max(k_closing.least_sine, glm::length(u));
+                    const double swing = std::min(k_closing.any_direction, turn / sine);
                     way.along[i][k] = u * (length / sine);
                     way.variance[i][k] =
-                        k_rounding + sigma * sigma + length * length * swing * swing;
+                        k_closing.rounding + sigma * sigma + length * length * swing * swing;
                 }
             }
             ways_[std::size_t(own)].push_back(way);
@@ -204,7 +185,7 @@ Closing::Chain Closing::chain(const std::vector<int>& from, bool grows, int long
     std::vector<char> is_turned(up_.size(), 0), in_front(up_.size(), 0);
     for (const int f : front) in_front[std::size_t(f)] = 1;
     double height = 0;
-    for (int k = 0; k < longest && height < k_highest; ++k) {
+    for (int k = 0; k < longest && height < k_closing.highest; ++k) {
         int next = -1;
         double least = std::numeric_limits<double>::infinity();
         for (const int f : front) {
@@ -219,7 +200,7 @@ Closing::Chain Closing::chain(const std::vector<int>& from, bool grows, int long
         is_turned[std::size_t(next)] = 1;
         turned.push_back(next);
         height += least;
-        if (height < -best.gain - k_least_gain) best = {-height, turned};
+        if (height < -best.gain - k_closing.least_gain) best = {-height, turned};
         if (!grows) continue;
         for (const int n : near_[std::size_t(next)]) {
             if (!may_turn_[std::size_t(n)] || in_front[std::size_t(n)]) continue;
@@ -232,22 +213,23 @@ Closing::Chain Closing::chain(const std::vector<int>& from, bool grows, int long
 }
 
 void Closing::look() {
-    for (int round = 0; round < k_most_rounds; ++round) {
+    for (int round = 0; round < k_closing.most_rounds; ++round) {
         // Only next to where edges do not close.
         std::vector<int> suspects;
         for (const int f : turning_) {
             const auto& n = near_[std::size_t(f)];
-            if (misfit(std::size_t(f)) > k_open || std::any_of(n.begin(), n.end(), [&](int other) {
-                    return misfit(std::size_t(other)) > k_open;
+            if (misfit(std::size_t(f)) > k_closing.open ||
+                std::any_of(n.begin(), n.end(), [&](int other) {
+                    return misfit(std::size_t(other)) > k_closing.open;
                 })) {
                 suspects.push_back(f);
             }
         }
-        Chain best = chain(suspects, false, k_chain);
+        Chain best = chain(suspects, false, k_closing.chain);
         if (best.turns.empty()) {
             for (const int f : suspects) {
-                Chain other = chain({f}, true, k_local_chain);
-                if (other.gain > best.gain + k_least_gain) best = std::move(other);
+                Chain other = chain({f}, true, k_closing.local_chain);
+                if (other.gain > best.gain + k_closing.least_gain) best = std::move(other);
             }
         }
         if (best.turns.empty()) return;
@@ -258,7 +240,7 @@ void Closing::look() {
 std::vector<int> Closing::sides(std::vector<int> known) const {
     Closing here = *this;
     for (const int f : turning_) {
-        if (here.change(f) > k_known) known[std::size_t(f)] = up_[std::size_t(f)] ? 1 : -1;
+        if (here.change(f) > k_closing.known) known[std::size_t(f)] = up_[std::size_t(f)] ? 1 : -1;
     }
     return known;
 }

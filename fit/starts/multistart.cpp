@@ -94,11 +94,8 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
                            const Progress& progress) {
     const Parameters parameters = system.parameters();
     Relaxation relaxation(system, parameters);
-    // Free directions: parameters less hard equations, less shifts (and a turn) that nothing sees.
     const Relaxation::Counts counts = relaxation.counts();
-    const int counted = counts.soft, hard = counts.hard;
-    const int shifts = parameters.orbits().empty() ? 3 : 1;
-    const int free = std::max(0, parameters.size() - hard - shifts);
+    const int counted = counts.soft, free = counts.free;
 
     Multistart result;
     Screening approaches(system, relaxation);
@@ -142,17 +139,17 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
         const bool accept =
             candidate.agrees && candidate.cost_of_holding < k_search.cheap_holding &&
             (system.has_estimated_groups() ||
-             chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_agrees_well);
+             chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_ends.agrees_well);
         // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
         // way.
         const bool again = good && (candidate.agrees || approaches.mesh_is_good()) &&
                            std::any_of(ends.begin(), ends.end(), [&](double other) {
-                               return std::abs(other - chi2) < k_same_chi2;
+                               return std::abs(other - chi2) < k_ends.same_chi2;
                            });
         if (good) ends.push_back(chi2);
         ++fruitless;
         // What the readings leave open is as the earlier start had it: the mesh before others.
-        if (result.starts++ == 0 || rank(candidate, k_same_chi2) < rank(result.best)) {
+        if (result.starts++ == 0 || rank(candidate, k_ends.same_chi2) < rank(result.best)) {
             result.best = std::move(candidate);
             fruitless = 0;
         }
@@ -164,7 +161,8 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
         if (without_stone == result.starts && without_stone >= k_search.patience_without_stone)
             break;
         // Ending twice where it ended before is no accident, if nothing better was seen.
-        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same_chi2)) break;
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_ends.same_chi2))
+            break;
     }
     return result;
 }

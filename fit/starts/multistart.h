@@ -8,6 +8,7 @@
 #include "fit/model/options.h"
 #include "fit/model/system.h"
 #include "fit/solve/active_set.h"
+#include "fit/starts/search_policy.h"
 #include "stone/progress.h"
 
 namespace culet {
@@ -22,11 +23,6 @@ struct Candidate : ActiveSetFit {
     bool holds() const { return sound && finished.worst_hard < k_hard_limit; }
     bool is_an_end() const { return holds() && finished.converged; }
 };
-
-/// Chance of so large a chi-square, from which on the readings agree well.
-inline constexpr double k_agrees_well = 0.2;
-/// Ends whose chi-squares differ by less are of one stone: a third of a sigma in one reading.
-inline constexpr double k_same_chi2 = 0.1;
 
 struct Multistart {
     Candidate best;

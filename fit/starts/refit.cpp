@@ -42,11 +42,10 @@ Candidate finish_from(const System& system, const Shape& shape, int iterations) 
 Candidate refit_from(const System& system, const Shape& shape, int iterations) {
     const Parameters parameters = system.parameters();
     Relaxation relaxation(system, parameters);
-    // The least redundancy that there can be, by counting: so many shifts at most are unseen.
+    // The least redundancy that there can be, by counting.
     const Relaxation::Counts counts = relaxation.counts();
-    constexpr int k_shifts = 3;
-    const int least = counts.soft + counts.hard + k_shifts - parameters.size();
-    const double agreeable = chi2_quantile(k_agrees_well, std::max(1, least));
+    const double agreeable =
+        chi2_quantile(k_ends.agrees_well, std::max(1, counts.soft - counts.free));
     Candidate candidate = finish_candidate(
         system, relaxation, turned_to_calipers(relaxation, parameters.symmetrised(shape)),
         {.iterations = iterations, .agreeable = agreeable});

@@ -5,20 +5,9 @@
 
 #include "fit/model/linear.h"
 #include "fit/starts/refit.h"
+#include "fit/starts/search_policy.h"
 
 namespace culet {
-
-namespace {
-
-// Of residuals in sigmas (Huber 1964; Holland & Welsch 1977).
-constexpr double k_huber = 1.345, k_cauchy = 2.385;
-constexpr int k_rounds = 40;
-// In multiplications (KktSolver::work), some seconds: of large stones a few rounds have to do.
-constexpr double k_most_work = 5e9;
-// A weight never goes to nothing: a sigma a million times as large says as much.
-constexpr double k_least_weight = 1e-12;
-
-}  // namespace
 
 double robust_weight(Loss loss, double z) {
     z = std::abs(z);
@@ -26,9 +15,10 @@ double robust_weight(Loss loss, double z) {
         case Loss::none:
             return 1;
         case Loss::huber:
-            return z <= k_huber ? 1 : std::max(k_least_weight, k_huber / z);
+            return z <= k_robust.huber ? 1 : std::max(k_robust.least_weight, k_robust.huber / z);
         case Loss::cauchy:
-            return std::max(k_least_weight, 1 / (1 + (z / k_cauchy) * (z / k_cauchy)));
+            return std::max(k_robust.least_weight,
+                            1 / (1 + (z / k_robust.cauchy) * (z / k_robust.cauchy)));
     }
     return 1;
 }
@@ -40,7 +30,7 @@ std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, in
     std::vector<double> weights(count, 1), sigmas;
     for (const Reading& r : system.readings()) sigmas.push_back(r.sigma);
     double work = 0;
-    for (int round = 0; round < k_rounds && work < k_most_work; ++round) {
+    for (int round = 0; round < k_robust.rounds && work < k_robust.most_work; ++round) {
         const Finished& finished = candidate.finished;
         std::vector<double> worst(count, 0);
         for (const Equation& e : system.equations(finished.shape, finished.outline)) {

@@ -55,4 +55,58 @@ struct SearchPolicy {
 
 inline constexpr SearchPolicy k_search;
 
+/// Which way facets look, by the edges round them (closing_sides.h).
+struct ClosingConstants {
+    /// Sums of two squared normal errors exceed this once in a thousand times: where edges close
+    /// better nothing is asked.
+    double open = 13.8;
+    /// Of one facet, in chi-square: beyond it something else is wrong.
+    double most_misfit = 50;
+    /// A side is known where the other costs five sigmas more.
+    double known = 25;
+    double least_gain = 1e-6;
+    /// Turns in one chain, from everywhere and from one facet on.
+    int chain = 60, local_chain = 14;
+    /// Chains that cost so much in between lead nowhere.
+    double highest = 200;
+    int most_rounds = 100;
+    /// What was not read is off by as much as a hand-made mesh is: a part of an edge's own length.
+    double drawn_length = 0.3;
+    /// An edge's direction is not known at all where its planes are this near to parallel.
+    double least_sine = 1e-9, any_direction = 1.5;
+    /// Variance of lengths that are exact.
+    double rounding = 1e-24;
+};
+inline constexpr ClosingConstants k_closing;
+
+/// Robust losses (robust.h).
+struct RobustConstants {
+    /// Of residuals in sigmas (Huber 1964; Holland & Welsch 1977).
+    double huber = 1.345, cauchy = 2.385;
+    int rounds = 40;
+    /// In multiplications (KktSolver::work), some seconds: of large stones a few rounds have to do.
+    double most_work = 5e9;
+    /// A weight never goes to nothing: a sigma a million times as large says as much.
+    double least_weight = 1e-12;
+};
+inline constexpr RobustConstants k_robust;
+
+/// How well a mesh was drawn (starts.h).
+struct DrawnConstants {
+    /// A mesh whose corners lie within this part of the half diameter of their facets' planes was
+    /// drawn with care, if those above a neighbour facet rise so little in the mean square over all
+    /// corners and their neighbours.
+    double drawn_with_care = 0.02, nearly_convex = 0.005;
+};
+inline constexpr DrawnConstants k_drawn;
+
+/// Ends of starts (multistart.h).
+struct EndConstants {
+    /// Chance of so large a chi-square, from which on the readings agree well.
+    double agrees_well = 0.2;
+    /// Ends whose chi-squares differ by less are of one stone: a third of a sigma in one reading.
+    double same_chi2 = 0.1;
+};
+inline constexpr EndConstants k_ends;
+
 }  // namespace culet

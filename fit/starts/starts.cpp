@@ -13,6 +13,7 @@
 #include "fit/model/canonical.h"
 #include "fit/model/orbits.h"
 #include "fit/starts/closing_sides.h"
+#include "fit/starts/search_policy.h"
 #include "stone/checks.h"
 #include "stone/dense_algebra.h"
 #include "stone/upright.h"
@@ -20,11 +21,6 @@
 namespace culet {
 
 namespace {
-
-// A mesh whose corners lie within this part of the half diameter of their facets' planes was drawn
-// with care, if those above a neighbour facet rise so little in the mean square over all corners
-// and their neighbours.
-constexpr double k_drawn_with_care = 0.02, k_nearly_convex = 0.005;
 
 Vec3 mean_of(const std::vector<Vec3>& points, std::size_t count) {
     Vec3 mean(0);
@@ -86,8 +82,9 @@ Starts::Starts(const System& system) : system_(system) {
             std::max(0.0, glm::dot(mesh.normals[f], mesh.points[p]) - mesh.offsets[f]);
         squares += above * above;
     }
-    mesh_is_good_ = worst < k_drawn_with_care &&
-                    squares <= k_nearly_convex * k_nearly_convex * double(hinges.size());
+    mesh_is_good_ =
+        worst < k_drawn.drawn_with_care &&
+        squares <= k_drawn.nearly_convex * k_drawn.nearly_convex * double(hinges.size());
     find_sides();
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fit/model/datum_defect.h"
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/dense_algebra.h"
 
@@ -10,27 +11,22 @@ namespace culet {
 
 namespace {
 
-// A miss of less variance is rounding: other hard equations hold the condition.
-constexpr double k_free = 1e-18;
-// Of a condition's variance, what is left given the others: with less it repeats them.
-constexpr double k_least_own = 1e-10;
-
 // Of a covariance matrix; over the directions in which it is no rounding.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& v) {
     const Eigen::Index count = v.rows();
     Eigen::VectorXd scale(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-        scale(i) = v(i, i) > k_free ? 1 / std::sqrt(v(i, i)) : 0;
+        scale(i) = v(i, i) > k_cov.rounding_variance ? 1 / std::sqrt(v(i, i)) : 0;
     }
     const Eigen::MatrixXd correlation = scale.asDiagonal() * v * scale.asDiagonal();
     const Cholesky factor(correlation);
     Eigen::MatrixXd inverse;
-    if (factor.good() && factor.least_pivot() > k_least_own) {
+    if (factor.good() && factor.least_pivot() > k_cov.least_own) {
         inverse = factor.inverse();
     } else {
         const SymmetricEigen eigen = symmetric_eigen(correlation);
         const Eigen::VectorXd inverses =
-            eigen.values.unaryExpr([](double x) { return x > k_least_own ? 1 / x : 0; });
+            eigen.values.unaryExpr([](double x) { return x > k_cov.least_own ? 1 / x : 0; });
         inverse = times_transpose(eigen.vectors * inverses.asDiagonal(), eigen.vectors);
     }
     return scale.asDiagonal() * inverse * scale.asDiagonal();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/sparse_covariance.h"
 #include "stone/dense_algebra.h"
 
@@ -12,8 +13,6 @@ namespace culet {
 
 namespace {
 
-// Dense algebra grows with the cube of the unknowns; beyond this many it is the slower one.
-constexpr Eigen::Index k_most_dense = 1300;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::RowVectorXd times_columns(const FunctionRow& function, const DenseRows& columns) {
@@ -28,7 +27,7 @@ Eigen::RowVectorXd times_columns(const FunctionRow& function, const DenseRows& c
 
 Covariance::Covariance(Linearised linear, Algorithm algorithm)
     : linear_(std::move(linear)), open_(linear_.layout.size(), 0) {
-    const bool small = linear_.layout.size() <= k_most_dense;
+    const bool small = linear_.layout.size() <= k_cov.most_dense;
     if (algorithm == Algorithm::dense || (algorithm == Algorithm::by_size && small)) {
         find_dense();
     } else {
@@ -70,7 +69,7 @@ Eigen::MatrixXd Covariance::joint(const FunctionRows& functions) const {
         const DenseRows halves = functions * held_, open = functions * open_;
         all = transpose_times(halves.transpose(), halves.transpose());
         if (open.cols() > 0)
-            all += k_unheld_variance * transpose_times(open.transpose(), open.transpose());
+            all += k_cov.unheld_variance * transpose_times(open.transpose(), open.transpose());
     }
     return 0.5 * (all + all.transpose());
 }

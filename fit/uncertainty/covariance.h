@@ -26,10 +26,6 @@ namespace culet {
 /// Stored row by row: what belongs to one unknown or equation lies together.
 using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Of open directions in tests, in the metric: so much more than anything that is measured that
-/// they take no part.
-inline constexpr double k_unheld_variance = 1e3;
-
 class Covariance {
 public:
     enum class Algorithm { by_size, dense, sparse };
@@ -44,7 +40,7 @@ public:
     double open_variance(const FunctionRow& function) const;
     /// Both parts together.
     double total_variance(const FunctionRow& function) const;
-    /// Covariance of functions, one a row. Each open direction has `k_unheld_variance`.
+    /// Covariance of functions, one a row. Each open direction has `unheld_variance`.
     Eigen::MatrixXd joint(const FunctionRows& functions) const;
     /// Covariance of a function with every unknown (open directions included when asked).
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;

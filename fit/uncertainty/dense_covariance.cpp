@@ -4,22 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/model/constants.h"
 #include "fit/model/datum_defect.h"
 #include "fit/solve/null_space.h"
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/covariance.h"
 #include "stone/dense_algebra.h"
 
 namespace culet {
 
 namespace {
-
-// Normal equations square the spread of weights. Nothing that is held is so at less than a weight
-// of 2: beyond this, QR keeps what they lose.
-constexpr double k_most_spread = 1e5;
-// Of motions that nothing sees, so that they count as held.
-constexpr double k_least_of_gauge = 1e3;
-// Of all variances together: what is told of them has three digits.
-constexpr double k_precision = 1e-6;
 
 // The lower half of seen' seen + (weight along)' (weight along).
 Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& along,
@@ -92,8 +86,8 @@ bool Covariance::find_well_held(const FreePart& free) {
         }
         largest = std::max(largest, std::sqrt(square));
     }
-    if (!(largest < k_most_spread)) return false;
-    const double gauge_weight = std::max(k_least_of_gauge, largest);
+    if (!(largest < k_cov.most_spread)) return false;
+    const double gauge_weight = std::max(k_cov.least_of_gauge, largest);
     const Eigen::Index size = free.basis.cols();
     const Cholesky factor(lower_normal(free.seen, free.along, gauge_weight));
     if (!factor.good()) return false;
@@ -103,12 +97,12 @@ bool Covariance::find_well_held(const FreePart& free) {
     seen_ = linear_.soft_rows * held_;
     // An open direction alone would leave some unknown as much.
     const Eigen::VectorXd left = held_.rowwise().squaredNorm().cwiseProduct(linear_.metric);
-    if (!linear_.has_prior && !(left.maxCoeff() < 1 / k_determined)) return false;
+    if (!linear_.has_prior && !(left.maxCoeff() < 1 / k_shapes.determined)) return false;
     // Every direction is seen once: the squares of all that is seen add up to their number, unless
     // they are lost in rounding.
     const double squares =
         seen_.squaredNorm() + std::pow(gauge_weight, 2) * product(free.along, upper).squaredNorm();
-    return std::abs(squares - double(size)) < k_precision;
+    return std::abs(squares - double(size)) < k_cov.precision;
 }
 
 // By QR of what is seen, whitened by the metric so that eigenvalues compare readings with the mesh.
@@ -127,17 +121,18 @@ bool Covariance::find_loosely_held(const FreePart& free) {
 
     const Eigen::VectorXd norms = seen.rowwise().norm();
     const double largest = norms.size() > 0 ? norms.maxCoeff() : 0;
-    const double gauge_weight = std::clamp(largest, k_least_of_gauge, k_tight);
+    const double gauge_weight = std::clamp(largest, k_cov.least_of_gauge, k_shapes.tight);
     Eigen::MatrixXd clipped = seen;
     for (Eigen::Index i = 0; i < norms.size(); ++i) {
-        if (norms(i) > k_tight) clipped.row(i) *= k_tight / norms(i);
+        if (norms(i) > k_shapes.tight) clipped.row(i) *= k_shapes.tight / norms(i);
     }
     Eigen::MatrixXd normal = lower_normal(clipped, along, gauge_weight);
     const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> DenseRows {
         return rows_times(free.basis, chol.solve_upper(columns));
     };
     Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
-    const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
+    const Eigen::MatrixXd shifted =
+        normal - k_shapes.determined * Eigen::MatrixXd::Identity(size, size);
     open_.resize(held_.rows(), 0);
     if (!linear_.has_prior && !Cholesky(shifted).good()) {
         const SymmetricEigen eigen = symmetric_eigen(normal);

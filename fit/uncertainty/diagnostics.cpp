@@ -9,6 +9,7 @@
 #include "fit/model/facet_functions.h"
 #include "fit/model/linear.h"
 #include "fit/solve/free_meets.h"
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/inconsistent_subset.h"
 #include "fit/uncertainty/observations.h"
@@ -19,11 +20,6 @@
 namespace culet {
 
 namespace {
-
-// A redundancy this small is rounding: nothing checks the equation.
-constexpr double k_no_redundancy = 1e-6;
-// An error of size limit + 0.84 sigma is found in 80 of 100 cases.
-constexpr double k_power_80 = 0.8416212335729143;
 
 bool has_azimuth(const Shape& shape, int facet) {
     const Vec3& n = shape.normals[std::size_t(facet)];
@@ -80,7 +76,7 @@ std::vector<double> redundancies_of(const std::vector<Observation>& observations
     std::vector<double> redundancy;
     for (const Observation& o : observations) {
         const double own = 1 - o.leverage(covariance);
-        redundancy.push_back(own < k_no_redundancy ? 0 : own);
+        redundancy.push_back(own < k_checks.no_redundancy ? 0 : own);
     }
     return redundancy;
 }
@@ -140,16 +136,17 @@ void check_readings(const System& system, const Linearised& linear,
         }
         if (std::abs(w) > std::abs(c.normalized)) c.normalized = w;
         c.redundancy += r;
-        if (r > k_no_redundancy) {
+        if (r > k_checks.no_redundancy) {
             const double found =
-                sigma * unit * (diagnosis.suspect_limit + k_power_80) / std::sqrt(r);
+                sigma * unit * (diagnosis.suspect_limit + k_checks.power_80) / std::sqrt(r);
             c.detectable = c.detectable == 0 ? found : std::max(c.detectable, found);
         }
     };
     for (std::size_t i = 0; i < observations.size(); ++i) {
         const Observation& o = observations[i];
         const double scaled = o.residual(linear);
-        const double w = redundancy[i] > k_no_redundancy ? scaled / std::sqrt(redundancy[i]) : 0;
+        const double w =
+            redundancy[i] > k_checks.no_redundancy ? scaled / std::sqrt(redundancy[i]) : 0;
         note(o.reading, o.sigma, scaled * o.sigma, redundancy[i], w);
     }
     for (std::size_t i = 0; i < linear.hard.size(); ++i) {
@@ -159,9 +156,6 @@ void check_readings(const System& system, const Linearised& linear,
         if (terms[r] > 0) diagnosis.readings[r].redundancy /= terms[r];
     }
 }
-
-// Of more facets the matrix would be larger than anybody's use for it.
-constexpr std::size_t k_most_facets_together = 300;
 
 // Inclination, azimuth and offset of each facet as the result tells them: azimuths in its frame,
 // which turns to lie as the mesh does.
@@ -242,7 +236,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     const Vec3 middle = middle_of(shape);
     const std::vector<FunctionRow> rows = facet_rows(system, shape, middle);
     find_facet_sigmas(shape, *outline, *covariance, rows, diagnosis);
-    if (shape.normals.size() <= k_most_facets_together)
+    if (shape.normals.size() <= k_checks.most_facets_together)
         find_facet_covariance(*covariance, rows, diagnosis);
     if (system.has_prior()) find_parts_read(shape, *covariance, middle, diagnosis);
     find_rank_defect(system, shape, *covariance, middle, diagnosis);

@@ -8,17 +8,13 @@
 
 #include "fit/model/linear.h"
 #include "fit/solve/free_meets.h"
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/dense_algebra.h"
 
 namespace culet {
 
 namespace {
-
-// Beyond this many equations R and its updates would take minutes.
-constexpr Eigen::Index k_most_equations = 1500;
-constexpr double k_least_redundancy = 1e-6;
-constexpr double k_same_part = 1e-6;  // in sigmas
 
 // What remains of a least-squares fit as equations are left out one by one.
 struct Rest {
@@ -49,7 +45,7 @@ struct Rest {
 private:
     void leave_out_one(Eigen::Index i) {
         const double own = matrix(i, i);
-        if (own > k_least_redundancy) {
+        if (own > k_snooping.least_redundancy) {
             const Eigen::VectorXd column = matrix.col(i) / own;
             chi2 -= residuals(i) * residuals(i) / own;
             residuals -= column * residuals(i);
@@ -90,7 +86,7 @@ void leave_out_what_can_be_spared(std::vector<int>& left, const Spares& spares) 
 
 std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::MatrixXd matrix,
                                       const std::vector<int>& owner, double level) {
-    if (residuals.size() > k_most_equations) return {};
+    if (residuals.size() > k_snooping.most_equations) return {};
     Rest rest{residuals, std::move(matrix), residuals.squaredNorm(), 0};
     rest.dof = rest.matrix.trace();
     const auto fails = [&](const Rest& r) {
@@ -107,11 +103,11 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
         double part = 0;
         for (const Eigen::Index i : mine) {
             const double r = rest.matrix(i, i);
-            if (r > k_least_redundancy)
+            if (r > k_snooping.least_redundancy)
                 part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
         }
         // Readings that only one another check take the same part but for rounding.
-        order.emplace_back(std::round(part / k_same_part), reading);
+        order.emplace_back(std::round(part / k_snooping.same_part), reading);
     }
     std::sort(order.begin(), order.end());
     std::vector<int> left;

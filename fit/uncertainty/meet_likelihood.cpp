@@ -1,4 +1,5 @@
 #include "fit/uncertainty/meet_likelihood.h"
+#include "fit/uncertainty/constants.h"
 
 #include <cmath>
 #include <limits>
@@ -38,7 +39,7 @@ void leave_readings_out(Linearised& linear) {
 
 MeetLikelihood::MeetLikelihood(const System& system, const Finished& at, bool with_readings)
     : linear_(linearise(system, at.shape, at.outline)),
-      stiffness_(linear_.metric / k_unheld_variance) {
+      stiffness_(linear_.metric / k_cov.unheld_variance) {
     if (!with_readings) leave_readings_out(linear_);
     for (const Equation& e : linear_.soft) {
         if (e.group >= 0) present_[std::size_t(e.group)] = true;

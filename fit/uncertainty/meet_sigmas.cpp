@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/diagnostics.h"
 #include "fit/uncertainty/meet_likelihood.h"
 #include "stone/errors.h"
@@ -10,16 +11,6 @@
 namespace culet {
 
 namespace {
-
-// Rounding is the least that anything can miss by.
-constexpr double k_least_sigma = 1e-9;
-// The scan: sizes of misses in the scale of the fit, half a power of ten apart.
-constexpr double k_scan_from = 1e-7, k_scan_to = 0.11, k_scan_step = 3.1622776601683795;
-// Another hill, not rounding: a likelihood ratio of e.
-constexpr double k_better = 1;
-// Ends nearer than this in the logarithm of every sigma are one.
-constexpr double k_same_end = 0.05;
-constexpr int k_most_ends = 4;
 
 using Sigmas = MeetSigmas;
 
@@ -38,9 +29,9 @@ void agree_with_residuals(System& system, Finished& finished, const FitOptions& 
                 0.5 * std::log(std::max(1e-30, d.group_squares[g]) / d.group_redundancy[g]) -
                 std::log(before);
             largest = std::max(largest, std::abs(change));
-            system.set_group_sigma(
-                static_cast<int>(g),
-                std::max(k_least_sigma, before * std::exp(std::clamp(change, -2.0, 2.0))));
+            system.set_group_sigma(static_cast<int>(g),
+                                   std::max(k_meet_size.least_sigma,
+                                            before * std::exp(std::clamp(change, -2.0, 2.0))));
         }
         // One per cent of an uncertainty is more than its estimate is worth. Before that, the
         // weights move again before the steps would end.
@@ -73,7 +64,8 @@ Sigmas best_of_scan(MeetLikelihood& likelihood, const Sigmas& from, double& leas
     for (const auto& [first, second] :
          {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
         if ((first && !likelihood.has(0)) || (second && !likelihood.has(1))) continue;
-        for (double s = k_scan_from; s < k_scan_to; s *= k_scan_step) {
+        for (double s = k_meet_size.scan_from; s < k_meet_size.scan_to;
+             s *= k_meet_size.scan_step) {
             try_at({first ? s : from[0], second ? s : from[1]});
         }
     }
@@ -88,8 +80,8 @@ bool has_all_facets(const System& system, const Finished& finished) {
 }
 
 bool is_same(const Sigmas& a, const Sigmas& b) {
-    return std::abs(std::log(a[0] / b[0])) < k_same_end &&
-           std::abs(std::log(a[1] / b[1])) < k_same_end;
+    return std::abs(std::log(a[0] / b[0])) < k_meet_size.same_end &&
+           std::abs(std::log(a[1] / b[1])) < k_meet_size.same_end;
 }
 
 }  // namespace
@@ -101,14 +93,14 @@ int estimate_meet_sigmas(System& system, Finished& finished, const FitOptions& o
     ends.push_back({system.group_sigmas(), finished, 0});
     std::size_t best = 0;
     int steps = finished.iterations;
-    for (std::size_t at = 0; at < ends.size() && int(ends.size()) < k_most_ends; ++at) {
+    for (std::size_t at = 0; at < ends.size() && int(ends.size()) < k_meet_size.most_ends; ++at) {
         if (!ends[at].finished.outline) break;
         system.set_group_sigma(0, ends[at].sigmas[0]);
         system.set_group_sigma(1, ends[at].sigmas[1]);
         MeetLikelihood likelihood(system, ends[at].finished);
         ends[at].likelihood = likelihood(ends[at].sigmas);
         if (ends[at].likelihood < ends[best].likelihood) best = at;
-        double least = ends[at].likelihood - 2 * k_better;
+        double least = ends[at].likelihood - 2 * k_meet_size.another;
         const Sigmas there = best_of_scan(likelihood, ends[at].sigmas, least);
         if (is_same(there, ends[at].sigmas)) continue;
         system.set_group_sigma(0, there[0]);

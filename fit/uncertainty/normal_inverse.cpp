@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fit/model/sparse_ldl.h"
+#include "fit/uncertainty/constants.h"
 #include "stone/dense_algebra.h"
 #include "stone/heed_stop.h"
 
@@ -14,17 +15,12 @@ namespace {
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Matrix = Eigen::SparseMatrix<double>;
 
-// A row of more entries than this touches more than a few facets and their corners.
-constexpr Eigen::Index k_long = 90;
-// With more long rows than this, keeping them apart costs more than the fill that they make.
-constexpr std::size_t k_most_long = 48;
-
 std::vector<Eigen::Index> long_rows(const Rows& rows) {
     std::vector<Eigen::Index> found;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        if (rows.innerVector(i).nonZeros() > k_long) found.push_back(i);
+        if (rows.innerVector(i).nonZeros() > k_cov.long_row) found.push_back(i);
     }
-    if (found.size() > k_most_long) found.clear();
+    if (found.size() > k_cov.most_long) found.clear();
     return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include "fit/model/system.h"
 #include "fit/solve/relaxation.h"
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {
@@ -21,19 +22,11 @@ bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
     });
     const Parameters parameters = system.parameters();
     const Relaxation::Counts counts = Relaxation(system, parameters).counts();
-    // A polyhedron of E edges has E + 6 freedoms, four of which move it as a whole. Soft meets hold
-    // nearly as well as exact ones, which the count of hard equations does not see.
-    constexpr int k_shifts = 3, k_shape = 2;
-    const int free = std::min(parameters.size() - counts.hard - k_shifts,
-                              int(system.edges().edges.size()) + k_shape);
-    // Who read three quarters of it did not read for an evening only: the fit may do without.
-    constexpr double k_most = 0.75;
-    if (double(values) >= k_most * free) return true;
-    constexpr std::size_t k_large = 150;  // facets; there one would wait for it
-    if (stone.solid.facets.size() > k_large) return false;
+    const int free = std::min(counts.free, int(system.edges().edges.size()) + k_needed.shape);
+    if (double(values) >= k_needed.part_read * free) return true;
+    if (stone.solid.facets.size() > k_needed.many_facets) return false;
     const Covariance covariance(linearise(system, system.mesh_shape(), system.mesh_outline()));
-    constexpr int k_few = 4;
-    return covariance.usable() && covariance.rank_defect() <= k_few;
+    return covariance.usable() && covariance.rank_defect() <= k_needed.few_open;
 }
 
 }  // namespace culet

@@ -1,4 +1,5 @@
 #include "fit/uncertainty/snooping.h"
+#include "fit/uncertainty/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,6 @@ namespace culet {
 namespace {
 
 using Index = Eigen::Index;
-
-constexpr double k_tested = 1e-4;
-// How many of the most conspicuous equations are tried as one half of a pair.
-constexpr std::size_t k_pair_candidates = 40;
-constexpr std::size_t k_few = 8, k_many = 40;
-// Twice the log of the likelihood ratio below which two explanations are as good as each other.
-constexpr double k_alternative = 3;
 
 class Search {
 public:
@@ -45,7 +39,7 @@ public:
         for (Index a = 0; a < count; ++a) state.columns.col(a) = column(set[std::size_t(a)]);
         const Eigen::VectorXd values = given_.values(set);
         const SymmetricEigen eigen = symmetric_eigen(state.columns(set, Eigen::all));
-        if (!(eigen.values(0) > 0.1 * k_tested)) {
+        if (!(eigen.values(0) > 0.1 * k_snooping.least_tested)) {
             state.possible = false;  // together they leave nothing that checks them
             return state;
         }
@@ -70,7 +64,7 @@ public:
     }
 
     static double gain_of(const State& state, Index i) {
-        return state.redundancy(i) > k_tested
+        return state.redundancy(i) > k_snooping.least_tested
                    ? state.values(i) * state.values(i) / state.redundancy(i)
                    : 0;
     }
@@ -94,9 +88,9 @@ public:
     Pair best_pair(const State& state) {
         std::vector<Index> order;
         for (Index i = 0; i < state.values.size(); ++i) {
-            if (state.redundancy(i) > k_tested) order.push_back(i);
+            if (state.redundancy(i) > k_snooping.least_tested) order.push_back(i);
         }
-        const std::size_t count = std::min(order.size(), k_pair_candidates);
+        const std::size_t count = std::min(order.size(), k_snooping.pair_candidates);
         std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(count), order.end(),
                           [&](Index a, Index b) {
                               const double ga = gain_of(state, a), gb = gain_of(state, b);
@@ -110,7 +104,7 @@ public:
             for (Index j = 0; j < state.values.size(); ++j) {
                 if (j == i) continue;
                 const double left = state.redundancy(j) - link(j) * link(j) * state.redundancy(i);
-                if (!(left > k_tested)) continue;
+                if (!(left > k_snooping.least_tested)) continue;
                 const double value = state.values(j) - link(j) * state.values(i);
                 const double gain = alone + value * value / left;
                 if (gain > best.gain) best = {i, j, gain};
@@ -176,11 +170,11 @@ std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, dou
         }
         if (!(next.gain > state.gain)) break;
         state = std::move(next);
-        if (state.set.size() < k_few) continue;
+        if (state.set.size() < k_snooping.few) continue;
         Index standing_out = 0;
         for (Index i = 0; i < state.values.size(); ++i)
             standing_out += Search::gain_of(state, i) > enough ? 1 : 0;
-        if (standing_out > state.values.size() / 10 || state.set.size() >= k_many) break;
+        if (standing_out > state.values.size() / 10 || state.set.size() >= k_snooping.many) break;
     }
 
     std::vector<Outlier> outliers;
@@ -195,7 +189,7 @@ std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, dou
         for (Index j = 0; j < residuals.values.size() && fewer.possible; ++j) {
             if (j == outlier.equation) continue;
             if (std::find(state.set.begin(), state.set.end(), j) != state.set.end()) continue;
-            if (fewer.gain + Search::gain_of(fewer, j) > state.gain - k_alternative) {
+            if (fewer.gain + Search::gain_of(fewer, j) > state.gain - k_snooping.alternative) {
                 outlier.alternatives.push_back(j);
             }
         }

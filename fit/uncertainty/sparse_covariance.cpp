@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/model/constants.h"
 #include "fit/model/datum_defect.h"
+#include "fit/uncertainty/constants.h"
 
 namespace culet {
 
 namespace {
-
-// Beside what readings hold it changes no digit that is told.
-constexpr double k_weak_prior = 1 / k_unheld_variance;
 
 // Weights on as many unknowns as there are motions, those that move most (elimination with complete
 // pivoting).
@@ -34,9 +33,9 @@ Covariance::Sparse::Sparse(const Linearised& of)
     double tightest = 0;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         sizes(i) = rows.innerVector(i).norm();
-        if (sizes(i) > k_tight) {
-            rows.innerVector(i) *= k_tight / sizes(i);
-            sizes(i) = k_tight;
+        if (sizes(i) > k_shapes.tight) {
+            rows.innerVector(i) *= k_shapes.tight / sizes(i);
+            sizes(i) = k_shapes.tight;
         }
         tightest = std::max(tightest, sizes(i));
     }
@@ -82,24 +81,24 @@ double Covariance::Sparse::most_open() const {
     for (Eigen::Index i = 0; i < own.size(); ++i) {
         own.setZero();
         own.coeffRef(i) = 1;
-        most += std::floor(of(tight, own) * linear.metric(i) * k_determined);
+        most += std::floor(of(tight, own) * linear.metric(i) * k_shapes.determined);
     }
     return most;
 }
 
 double Covariance::Sparse::open_variance(const FunctionRow& function) const {
     if (!has_open) return 0;
-    return std::max(0.0, of(tight, function) - of(trusted, function)) * k_weak_prior;
+    return std::max(0.0, of(tight, function) - of(trusted, function)) * (1 / k_cov.unheld_variance);
 }
 
 void Covariance::find_sparse() {
     sparse_ = std::make_unique<Sparse>(linear_);
-    usable_ = sparse_->compute(sparse_->tight, k_weak_prior);
+    usable_ = sparse_->compute(sparse_->tight, (1 / k_cov.unheld_variance));
     if (!usable_) return;
     const double most = linear_.has_prior ? 0 : sparse_->most_open();
     if (most > 0) {
         // By Sylvester's law the number of negative pivots counts the directions below the bound.
-        const int below = negative_pivots(sparse_->equations(-k_determined));
+        const int below = negative_pivots(sparse_->equations(-k_shapes.determined));
         rank_defect_ = static_cast<int>(std::min(most, double(below)));
         sparse_->has_open = rank_defect_ > 0;
         if (sparse_->has_open) usable_ = sparse_->compute(sparse_->trusted, 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/inconsistent_subset.h"
 #include "fit/uncertainty/observations.h"
@@ -11,10 +12,6 @@
 namespace culet {
 
 namespace {
-
-// More observations than this are not searched for an irreducible set that disagrees: it takes the
-// whole hat matrix.
-constexpr Eigen::Index k_most_searched = 1500;
 
 // They look at what they are made of as long as columns are asked.
 Residuals residuals_of(const std::vector<Observation>& observations, const Covariance& covariance) {
@@ -80,7 +77,8 @@ void find_suspects(const System& system, double significance, Diagnosis& diagnos
         find_outliers(residuals, diagnosis.suspect_limit, chi2_quantile(significance / pairs, 2),
                       std::max<std::size_t>(3, observations.size() / 10));
     name_suspects(system, observations, outliers, diagnosis);
-    if (!(chi2_tail(diagnosis.chi2, diagnosis.dof) < significance) || count > k_most_searched) {
+    if (!(chi2_tail(diagnosis.chi2, diagnosis.dof) < significance) ||
+        count > k_snooping.most_equations) {
         return;
     }
     Eigen::MatrixXd matrix(count, count);
