@@ -10,34 +10,16 @@
 
 namespace culet {
 
-namespace {
-
-Proposal proposal_of(const System& system, const Suspicion& suspicion) {
-    const Reading& reading = system.readings()[std::size_t(suspicion.reading)];
-    Proposal proposal;
-    proposal.id = reading.id;
-    proposal.in_radians = is_angle(reading.kind);
-    proposal.estimate = suspicion.estimate;
-    proposal.sigma = suspicion.sigma;
-    for (const int other : suspicion.alternatives) {
-        proposal.alternatives.push_back(system.readings()[std::size_t(other)].id);
-    }
-    if (is_relation(reading.kind)) return proposal;
-    // A slip is an explanation only where the tolerance is small beside what it explains.
-    const double off = std::abs(reading.value - suspicion.estimate);
-    if (slip_tolerance(reading, suspicion.sigma) < 0.25 * off) explain_by_slip(reading, proposal);
-    return proposal;
-}
-
-}  // namespace
-
 void assess(const System& system, const Finished& finished, const Diagnosis& diagnosis,
             FitResult& result) {
+    const auto reading = [&](int r) -> const Reading& { return system.readings()[std::size_t(r)]; };
     for (const Suspicion& s : diagnosis.suspicions) {
-        result.findings.proposals.push_back(proposal_of(system, s));
+        Proposal proposal = proposal_for(reading(s.reading), s.estimate, s.sigma);
+        for (const int other : s.alternatives) proposal.alternatives.push_back(reading(other).id);
+        result.findings.proposals.push_back(std::move(proposal));
     }
     for (const int r : diagnosis.disagreeing) {
-        result.findings.disagreeing.push_back(system.readings()[std::size_t(r)].id);
+        result.findings.disagreeing.push_back(reading(r).id);
     }
     if (!diagnosis.covariance || !finished.outline) return;
     const Covariance& covariance = *diagnosis.covariance;

@@ -1,6 +1,6 @@
 #pragma once
-// A wrong reading's name, what it should have been, and the slip that explains it. Private to the
-// room.
+// Readings that the fit does without: listed all the same, with what they should have been and the
+// slip that explains them. Private to the room.
 
 #include <vector>
 
@@ -8,11 +8,16 @@
 
 namespace culet {
 
-/// By how much a reading and an estimate of it may well differ: in the reading's unit.
-double slip_tolerance(const Reading& reading, double sigma_of_estimate);
+/// What a reading should have been, and the slip that would turn that into what was written, where
+/// one does and reaches little further than what it explains.
+Proposal proposal_for(const Reading& reading, double estimate, double sigma);
 
-/// Adds the slip that would turn the proposal's estimate into the reading, where one does.
-void explain_by_slip(const Reading& reading, Proposal& proposal);
+/// A reading that takes no part and should have been what the proposal says.
+FittedReading left_out(const Reading& reading, const Proposal& proposal, const char* why);
+
+/// Makes them the first suspects: the status is `contradictory` at best, and `told` begins the
+/// message.
+void accuse(const std::vector<Proposal>& proposals, const std::string& told, FitResult& result);
 
 /// A reading that cannot belong to the others, and what they say that it should be.
 struct Blunder {
@@ -20,9 +25,7 @@ struct Blunder {
     double estimate = 0, sigma = 0;
 };
 
-/// Names them as suspects before all others, with what they should be and the slip that would
-/// explain it. The status is `contradictory` at best. The result is of a fit that does without them
-/// and lists them all the same.
+/// Accuses them. The result is of a fit that does without them and lists them all the same.
 void flag_blunders(const std::vector<Reading>& readings, const std::vector<Blunder>& blunders,
                    FitResult& result);
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "stone/tiers.h"
+#include "stone/units.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -16,34 +17,21 @@ namespace {
 
 using Kind = ReadingKind;
 
-// Of a large stone about so many edges and corners are tried: each costs solutions of its own.
-constexpr std::size_t k_most_edges = 600, k_most_corners = 200;
+// Of a large stone about so many edges are tried: each costs solutions of its own.
+constexpr std::size_t k_most_edges = 600;
 // Directions of widths, over half a turn.
 constexpr int k_directions = 16;
-// Supposed when no reading like it was made.
-constexpr double k_angle_sigma_deg = 0.1, k_length_sigma = 0.002, k_volume_sigma = 0.002;
+// Supposed when no reading like it was made: radians, half diameters, and of the volume.
+constexpr double k_angle_sigma = radians(0.1), k_length_sigma = 0.002, k_volume_sigma = 0.002;
 
-// Inside the fit.
-double usual_sigma(const System& system, std::initializer_list<Kind> kinds, double none) {
+// Inside the fit; of the readings of some kinds, or else `none`.
+double usual_sigma(const System& system, const std::set<Kind>& kinds, double none) {
     std::vector<double> sigmas;
     for (const Reading& r : system.readings()) {
-        if (r.exact || !(r.sigma > 0)) continue;
-        if (std::find(kinds.begin(), kinds.end(), r.kind) == kinds.end()) continue;
+        if (r.exact || !(r.sigma > 0) || kinds.count(r.kind) == 0) continue;
         sigmas.push_back(r.sigma / system.unit_of(r));
     }
-    if (sigmas.empty()) return none;
-    return upper_median(std::move(sigmas));
-}
-
-// Kinds that whoever made these readings can make.
-std::set<Kind> tools_at_hand(const System& system) {
-    std::set<Kind> tools{Kind::inclination, Kind::azimuth, Kind::width, Kind::depth,
-                         Kind::table_width, Kind::weight,  Kind::volume};
-    for (const Reading& r : system.readings()) tools.insert(r.kind);
-    // Whoever has read most of the stone may have a microscope with a scale; at the bench nobody
-    // has.
-    if (!system.has_prior()) tools.insert(Kind::edge);
-    return tools;
+    return sigmas.empty() ? none : upper_median(std::move(sigmas));
 }
 
 class CandidateList {
@@ -54,90 +42,72 @@ public:
           shape_(shape),
           outline_(outline),
           writer_(shape),
-          tools_(tools_at_hand(system)),
-          length_sigma_(
-              usual_sigma(system, {Kind::width, Kind::depth, Kind::table_width}, k_length_sigma)) {
-        const Solid& solid = system.stone().solid;
-        for (const int t : tier_of_each(tiers_of(solid, system.stone().up), solid.facets.size()))
-            tier_of_.push_back(std::to_string(t));
+          facets_(system.stone().solid.facets) {
         // They are large, and stay where they are.
-        all_.reserve(2 * (facets().size() + system.edges().edges.size()) + shape.points.size() +
-                     40);
+        all_.reserve(2 * facets_.size() + system.edges().edges.size() + 2 * k_directions + 2);
     }
 
-    void add_facet_angles();
-    void add_edges();
+    void add_facet_angles(const std::vector<int>& tier_of);
+    void add_edges(const std::vector<int>& tier_of);
     void add_widths_and_depth();
-    void add_heights_of_table();
     void add_size();
     std::vector<CandidateReading> take() { return std::move(all_); }
 
 private:
-    const std::vector<Facet>& facets() const { return system_.stone().solid.facets; }
     Formula extent_along(const std::vector<int>& corners, const Vec3& direction) const;
+    // `unit`: of the reading, in that of the fit.
     void put(Kind kind, std::vector<std::string> of, const std::string& group,
              const Formula& formula, double sigma, double unit);
-    void put_length(Kind kind, std::vector<std::string> of, const std::string& group,
-                    const Formula& formula) {
-        put(kind, std::move(of), group, formula, length_sigma_, system_.scale());
-    }
 
     const System& system_;
     const Shape& shape_;
     const std::shared_ptr<const Outline>& outline_;
     RowWriter writer_;
-    std::set<Kind> tools_;
-    std::vector<std::string> tier_of_;  ///< of each facet, by the form
-    double length_sigma_;
+    const std::vector<Facet>& facets_;
     std::vector<CandidateReading> all_;
 };
 
 void CandidateList::put(Kind kind, std::vector<std::string> of, const std::string& group,
                         const Formula& formula, double sigma, double unit) {
-    if (tools_.count(kind) == 0) return;
     CandidateReading c;
     c.reading.kind = kind;
     c.reading.of = std::move(of);
     c.reading.sigma = sigma * unit;
     c.sigma = sigma;
-    c.group = std::string(name_of(kind)) + " " + group;
+    c.group = fmt::format("{} {}", name_of(kind), group);
     c.function = writer_.function(formula(shape_));
     all_.push_back(std::move(c));
 }
 
-void CandidateList::add_facet_angles() {
-    const double angle = radians(k_angle_sigma_deg);
-    const double tilt = usual_sigma(system_, {Kind::inclination}, angle),
-                 turn = usual_sigma(system_, {Kind::azimuth}, angle);
-    for (std::size_t f = 0; f < facets().size(); ++f) {
-        if (int(f) == system_.up_facet()) continue;
+void CandidateList::add_facet_angles(const std::vector<int>& tier_of) {
+    const double tilt = usual_sigma(system_, {Kind::inclination}, k_angle_sigma),
+                 turn = usual_sigma(system_, {Kind::azimuth}, k_angle_sigma);
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
         const Vec3& n = shape_.normals[f];
-        if (std::hypot(n.x, n.y) < 1e-6) continue;
-        const std::string& name = facets()[f].name;
-        put(Kind::inclination, {name}, tier_of_[f], tilt_from_up(int(f)), tilt, 1);
-        put(Kind::azimuth, {name}, tier_of_[f], azimuth_error(int(f), -1, std::atan2(n.y, n.x)),
+        if (int(f) == system_.up_facet() || std::hypot(n.x, n.y) < 1e-6) continue;
+        const std::string tier = std::to_string(tier_of[f]);
+        put(Kind::inclination, {facets_[f].name}, tier, tilt_from_up(int(f)), tilt, 1);
+        put(Kind::azimuth, {facets_[f].name}, tier, azimuth_error(int(f), -1, std::atan2(n.y, n.x)),
             turn, 1);
     }
 }
 
-void CandidateList::add_edges() {
+// Whoever has read most of the stone may have a microscope with a scale; at the bench nobody has.
+void CandidateList::add_edges(const std::vector<int>& tier_of) {
+    const bool were_read = std::any_of(system_.readings().begin(), system_.readings().end(),
+                                       [](const Reading& r) { return r.kind == Kind::edge; });
+    if (system_.splits() || (system_.has_prior() && !were_read)) return;
+    const double sigma = usual_sigma(
+        system_, {Kind::edge, Kind::distance},
+        usual_sigma(system_, {Kind::width, Kind::depth, Kind::table_width}, k_length_sigma));
     const std::vector<Edge>& edges = system_.edges().edges;
-    const double between = usual_sigma(system_, {Kind::dihedral}, radians(k_angle_sigma_deg)),
-                 length = usual_sigma(system_, {Kind::edge, Kind::distance}, length_sigma_);
     for (std::size_t at = 0; at < edges.size(); at += 1 + edges.size() / k_most_edges) {
         const Edge& e = edges[at];
         if (e.left < 0 || e.right < 0) continue;
-        const std::vector<std::string> of{facets()[std::size_t(e.left)].name,
-                                          facets()[std::size_t(e.right)].name};
-        const auto [one, other] =
-            std::minmax(tier_of_[std::size_t(e.left)], tier_of_[std::size_t(e.right)]);
-        const std::string tiers = one + "/" + other;
-        if (!system_.splits()) {
-            put(Kind::edge, of, tiers,
-                corner_distance(Corner{e.from, {-1, -1, -1}}, Corner{e.to, {-1, -1, -1}}), length,
-                system_.scale());
-        }
-        put(Kind::dihedral, of, tiers, interior_angle(e.left, e.right), between, 1);
+        const auto left = std::size_t(e.left), right = std::size_t(e.right);
+        const auto [one, other] = std::minmax(tier_of[left], tier_of[right]);
+        put(Kind::edge, {facets_[left].name, facets_[right].name}, fmt::format("{}/{}", one, other),
+            corner_distance(Corner{e.from}, Corner{e.to}), sigma, system_.scale());
     }
 }
 
@@ -154,35 +124,22 @@ Formula CandidateList::extent_along(const std::vector<int>& corners, const Vec3&
 void CandidateList::add_widths_and_depth() {
     std::set<int> used;
     for (const auto& loop : outline_->loops) used.insert(loop.begin(), loop.end());
+    if (used.empty()) return;
     const std::vector<int> corners(used.begin(), used.end());
-    put_length(Kind::depth, {}, "", extent_along(corners, {0, 0, 1}));
-    const int up = system_.up_facet();
+    const std::vector<int> table = system_.up_facet() < 0
+                                       ? std::vector<int>()
+                                       : outline_->loops[std::size_t(system_.up_facet())];
+    const double sigma =
+        usual_sigma(system_, {Kind::width, Kind::depth, Kind::table_width}, k_length_sigma);
+    const double unit = system_.scale();
+    put(Kind::depth, {}, "", extent_along(corners, {0, 0, 1}), sigma, unit);
     for (int k = 0; k < k_directions; ++k) {
         const double azimuth_deg = 180.0 / k_directions * k;
         const Vec3 direction{std::cos(radians(azimuth_deg)), std::sin(radians(azimuth_deg)), 0};
         const std::string of = fmt::format("{:g}", azimuth_deg);
-        put_length(Kind::width, {of}, "", extent_along(corners, direction));
-        if (up >= 0 && outline_->loops[std::size_t(up)].size() >= 3) {
-            put_length(Kind::table_width, {of}, "",
-                       extent_along(outline_->loops[std::size_t(up)], direction));
-        }
-    }
-}
-
-// Over the corners of the mesh that still are corners.
-void CandidateList::add_heights_of_table() {
-    const int up = system_.up_facet();
-    if (up < 0 || system_.splits()) return;
-    const std::size_t corner_count = system_.stone().solid.vertices.size();
-    for (std::size_t v = 0; v < corner_count; v += 1 + corner_count / k_most_corners) {
-        const std::vector<int>& own = system_.edges().facets_of_vertex[v];
-        if (std::find(own.begin(), own.end(), up) != own.end()) continue;
-        std::set<std::string> tiers;
-        for (const int f : own) tiers.insert(tier_of_[std::size_t(f)]);
-        std::string group;
-        for (const std::string& tier : tiers) group += tier + ",";
-        put_length(Kind::distance, {facets()[std::size_t(up)].name, fmt::format("v{}", v)}, group,
-                   height(up, Corner{int(v), {-1, -1, -1}}));
+        put(Kind::width, {of}, "", extent_along(corners, direction), sigma, unit);
+        if (table.size() < 3) continue;
+        put(Kind::table_width, {of}, "", extent_along(table, direction), sigma, unit);
     }
 }
 
@@ -190,25 +147,25 @@ void CandidateList::add_size() {
     const Formula volume = enclosed_volume(outline_);
     Reading whole;
     whole.kind = system_.stone().material.density_g_cm3 ? Kind::weight : Kind::volume;
-    const double usual =
-        usual_sigma(system_, {Kind::weight, Kind::volume}, k_volume_sigma * volume(shape_).value);
-    put(whole.kind, {}, "", volume, usual, system_.unit_of(whole));
+    const double none = k_volume_sigma * volume(shape_).value;
+    put(whole.kind, {}, "", volume, usual_sigma(system_, {Kind::weight, Kind::volume}, none),
+        system_.unit_of(whole));
 }
 
 }  // namespace
 
 std::vector<CandidateReading> candidate_readings(const System& system, const Shape& shape,
                                                  const std::shared_ptr<const Outline>& outline) {
+    const Solid& solid = system.stone().solid;
+    const std::vector<int> tier_of =
+        tier_of_each(tiers_of(solid, system.stone().up), solid.facets.size());
     CandidateList list(system, shape, outline);
-    list.add_facet_angles();
-    list.add_edges();
+    list.add_facet_angles(tier_of);
+    list.add_edges(tier_of);
+    list.add_widths_and_depth();
     const bool encloses = std::any_of(outline->loops.begin(), outline->loops.end(),
                                       [](const std::vector<int>& loop) { return !loop.empty(); });
-    if (encloses) {
-        list.add_widths_and_depth();
-        list.add_heights_of_table();
-        list.add_size();
-    }
+    if (encloses) list.add_size();
     return list.take();
 }
 

@@ -20,9 +20,9 @@ struct CandidateReading {
     double variance = 0, promise = 0;  ///< for whoever chooses among them
 };
 
-/// Every inclination, azimuth, edge length and dihedral, widths all around, depth, table widths,
-/// heights over the table and weight (or volume), as far as the tools are at hand; each with the
-/// median sigma of the readings like it.
+/// Every inclination and azimuth, edge lengths, widths all around, depth, table widths and weight
+/// (or volume), as far as the tools are at hand; each with the median sigma of the readings like
+/// it.
 std::vector<CandidateReading> candidate_readings(const System& system, const Shape& shape,
                                                  const std::shared_ptr<const Outline>& outline);
 

@@ -24,8 +24,7 @@ struct CutQuantity {
 /// are of the diameter, or of the width. The table of a round stone is measured from corner to
 /// opposite corner and averaged, of others along the width. Heights are above and below the mean
 /// heights of the girdle's upper and lower edges' corners, so that crown, girdle and pavilion add
-/// up to the depth. Crown and pavilion angles are means over the mains: facets that reach from the
-/// girdle to the table, to the lowest point; where there are none, over all facets of that side.
+/// up to the depth. Crown and pavilion angles are means over the mains (`main_facets`).
 std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape,
                                         const std::shared_ptr<const Outline>& outline);
 

@@ -75,6 +75,9 @@ struct ShapeFinding {
     double sigma = 0;
     double p = 1;  ///< of vanishing ones: chance of so strong a wish if there is just no such edge
     std::string what;  ///< one line for people
+
+    /// By the readings; else they leave it open.
+    bool is_denied() const { return kind == Kind::edge_vanishes || kind == Kind::facet_vanishes; }
 };
 const char* name_of(ShapeFinding::Kind kind);
 

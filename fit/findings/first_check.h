@@ -1,7 +1,7 @@
 #pragma once
 // Readings held against what needs no fit: the other readings of their tier, the mesh, and what a
 // stone can have at all. A slip of the pen is found so with no redundancy at all, before it bends
-// the fit.
+// the fit. docs/fitting.md, "The first check", has the method.
 
 #include <string>
 #include <vector>
@@ -22,14 +22,9 @@ struct Doubt {
     std::string what;         ///< one line for people, file and line first; without the slip
 };
 
-/// The readings that cannot be right, the surest first. The sigmas are those of off-standard
-/// stones: facets of a tier differ by 0.3 degrees, tiers from the mesh by 1 degree, calipers'
-/// widths by 0.7 % among each other, and more where the readings themselves scatter more (median
-/// absolute deviation, Rousseeuw & Croux 1993). A reading is doubted beyond 4.5 sigmas, beyond 3.5
-/// where a common slip leads to within two sigmas of what was expected. All readings of a tier are
-/// doubted together where they are off the mesh as no other tier is (first_check_tiers.cpp).
-/// Readings of one row of a file stand or fall together. `is_design`: the mesh has the proportions
-/// that the stone was cut after; else it was drawn by hand, and is trusted for less.
+/// The readings that cannot be right, the surest first. Readings of one row of a file stand or fall
+/// together. `is_design`: the mesh has the proportions that the stone was cut after; else it was
+/// drawn by hand, and is trusted for less.
 std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& readings,
                                bool is_design);
 

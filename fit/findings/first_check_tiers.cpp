@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "fit/findings/first_check_parts.h"
+#include "fit/findings/first_check_rows.h"
+#include "fit/findings/words.h"
 #include "fit/uncertainty/statistics.h"
 
 namespace culet {
@@ -18,31 +18,32 @@ namespace {
 // of another tier comes within what facets of a tier differ by (0.3 degrees either way) of one
 // angle in eight by chance, where six tiers share 30 degrees: beside one the rest may be likelier.
 constexpr double k_tier_level = 0.001, k_level_of_another = 0.008;
-constexpr double k_alike_deg = 0.3;
+constexpr double k_alike = radians(0.3);
 // Of so many other tiers one learns how far tiers of this stone are off the mesh.
-constexpr std::size_t k_fewest_others = 2;
+constexpr std::size_t k_fewest_other_tiers = 2;
 // What is expected of them counts for one observation, as in the prior.
 constexpr double k_stated_count = 1;
 
 struct TierRead {
-    std::size_t tier = 0;
-    std::vector<const ReadAngle*> angles;
-    double value = 0, mesh = 0, off = 0;  ///< means; the median of what each is off
+    const NamedTier* tier = nullptr;
+    std::vector<const CheckedRow*> rows;
+    std::vector<double> values;
+    double value = 0, mesh = 0, off = 0;  // means; the median of what each is off
 };
 
-std::vector<TierRead> tiers_read(const std::vector<ReadAngle>& angles,
-                                 const std::vector<int>& tier_of, std::size_t count) {
+std::vector<TierRead> tiers_read(const std::vector<CheckedRow>& rows,
+                                 const std::vector<NamedTier>& tiers) {
     std::vector<TierRead> found;
-    for (std::size_t t = 0; t < count; ++t) {
-        TierRead read;
-        read.tier = t;
+    for (std::size_t t = 0; t < tiers.size(); ++t) {
+        TierRead read{&tiers[t], {}, {}};
         std::vector<double> off;
-        for (const ReadAngle& angle : angles) {
-            if (tier_of[std::size_t(angle.facet)] != int(t)) continue;
-            read.angles.push_back(&angle);
-            off.push_back(angle.off());
-            read.value += angle.row.value;
-            read.mesh += angle.mesh;
+        for (const CheckedRow& row : rows) {
+            if (row.kind != ReadingKind::inclination || row.tier != int(t)) continue;
+            read.rows.push_back(&row);
+            read.values.push_back(row.value);
+            off.push_back(row.off());
+            read.value += row.value;
+            read.mesh += row.mesh;
         }
         if (off.empty()) continue;
         read.value /= double(off.size());
@@ -58,51 +59,46 @@ const TierRead* whose_value(const TierRead& own, const std::vector<TierRead>& al
     for (const TierRead& other : all) {
         const double apart =
             std::min(std::abs(own.value - other.value), std::abs(own.value - other.mesh));
-        if (&other != &own && apart < radians(k_alike_deg)) return &other;
+        if (&other != &own && apart < k_alike) return &other;
     }
     return nullptr;
 }
 
-std::string lines_of(const TierRead& tier, const std::vector<Reading>& readings) {
-    const Reading& first = readings[tier.angles.front()->row.readings.front()];
-    const Reading& last = readings[tier.angles.back()->row.readings.front()];
-    if (first.line <= 0) return "reading " + first.id;
-    if (first.line == last.line) {
-        return fmt::format("{} line {}", first.file.filename().string(), first.line);
+std::string what_of(const TierRead& own, const TierRead* source, double others,
+                    const std::vector<Reading>& readings) {
+    const Reading& first = readings[own.rows.front()->readings.front()];
+    const Reading& last = readings[own.rows.back()->readings.front()];
+    std::string what = place_words(first);
+    if (first.line > 0 && first.line != last.line) {
+        what =
+            fmt::format("{} lines {} to {}", first.file.filename().string(), first.line, last.line);
     }
-    return fmt::format("{} lines {} to {}", first.file.filename().string(), first.line, last.line);
-}
-
-Doubt doubt_of(const TierRead& own, const TierRead* source, double sigma, double others,
-               const std::vector<NamedTier>& tiers, const std::vector<Reading>& readings) {
-    std::vector<double> values;
-    for (const ReadAngle* angle : own.angles) values.push_back(angle->row.value);
-    Doubt doubt;
-    doubt.of_tier = true;
-    doubt.sigma = sigma;
-    doubt.strength = std::abs(own.off) / sigma;
-    doubt.what = fmt::format(
-        "{}: the {} were read {} degrees, {:.1f} {} than the mesh ({:.1f}), where the other tiers "
+    what += fmt::format(
+        ": the {} were read {} degrees, {:.1f} {} than the mesh ({:.1f}), where the other tiers "
         "are within {:.1f} of it",
-        lines_of(own, readings), tiers[own.tier].words, range_of(values),
-        degrees(std::abs(own.off)), own.off > 0 ? "steeper" : "flatter", degrees(own.mesh),
-        degrees(others));
-    if (source != nullptr) {
-        doubt.what +=
-            fmt::format("; {:.1f} is the value of the {}, so look whether rows were mixed up",
-                        degrees(source->value), tiers[source->tier].words);
-    }
-    return doubt;
+        own.tier->words, range_of(own.values), degrees(std::abs(own.off)),
+        own.off > 0 ? "steeper" : "flatter", degrees(own.mesh), degrees(others));
+    if (source == nullptr) return what;
+    return what + fmt::format("; {:.1f} is the value of the {}, so look whether rows were mixed up",
+                              degrees(source->value), source->tier->words);
 }
 
 }  // namespace
 
-void check_tiers(const std::vector<Reading>& readings, const std::vector<ReadAngle>& angles,
-                 const std::vector<int>& tier_of, const std::vector<NamedTier>& tiers,
-                 double from_mesh, std::vector<Doubt>& doubts) {
-    const std::vector<TierRead> all = tiers_read(angles, tier_of, tiers.size());
-    if (all.size() <= k_fewest_others) return;
+std::string range_of(const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const std::string low = fmt::format("{:.1f}", degrees(*least)),
+                      high = fmt::format("{:.1f}", degrees(*most));
+    return low == high ? low : low + " to " + high;
+}
+
+void check_tiers(const std::vector<Reading>& readings, const std::vector<CheckedRow>& rows,
+                 const std::vector<NamedTier>& tiers, double from_mesh,
+                 std::vector<Doubt>& doubts) {
+    const std::vector<TierRead> all = tiers_read(rows, tiers);
+    if (all.size() <= k_fewest_other_tiers) return;
     for (const TierRead& own : all) {
+        const CheckedRow& first = *own.rows.front();
         double squares = k_stated_count * from_mesh * from_mesh, largest = 0;
         for (const TierRead& other : all) {
             if (&other == &own) continue;
@@ -110,20 +106,18 @@ void check_tiers(const std::vector<Reading>& readings, const std::vector<ReadAng
             largest = std::max(largest, std::abs(other.off));
         }
         const double dof = k_stated_count + double(all.size() - 1);
-        const double sigma = std::hypot(std::sqrt(squares / dof), own.angles.front()->row.sigma);
+        const double sigma = std::hypot(std::sqrt(squares / dof), first.sigma);
+        const double strength = std::abs(own.off) / sigma;
         const TierRead* source = whose_value(own, all);
         const double level = source != nullptr ? k_level_of_another : k_tier_level;
-        if (student_tail(std::abs(own.off) / sigma, dof) * double(all.size()) > level) continue;
         const bool known = std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& d) {
-            return d.reading == own.angles.front()->row.readings.front();
+            return d.reading == first.readings.front();
         });
-        if (known) continue;
-        Doubt doubt = doubt_of(own, source, sigma, largest, tiers, readings);
-        for (const ReadAngle* angle : own.angles) {
-            doubt.expected = angle->mesh;
-            for (const std::size_t i : angle->row.readings) {
-                doubt.reading = i;
-                doubts.push_back(doubt);
+        if (known || student_tail(strength, dof) * double(all.size()) > level) continue;
+        const std::string what = what_of(own, source, largest, readings);
+        for (const CheckedRow* row : own.rows) {
+            for (const std::size_t i : row->readings) {
+                doubts.push_back({i, row->mesh, sigma, strength, {}, 0, true, what});
             }
         }
     }

@@ -87,9 +87,8 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
         const double share = drop / (c.sigma * c.sigma + c.variance) / total;
         c.reading.reduces = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
         // Tighter than what the mesh says, where only the mesh said something.
-        c.reading.closes = covariance.rank_defect() > 0 &&
-                           covariance.open_variance(c.function) > 4 * c.sigma * c.sigma &&
-                           covariance.open_variance(c.function) > 0.5 * c.variance;
+        const double open = covariance.rank_defect() > 0 ? covariance.open_variance(c.function) : 0;
+        c.reading.closes = open > 4 * c.sigma * c.sigma && open > 0.5 * c.variance;
     }
     std::vector<NextReading> best;
     std::set<std::string> told;

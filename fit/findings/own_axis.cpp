@@ -31,62 +31,42 @@ std::string tier_name(const Solid& solid, const std::vector<FacetTier>& drawn,
     return name(facets.front()) + ".." + name(facets.back());
 }
 
-// One tier's part of the scatter matrix.
+// One tier's part of the scatter matrix, about the mean of its normals or about nothing.
 struct Scatter {
+    Scatter(const Shape& shape, const std::vector<int>& of, bool about_mean) : facets(of) {
+        for (const int f : facets) {
+            if (about_mean) mean += shape.normals[f] / double(facets.size());
+        }
+        for (const int f : facets) {
+            const Vec3 d = shape.normals[f] - mean;
+            matrix += glm::outerProduct(d, d);
+        }
+    }
+    double sine_squared(const Shape& shape, const Vec3& axis) const {
+        double sum = 0;
+        for (const int f : facets) {
+            const double c = glm::dot(shape.normals[f], axis);
+            sum += (1 - c * c) / double(facets.size());
+        }
+        return std::max(sum, 1e-6);
+    }
+
     std::vector<int> facets;
-    bool about_mean = true;
+    Vec3 mean = Vec3(0);
+    glm::dmat3 matrix{0.0};
 };
-
-Vec3 centre_of(const Shape& shape, const Scatter& tier) {
-    Vec3 mean(0);
-    if (tier.about_mean) {
-        for (int f : tier.facets) mean += shape.normals[f] / double(tier.facets.size());
-    }
-    return mean;
-}
-
-glm::dmat3 scatter_of(const Shape& shape, const Scatter& tier) {
-    const Vec3 mean = centre_of(shape, tier);
-    glm::dmat3 s(0.0);
-    for (int f : tier.facets) {
-        const Vec3 d = shape.normals[f] - mean;
-        s += glm::outerProduct(d, d);
-    }
-    return s;
-}
-
-double sine_squared(const Shape& shape, const Scatter& tier, const Vec3& axis) {
-    double sum = 0;
-    for (int f : tier.facets) {
-        const double c = glm::dot(shape.normals[f], axis);
-        sum += (1 - c * c) / double(tier.facets.size());
-    }
-    return std::max(sum, 1e-6);
-}
-
-double quadratic(const glm::dmat3& s, const Vec3& v) {
-    return glm::dot(v, s * v);
-}
 
 double trace_of(const glm::dmat3& s) {
     return s[0][0] + s[1][1] + s[2][2];
 }
 
 // The least direction of scatter is told from the next.
-bool has_axis(const Shape& shape, const std::vector<Scatter>& parts) {
+bool has_axis(const std::vector<Scatter>& parts) {
     glm::dmat3 s(0.0);
-    for (const Scatter& part : parts) s += scatter_of(shape, part);
+    for (const Scatter& part : parts) s += part.matrix;
     // The second least eigenvalue over the sum: by the trace of the pseudo-inverse.
     const double total = trace_of(s), inverse = trace_of(least_eigenvector(s).pseudo_inverse);
     return total > 0 && inverse > 0 && 1 / inverse > k_least_gap * total;
-}
-
-Scatter girdle_scatter(const System& system, const Shape& shape) {
-    Scatter girdle{{}, false};
-    for (std::size_t f = 0; f < shape.normals.size(); ++f) {
-        if (system.is_girdle(static_cast<int>(f))) girdle.facets.push_back(static_cast<int>(f));
-    }
-    return girdle;
 }
 
 // Least squares with each tier weighted by one over its variance about the axis.
@@ -102,12 +82,11 @@ struct WeightedAxis {
 std::vector<double> weights_about(const Vec3& axis, const Shape& shape,
                                   const std::vector<Scatter>& parts) {
     double pooled = 0, count = 0;
-    std::vector<double> squares(parts.size());
-    for (std::size_t t = 0; t < parts.size(); ++t) {
-        squares[t] =
-            quadratic(scatter_of(shape, parts[t]), axis) / sine_squared(shape, parts[t], axis);
-        pooled += squares[t];
-        count += double(parts[t].facets.size());
+    std::vector<double> squares;
+    for (const Scatter& part : parts) {
+        squares.push_back(glm::dot(axis, part.matrix * axis) / part.sine_squared(shape, axis));
+        pooled += squares.back();
+        count += double(part.facets.size());
     }
     // Half a tier's worth of the common variance steadies small tiers; a millionth of a degree,
     // perfect ones.
@@ -127,8 +106,7 @@ WeightedAxis weighted_axis(const Shape& shape, const std::vector<Scatter>& parts
     for (int round = 0; round < 30; ++round) {
         glm::dmat3 s(0.0);
         for (std::size_t t = 0; t < parts.size(); ++t) {
-            s += scatter_of(shape, parts[t]) *
-                 (axis.weights[t] / sine_squared(shape, parts[t], axis.direction));
+            s += parts[t].matrix * (axis.weights[t] / parts[t].sine_squared(shape, axis.direction));
         }
         axis.least = least_eigenvector(s);
         const double moved = glm::length(axis.least.vector - axis.direction);
@@ -145,11 +123,10 @@ Quantity component_of(const WeightedAxis& axis, const Shape& shape,
     const Vec3 back = axis.least.pseudo_inverse * along;
     Quantity q;
     for (std::size_t t = 0; t < parts.size(); ++t) {
-        const double w = axis.weights[t] / sine_squared(shape, parts[t], axis.direction);
-        const Vec3 mean = centre_of(shape, parts[t]);
+        const double w = axis.weights[t] / parts[t].sine_squared(shape, axis.direction);
         for (int f : parts[t].facets) {
             // d(a) = -(S - l)^+ dS a; the means' own motion drops out.
-            const Vec3 d = shape.normals[f] - mean;
+            const Vec3 d = shape.normals[f] - parts[t].mean;
             q.add(Quantity::By::normal, f,
                   -w * (back * glm::dot(d, axis.direction) + axis.direction * glm::dot(d, back)));
         }
@@ -199,12 +176,16 @@ AxisEstimate own_axis(const System& system, const Shape& shape, const std::vecto
     OwnAxis& axis = estimate.axis;
     axis.sigma = axis.scatter_sigma = std::numeric_limits<double>::infinity();
     std::vector<Scatter> parts;
-    for (const Tier& tier : tiers) parts.push_back({tier.facets, true});
+    for (const Tier& tier : tiers) parts.emplace_back(shape, tier.facets, true);
     axis.basis = "tiers";
-    if (parts.empty() || !has_axis(shape, parts)) {
-        parts = {girdle_scatter(system, shape)};
+    if (parts.empty() || !has_axis(parts)) {
+        std::vector<int> girdle;
+        for (std::size_t f = 0; f < shape.normals.size(); ++f) {
+            if (system.is_girdle(int(f))) girdle.push_back(int(f));
+        }
+        parts = {Scatter(shape, girdle, false)};
         axis.basis = "girdle";
-        if (parts[0].facets.size() < 3 || !has_axis(shape, parts)) {
+        if (girdle.size() < 3 || !has_axis(parts)) {
             axis.basis = "neither tiers of like facets nor a girdle that could tell it";
             return estimate;
         }

@@ -1,6 +1,7 @@
 #include "fit/findings/plan_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
 #include <utility>
@@ -9,11 +10,51 @@ namespace culet {
 
 namespace {
 
-Vec3 flat(const Vec3& v) {
-    return {v.x, v.y, 0};
+Quantity length_of(const Quantity& x, const Quantity& y) {
+    Quantity q{std::hypot(x.value, y.value), {}};
+    if (!(q.value > 0)) return q;
+    const double length = q.value;
+    q.add(x, x.value / length);
+    q.add(y, y.value / length);
+    q.value = length;
+    return q;
+}
+
+double flat_distance(const Vec3& a, const Vec3& b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
 }
 
 }  // namespace
+
+Quantity operator+(Quantity a, const Quantity& b) {
+    a.add(b, 1);
+    return a;
+}
+
+Quantity operator-(Quantity a, const Quantity& b) {
+    a.add(b, -1);
+    return a;
+}
+
+Quantity operator*(double factor, const Quantity& a) {
+    Quantity q;
+    q.add(a, factor);
+    return q;
+}
+
+Quantity operator*(const Quantity& a, const Quantity& b) {
+    Quantity q = b.value * a;
+    q.add(b, a.value);
+    q.value = a.value * b.value;
+    return q;
+}
+
+Quantity operator/(const Quantity& a, const Quantity& b) {
+    Quantity q = 1 / b.value * a;
+    q.add(b, -a.value / (b.value * b.value));
+    q.value = a.value / b.value;
+    return q;
+}
 
 PlanView::PlanView(const Shape& shape, const Outline& outline) : shape_(shape), outline_(outline) {
     for (const Corner& c : outline.corners) places_.push_back(place_of(shape, c));
@@ -48,30 +89,20 @@ void PlanView::find_hull() {
     hull_ = std::move(chain);
 }
 
-void PlanView::put(Quantity& q, int corner, const Vec3& slope) const {
-    add_corner(q, shape_, outline_.corners[std::size_t(corner)], slope);
+Quantity PlanView::along(int corner, const Vec3& direction) const {
+    Quantity q{glm::dot(direction, place(corner)), {}};
+    add_corner(q, shape_, outline_.corners[std::size_t(corner)], direction);
+    return q;
 }
 
-Vec3 PlanView::flat_between(int from, int to) const {
-    return flat(place(to) - place(from));
-}
-
-double PlanView::edge_length(const Jaws& jaws) const {
-    return glm::length(flat_between(jaws.from, jaws.to));
-}
-
-Vec3 PlanView::along(const Jaws& jaws) const {
-    return flat_between(jaws.from, jaws.to) / edge_length(jaws);
+PlanView::Flat PlanView::between(int from, int to) const {
+    const Vec3 x{1, 0, 0}, y{0, 1, 0};
+    return {along(to, x) - along(from, x), along(to, y) - along(from, y)};
 }
 
 Quantity PlanView::distance(int a, int b) const {
-    const Vec3 d = flat_between(a, b);
-    const double length = glm::length(d);
-    Quantity q{length, {}};
-    if (!(length > 0)) return q;
-    put(q, b, d / length);
-    put(q, a, -d / length);
-    return q;
+    const Flat d = between(a, b);
+    return length_of(d.x, d.y);
 }
 
 Quantity PlanView::perimeter() const {
@@ -87,7 +118,7 @@ Quantity PlanView::widest() const {
     double most = 0;
     for (std::size_t i = 0; i < hull_.size(); ++i) {
         for (std::size_t j = i + 1; j < hull_.size(); ++j) {
-            const double apart = glm::length(flat_between(hull_[i], hull_[j]));
+            const double apart = flat_distance(place(hull_[i]), place(hull_[j]));
             // Of equal ones, to rounding, the first.
             if (apart <= most * (1 + 1e-12)) continue;
             most = apart;
@@ -98,77 +129,54 @@ Quantity PlanView::widest() const {
     return distance(from, to);
 }
 
+Quantity PlanView::mean_across(const std::vector<int>& loop) const {
+    const double count = double(loop.size());
+    Quantity q;
+    if (loop.size() % 2 == 0) {
+        const std::size_t half = loop.size() / 2;
+        for (std::size_t i = 0; i < half; ++i) q.add(distance(loop[i], loop[i + half]), 2 / count);
+        return q;
+    }
+    // An odd loop's corners face the middle of edges: twice the mean distance from the middle.
+    Flat middle;
+    for (const int c : loop) {
+        middle.x.add(along(c, {1, 0, 0}), 1 / count);
+        middle.y.add(along(c, {0, 1, 0}), 1 / count);
+    }
+    for (const int c : loop) {
+        q.add(length_of(along(c, {1, 0, 0}) - middle.x, along(c, {0, 1, 0}) - middle.y), 2 / count);
+    }
+    return q;
+}
+
 PlanView::Jaws PlanView::narrowest() const {
     Jaws best;
     for (std::size_t i = 0; i < hull_.size(); ++i) {
-        Jaws jaws{hull_[i], hull_[(i + 1) % hull_.size()], -1, 0};
-        const Vec3 e = along(jaws), inward{-e.y, e.x, 0};
+        Jaws jaws{hull_[i], hull_[(i + 1) % hull_.size()], 0};
+        const Vec3 edge = place(jaws.to) - place(jaws.from);
+        const Vec3 inward = Vec3{-edge.y, edge.x, 0} / std::hypot(edge.x, edge.y);
         for (const int c : hull_) {
-            const double away = glm::dot(inward, place(c) - place(jaws.from));
-            if (away > jaws.width || jaws.opposite < 0) {
-                jaws.width = away;
-                jaws.opposite = c;
-            }
+            jaws.width = std::max(jaws.width, glm::dot(inward, place(c) - place(jaws.from)));
         }
         if (jaws.width < best.width) best = jaws;
     }
     return best;
 }
 
-Quantity PlanView::width(const Jaws& jaws) const {
-    const Vec3 e = along(jaws), inward{-e.y, e.x, 0};
-    const Vec3 off = flat_between(jaws.from, jaws.opposite);
-    const double t = glm::dot(off, e) / edge_length(jaws);
-    Quantity q{glm::dot(inward, off), {}};
-    put(q, jaws.opposite, inward);
-    put(q, jaws.from, -(1 - t) * inward);
-    put(q, jaws.to, -t * inward);
-    return q;
-}
-
 Quantity PlanView::extent(const Jaws& jaws, const std::vector<int>& corners, bool across) const {
-    const Vec3 e = along(jaws), inward{-e.y, e.x, 0};
-    const Vec3 direction = across ? inward : e;
+    const Flat edge = between(jaws.from, jaws.to);
+    Flat direction = across ? Flat{-1 * edge.y, edge.x} : edge;
     const auto order = [&](int a, int b) {
-        return glm::dot(direction, place(a)) < glm::dot(direction, place(b));
+        const Vec3 d{direction.x.value, direction.y.value, 0};
+        return glm::dot(d, place(a)) < glm::dot(d, place(b));
     };
+    // The jaw lies on both of the edge's corners: either says the same.
+    const bool on_edge =
+        across && std::find(corners.begin(), corners.end(), jaws.from) != corners.end();
     const int high = *std::max_element(corners.begin(), corners.end(), order),
-              low = *std::min_element(corners.begin(), corners.end(), order);
-    const Vec3 between = flat_between(low, high);
-    Quantity q{glm::dot(direction, between), {}};
-    put(q, high, direction);
-    put(q, low, -direction);
-    // d(e) = inward (inward . d(to - from)) / length; d(inward) = -e times the same.
-    const double turn = across ? -glm::dot(e, between) : glm::dot(inward, between);
-    const Vec3 slope = inward * (turn / edge_length(jaws));
-    put(q, jaws.to, slope);
-    put(q, jaws.from, -slope);
-    return q;
-}
-
-Quantity PlanView::mean_across(const std::vector<int>& loop) const {
-    const std::size_t count = loop.size();
-    Quantity q;
-    if (count % 2 == 0) {
-        for (std::size_t i = 0; i < count / 2; ++i) {
-            q.add(distance(loop[i], loop[i + count / 2]), 2 / double(count));
-        }
-        return q;
-    }
-    // An odd loop's corners face the middle of edges: twice the mean distance from the middle.
-    Vec3 middle(0);
-    for (const int c : loop) middle += place(c) / double(count);
-    Vec3 mean_slope(0);
-    for (const int c : loop) {
-        const Vec3 d = flat(place(c) - middle);
-        const double length = glm::length(d);
-        q.value += 2 * length / double(count);
-        if (!(length > 0)) continue;
-        put(q, c, 2.0 / double(count) * d / length);
-        mean_slope += 2.0 / double(count) * d / length;
-    }
-    for (const int c : loop) put(q, c, -mean_slope / double(count));
-    return q;
+              low = on_edge ? jaws.from : *std::min_element(corners.begin(), corners.end(), order);
+    const Flat d = between(low, high);
+    return (direction.x * d.x + direction.y * d.y) / length_of(edge.x, edge.y);
 }
 
 }  // namespace culet

@@ -7,42 +7,41 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "fit/findings/words.h"
 #include "fit/uncertainty/condition_tests.h"
+#include "fit/uncertainty/statistics.h"
 
 namespace culet {
 
-namespace {
-
-// An edge of the mesh by its two sides and the facets beyond its ends.
-struct MeshEdge {
-    Edge edge;
-    std::vector<int> beyond_from, beyond_to;
-};
-
-std::vector<int> others(const std::vector<int>& facets, const Edge& edge) {
-    std::vector<int> rest;
-    for (int f : facets) {
-        if (f != edge.left && f != edge.right) rest.push_back(f);
-    }
-    return rest;
-}
-
-std::string name(const System& system, int facet) {
-    return system.stone().solid.facets[std::size_t(facet)].name;
+const char* name_of(ShapeFinding::Kind kind) {
+    constexpr const char* k_names[]{"edge_vanishes", "facet_vanishes", "edge_open", "facet_open"};
+    return k_names[static_cast<std::size_t>(kind)];
 }
 
 std::vector<std::string> names_of(const System& system, const Edge& edge) {
-    std::vector<std::string> names{name(system, edge.left), name(system, edge.right)};
+    const auto name = [&](int f) { return system.stone().solid.facets[std::size_t(f)].name; };
+    std::vector<std::string> names{name(edge.left), name(edge.right)};
     for (const int end : {edge.from, edge.to}) {
-        for (int f : others(system.edges().facets_of_vertex[std::size_t(end)], edge)) {
-            names.push_back(name(system, f));
+        for (const int f : system.edges().facets_of_vertex[std::size_t(end)]) {
+            if (f != edge.left && f != edge.right) names.push_back(name(f));
         }
     }
     return names;
 }
 
+namespace {
+
+using Shapes = ShapeFinding::Kind;
+
+// Half diameters. Longer edges are no news. What is less sure than half a half diameter, or in area
+// than a tenth of its square, is simply not known.
+constexpr double k_short_edge = 0.05, k_unknown_length = 0.5, k_unknown_area = 0.1;
+// Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
+constexpr double k_shut = 1e-5;
+
 // Whether holding a corner below a facet keeps this edge, which ends at both, from turning over.
-bool keeps_open(const System& system, const Edge& edge, int point, int facet) {
+bool keeps_open(const System& system, const Edge& edge, const ActiveCorner& corner) {
+    const auto& [facet, point] = corner;
     if (edge.from != point && edge.to != point) return false;
     if (edge.left == facet || edge.right == facet) return false;
     const int far_end = edge.from == point ? edge.to : edge.from;
@@ -50,151 +49,153 @@ bool keeps_open(const System& system, const Edge& edge, int point, int facet) {
     return std::find(there.begin(), there.end(), facet) != there.end();
 }
 
+class OpenShape {
+public:
+    OpenShape(const System& system, const Finished& finished, const FitResult& result)
+        : system_(system), shape_(finished.shape), outline_(*finished.outline), result_(result) {}
+
+    void add_vanishing_edges(const std::vector<ActiveCorner>& held, const Covariance& let_go);
+    void add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis);
+    void add_open_edges(const Covariance& holding);
+    std::vector<ShapeFinding> take() { return std::move(found_); }
+
+private:
+    // `unit`: of value and sigma.
+    void add(Shapes kind, std::vector<std::string> facets, double unit, double value, double sigma,
+             double p = 1);
+    std::string words(const ShapeFinding& finding) const;
+    std::vector<Corner> corners_of(std::size_t facet) const;
+    bool is_held(std::size_t facet, const std::vector<ActiveCorner>& held) const;
+
+    const System& system_;
+    const Shape& shape_;
+    const Outline& outline_;
+    const FitResult& result_;
+    std::vector<ShapeFinding> found_;
+};
+
+std::string OpenShape::words(const ShapeFinding& finding) const {
+    const std::string& first = finding.facets[0];
+    if (finding.kind == Shapes::facet_vanishes) {
+        return fmt::format("the readings leave no room for facet {}", first);
+    }
+    if (finding.kind == Shapes::facet_open) {
+        return fmt::format("facet {} has an area of {:.2g} {}2, sigma {:.2g}: it may not be there",
+                           first, finding.value, name_of(result_.unit), finding.sigma);
+    }
+    std::string edge = first + "|" + finding.facets[1];
+    if (finding.facets.size() > 2) {
+        edge += fmt::format(" (between {})",
+                            name_list({finding.facets.begin() + 2, finding.facets.end()}));
+    }
+    const bool vanishes = finding.kind == Shapes::edge_vanishes;
+    return fmt::format(
+        "{}edge {} {} {} long, sigma {}: {}", vanishes ? "the readings want " : "", edge,
+        vanishes ? "to be" : "is", length_words(finding.value, result_.unit),
+        length_words(finding.sigma, result_.unit),
+        vanishes ? "it is held at zero" : "the readings do not tell on which side of zero");
+}
+
+void OpenShape::add(Shapes kind, std::vector<std::string> facets, double unit, double value,
+                    double sigma, double p) {
+    ShapeFinding finding{kind, std::move(facets), unit * value, unit * sigma, p, {}};
+    finding.what = words(finding);
+    found_.push_back(std::move(finding));
+}
+
 // Corners held below the facet at the other end of an edge keep the edge from turning round. Let
 // go, it would be as long as the readings want it.
-void add_vanishing(const System& system, const Finished& finished,
-                   const std::vector<ActiveCorner>& held, const Covariance& let_go,
-                   std::vector<ShapeFinding>& findings) {
-    if (held.empty()) return;
+void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
+                                    const Covariance& let_go) {
     // Of an edge both ends may be held, which is one condition said twice: they are let go
     // together. A corner of an edge of length l lies l times the slope below the far facet.
-    std::vector<const Edge*> edges;
-    std::vector<Eigen::VectorXd> columns;
-    for (const Edge& edge : system.edges().edges) {
-        const Vec3 across = glm::cross(finished.shape.normals[std::size_t(edge.left)],
-                                       finished.shape.normals[std::size_t(edge.right)]);
+    std::vector<std::pair<const Edge*, Eigen::VectorXd>> edges;
+    for (const Edge& edge : system_.edges().edges) {
+        const Vec3 across = glm::cross(shape_.normals[std::size_t(edge.left)],
+                                       shape_.normals[std::size_t(edge.right)]);
         // Facets of one plane have no edge that could vanish.
         if (!(glm::dot(across, across) > 0)) continue;
-        const Vec3 along = glm::normalize(across);
-        Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(held.size()));
+        Eigen::VectorXd slopes = Eigen::VectorXd::Zero(Eigen::Index(held.size()));
         for (std::size_t k = 0; k < held.size(); ++k) {
-            const auto& [facet, point] = held[k];
-            if (!keeps_open(system, edge, point, facet)) continue;
-            column(Eigen::Index(k)) =
-                std::abs(glm::dot(along, finished.shape.normals[std::size_t(facet)]));
+            if (!keeps_open(system_, edge, held[k])) continue;
+            slopes(Eigen::Index(k)) = std::abs(
+                glm::dot(glm::normalize(across), shape_.normals[std::size_t(held[k].facet)]));
         }
-        if (column.maxCoeff() < 1e-9) continue;
-        edges.push_back(&edge);
-        columns.push_back(std::move(column));
+        if (slopes.sum() > 1e-9) edges.emplace_back(&edge, std::move(slopes));
     }
     if (edges.empty()) return;
     std::vector<Quantity> heights;
-    for (const auto& [facet, point] : held) {
-        heights.push_back(height(facet, Corner{point})(finished.shape));
-    }
+    for (const auto& [facet, point] : held) heights.push_back(height(facet, Corner{point})(shape_));
     // As they lie they hold.
     const Multipliers multipliers =
         multipliers_of(let_go, let_go.linear().writer.functions(heights),
                        Eigen::VectorXd::Zero(Eigen::Index(held.size())));
-    for (std::size_t k = 0; k < edges.size(); ++k) {
-        const double pull = columns[k].dot(multipliers.values);
-        const double information = columns[k].dot(multipliers.covariance * columns[k]);
-        // Readings so vague that what they say is no number say nothing.
-        if (!std::isfinite(pull) || !std::isfinite(information)) continue;
+    for (const auto& [edge, slopes] : edges) {
+        const double pull = slopes.dot(multipliers.values);
+        const double information = slopes.dot(multipliers.covariance * slopes);
         // Drawn apart, or pulled so loosely that rounding decides: not what shapes the stone.
+        if (!std::isfinite(pull) || !std::isfinite(information)) continue;
         if (!(pull > 0) || !(information > 4)) continue;
-        ShapeFinding finding;
-        finding.kind = ShapeFinding::Kind::edge_vanishes;
-        finding.facets = names_of(system, *edges[k]);
-        finding.value = -pull / information;
-        finding.sigma = 1 / std::sqrt(information);
         // One-sided: only a wish for less than nothing counts.
-        finding.p = 0.5 * std::erfc(pull / std::sqrt(2 * information));
-        findings.push_back(std::move(finding));
+        add(Shapes::edge_vanishes, names_of(system_, *edge), system_.scale(), -pull / information,
+            1 / std::sqrt(information), 0.5 * std::erfc(pull / std::sqrt(2 * information)));
     }
 }
 
-double area_of(const Finished& finished, std::size_t facet) {
+std::vector<Corner> OpenShape::corners_of(std::size_t facet) const {
     std::vector<Corner> corners;
-    for (int c : finished.outline->loops[facet]) {
-        corners.push_back(finished.outline->corners[std::size_t(c)]);
-    }
-    return enclosed_area(corners)(finished.shape).value;
+    for (const int c : outline_.loops[facet]) corners.push_back(outline_.corners[std::size_t(c)]);
+    return corners;
 }
 
-// A facet whose outline is shut by the held corners. One that is as small without being held is as
-// small as the readings say.
-void add_shut_facets(const System& system, const Finished& finished,
-                     const std::vector<ActiveCorner>& held, std::vector<ShapeFinding>& findings) {
-    const Outline& outline = *finished.outline;
-    std::set<int> held_points, held_facets;
-    for (const auto& [facet, point] : held) {
-        held_points.insert(point);
-        held_facets.insert(facet);
-    }
-    for (std::size_t f = 0; f < outline.loops.size(); ++f) {
-        double width = 0;
-        const std::vector<int>& loop = outline.loops[f];
-        const bool is_held = held_facets.contains(static_cast<int>(f)) ||
-                             std::any_of(loop.begin(), loop.end(), [&](int c) {
-                                 return held_points.contains(outline.corners[std::size_t(c)].point);
-                             });
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                width = std::max(
-                    width,
-                    glm::length(place_of(finished.shape, outline.corners[std::size_t(loop[i])]) -
-                                place_of(finished.shape, outline.corners[std::size_t(loop[j])])));
+bool OpenShape::is_held(std::size_t facet, const std::vector<ActiveCorner>& held) const {
+    const std::vector<Corner> corners = corners_of(facet);
+    return std::any_of(held.begin(), held.end(), [&](const ActiveCorner& h) {
+        return h.facet == int(facet) ||
+               std::any_of(corners.begin(), corners.end(),
+                           [&](const Corner& c) { return c.point == h.point; });
+    });
+}
+
+// A facet whose outline is shut by the held corners has vanished, unless it is shut at no loss: it
+// may as well be there. One that is as small without being held is as small as the readings say.
+void OpenShape::add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis) {
+    const double unit = system_.scale() * system_.scale();
+    const bool at_a_loss = result_.findings.vanishing_edges.empty() || are_edges_denied(result_);
+    for (std::size_t f = 0; f < outline_.loops.size(); ++f) {
+        const std::vector<Corner> corners = corners_of(f);
+        double width = k_shut;
+        for (const Corner& a : corners) {
+            for (const Corner& b : corners) {
+                width = std::max(width, glm::length(place_of(shape_, a) - place_of(shape_, b)));
             }
         }
-        // Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
-        if (loop.size() >= 3 && area_of(finished, f) > (is_held ? 1e-5 * std::max(width, 1e-5) : 0))
-            continue;
-        ShapeFinding finding;
-        finding.kind = ShapeFinding::Kind::facet_vanishes;
-        finding.facets = {name(system, static_cast<int>(f))};
-        findings.push_back(std::move(finding));
-    }
-}
-
-double sigma_of(const Covariance& covariance, const Quantity& quantity) {
-    return std::sqrt(covariance.total_variance(covariance.linear().writer.function(quantity)));
-}
-
-void add_open_edges(const System& system, const Finished& finished, const Covariance& holding,
-                    std::vector<ShapeFinding>& findings) {
-    if (system.splits()) return;
-    for (const Edge& edge : system.edges().edges) {
-        const Corner a{edge.from, {-1, -1, -1}}, b{edge.to, {-1, -1, -1}};
-        const double length =
-            glm::length(place_of(finished.shape, a) - place_of(finished.shape, b));
-        if (!(length < k_short_edge) || !(length > 1e-9)) continue;
-        const double sigma = sigma_of(holding, corner_distance(a, b)(finished.shape));
-        if (!(length < 2 * sigma) || !(sigma < 0.5)) continue;
-        ShapeFinding finding;
-        finding.kind = ShapeFinding::Kind::edge_open;
-        finding.facets = names_of(system, edge);
-        const bool known = std::any_of(findings.begin(), findings.end(), [&](const auto& other) {
-            return other.facets[0] == finding.facets[0] && other.facets.size() > 1 &&
-                   other.facets[1] == finding.facets[1];
-        });
-        if (known) continue;
-        finding.value = length;
-        finding.sigma = sigma;
-        findings.push_back(std::move(finding));
-    }
-}
-
-void add_open_facets(const System& system, const Finished& finished, const Diagnosis& diagnosis,
-                     std::vector<ShapeFinding>& findings) {
-    const Outline& outline = *finished.outline;
-    for (std::size_t f = 0; f < outline.loops.size(); ++f) {
-        if (outline.loops[f].size() < 3) continue;
-        const double value = area_of(finished, f);
+        const double value = corners.size() < 3 ? 0 : enclosed_area(corners)(shape_).value;
         const double sigma = diagnosis.facets[f].area;
-        // Beyond a tenth of the half diameter squared the area is simply not known.
-        if (!(value < 2 * sigma) || !(sigma < 0.1)) continue;
-        ShapeFinding finding;
-        finding.kind = ShapeFinding::Kind::facet_open;
-        finding.facets = {name(system, static_cast<int>(f))};
-        const bool known = std::any_of(findings.begin(), findings.end(), [&](const auto& other) {
-            return other.kind == ShapeFinding::Kind::facet_vanishes &&
-                   other.facets == finding.facets;
+        const std::string& name = system_.stone().solid.facets[f].name;
+        if (corners.size() < 3 || !(value > (is_held(f, held) ? k_shut * width : 0))) {
+            add(at_a_loss ? Shapes::facet_vanishes : Shapes::facet_open, {name}, unit, 0,
+                at_a_loss ? 0 : sigma);
+        } else if (value < 2 * sigma && sigma < k_unknown_area) {
+            add(Shapes::facet_open, {name}, unit, value, sigma);
+        }
+    }
+}
+
+void OpenShape::add_open_edges(const Covariance& holding) {
+    if (system_.splits()) return;
+    for (const Edge& edge : system_.edges().edges) {
+        const Quantity length = corner_distance(Corner{edge.from}, Corner{edge.to})(shape_);
+        if (!(length.value < k_short_edge) || !(length.value > 1e-9)) continue;
+        const double sigma =
+            std::sqrt(holding.total_variance(holding.linear().writer.function(length)));
+        if (!(length.value < 2 * sigma) || !(sigma < k_unknown_length)) continue;
+        const std::vector<std::string> names = names_of(system_, edge);
+        const bool known = std::any_of(found_.begin(), found_.end(), [&](const auto& other) {
+            return other.facets.size() > 1 && other.facets[0] == names[0] &&
+                   other.facets[1] == names[1];
         });
-        if (known) continue;
-        finding.value = value;
-        finding.sigma = sigma;
-        findings.push_back(std::move(finding));
+        if (!known) add(Shapes::edge_open, names, system_.scale(), length.value, sigma);
     }
 }
 
@@ -205,8 +206,9 @@ std::vector<std::string> edges_kept_open(const System& system,
     std::vector<std::string> edges;
     for (const ActiveCorner& h : held) {
         for (const Edge& edge : system.edges().edges) {
-            if (!keeps_open(system, edge, h.point, h.facet)) continue;
-            std::string both = name(system, edge.left) + "/" + name(system, edge.right);
+            if (!keeps_open(system, edge, h)) continue;
+            const std::vector<std::string> names = names_of(system, edge);
+            std::string both = names[0] + "/" + names[1];
             if (std::find(edges.begin(), edges.end(), both) == edges.end()) {
                 edges.push_back(std::move(both));
             }
@@ -215,16 +217,22 @@ std::vector<std::string> edges_kept_open(const System& system,
     return edges;
 }
 
+bool are_edges_denied(const FitResult& result) {
+    const FitFindings& findings = result.findings;
+    return !findings.vanishing_edges.empty() &&
+           chi2_tail(findings.vanishing_chi2, double(findings.vanishing_edges.size())) <
+               result.log.options.significance;
+}
+
 std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
-                                          const Diagnosis& diagnosis, const Covariance& holding) {
-    std::vector<ShapeFinding> findings;
-    if (!finished.outline) return findings;
-    add_vanishing(system, finished, held, *diagnosis.covariance, findings);
-    add_shut_facets(system, finished, held, findings);
-    add_open_edges(system, finished, holding, findings);
-    add_open_facets(system, finished, diagnosis, findings);
-    return findings;
+                                          const Diagnosis& diagnosis, const Covariance& holding,
+                                          const FitResult& result) {
+    OpenShape shape(system, finished, result);
+    if (!held.empty()) shape.add_vanishing_edges(held, *diagnosis.covariance);
+    shape.add_facets(held, diagnosis);
+    shape.add_open_edges(holding);
+    return shape.take();
 }
 
 }  // namespace culet

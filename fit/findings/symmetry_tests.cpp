@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <numbers>
 #include <set>
 
 #include "fit/findings/own_axis.h"
 #include "fit/findings/polar_coordinates.h"
+#include "fit/findings/symmetry_conclusion.h"
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "fit/uncertainty/variance_component.h"
@@ -140,24 +141,6 @@ GroupTest test_group(const System& system, const AxisGroup& group,
     return test;
 }
 
-// Contrasts that are zero because the frame or exact conditions make them so (the table's, from
-// which all else is read) say nothing of how far a stone is from symmetric.
-Contrasts without_what_holds(const Contrasts& contrasts) {
-    Contrasts free;
-    for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
-        const double value = contrasts.values[i], variance = contrasts.variances[i];
-        if (!(variance > k_exact) && !(value * value > k_exact)) continue;
-        free.values.push_back(value);
-        free.variances.push_back(variance);
-    }
-    return free;
-}
-
-// Where all is held, symmetric it is.
-VarianceComponent spread_of(const Contrasts& free) {
-    return free.values.empty() ? VarianceComponent() : variance_component(free);
-}
-
 // Polar angle and azimuth of facets, two rows each.
 struct Directions {
     Eigen::VectorXd deviations;
@@ -173,26 +156,48 @@ Directions directions_of(const std::vector<int>& facets, const SymmetricModel& m
     return {model.deviations(rows), model.columns(rows, Eigen::all), covariance(rows, rows)};
 }
 
+// But for those that are zero because the frame or exact conditions make them so (the table's, from
+// which all else is read): they say nothing of how far a stone is from symmetric.
+Contrasts free_contrasts(const Directions& directions) {
+    const Contrasts all =
+        contrasts_of(directions.deviations, directions.covariance, directions.columns);
+    Contrasts free;
+    for (std::size_t i = 0; i < all.values.size(); ++i) {
+        const double value = all.values[i], variance = all.variances[i];
+        if (!(variance > k_exact) && !(value * value > k_exact)) continue;
+        free.values.push_back(value);
+        free.variances.push_back(variance);
+    }
+    return free;
+}
+
+// Where all is held, symmetric it is.
+VarianceComponent spread_of(const Contrasts& free) {
+    return free.values.empty() ? VarianceComponent() : variance_component(free);
+}
+
 TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const SymmetricModel& model,
-                       const Eigen::MatrixXd& covariance) {
+                       const Eigen::MatrixXd& covariance, const std::vector<Tier>& tiers) {
     TierSymmetry tier;
     for (int f : orbit.facets) {
         tier.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
     }
+    const auto named = std::find_if(tiers.begin(), tiers.end(), [&](const Tier& t) {
+        return std::find(t.facets.begin(), t.facets.end(), orbit.facets.front()) != t.facets.end();
+    });
+    tier.tier = named != tiers.end() ? named->name : tier.facets.front();
     const Directions directions = directions_of(orbit.facets, model, covariance);
-    const auto& [deviations, columns, v] = directions;
     const Eigen::VectorXd off =
-        deviations - columns * shortest_solution(columns, deviations).col(0);
-    double squares = 0;
+        directions.deviations -
+        directions.columns * shortest_solution(directions.columns, directions.deviations).col(0);
     for (std::size_t i = 0; i < orbit.facets.size(); ++i) {
         const double angle = std::hypot(off(Eigen::Index(2 * i)), off(Eigen::Index(2 * i + 1)));
-        squares += angle * angle;
         if (angle < tier.worst_off || (i > 0 && angle == tier.worst_off)) continue;
         tier.worst_off = angle;
         tier.worst = tier.facets[i];
     }
-    tier.deviation = std::sqrt(squares / double(orbit.facets.size()));
-    const Contrasts contrasts = without_what_holds(contrasts_of(deviations, v, columns));
+    tier.deviation = off.norm() / std::sqrt(double(orbit.facets.size()));
+    const Contrasts contrasts = free_contrasts(directions);
     const VarianceComponent component = spread_of(contrasts);
     tier.sigma = component.sigma;
     tier.sigma_sigma = component.sigma_sigma;
@@ -200,77 +205,25 @@ TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const Symm
     double chi2 = 0;
     int tested = 0;
     for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
-        if (!(contrasts.variances[i] > k_exact) || !(contrasts.variances[i] < k_told_variance))
-            continue;
-        chi2 += contrasts.values[i] * contrasts.values[i] / contrasts.variances[i];
+        const double variance = contrasts.variances[i];
+        if (!(variance > k_exact) || !(variance < k_told_variance)) continue;
+        chi2 += contrasts.values[i] * contrasts.values[i] / variance;
         ++tested;
     }
     tier.p = chi2_tail(chi2, tested);
     return tier;
 }
 
-std::string in_degrees(double angle) {
-    return fmt::format("{:.2g}", degrees(angle));
-}
-
-// What a group says in a stone file.
-std::vector<std::string> readings_for(const GroupTest& test, const std::string& how) {
-    std::vector<std::string> readings;
-    if (test.order > 1) {
-        readings.push_back(fmt::format("kind = \"rotation\", of = [\"{}\"], {}", test.order, how));
+// Why a form's symmetry is not looked for; empty: it is.
+std::string cannot_be_tested(const Shape& shape, const Covariance& all) {
+    if (shape.normals.size() > k_most_facets) {
+        return fmt::format(
+            "symmetry was not looked for: {} facets are more than the {} up to which it is tested, "
+            "so C1 says nothing of this stone",
+            shape.normals.size(), k_most_facets);
     }
-    if (test.mirrors) {
-        readings.push_back(fmt::format("kind = \"mirror\", of = [\"{:.6g}\"], {}",
-                                       degrees(test.mirror_azimuth), how));
-    }
-    return readings;
-}
-
-void conclude(SymmetryReport& report, double level) {
-    const GroupTest* proposed = nullptr;
-    for (const GroupTest& test : report.groups) {
-        if (test.supported && test.determined && !proposed) proposed = &test;
-    }
-    const GroupTest& form = report.groups.front();
-    const std::string spread =
-        fmt::format("facets within {} degrees of it (sigma {})", in_degrees(report.sigma),
-                    in_degrees(report.sigma_sigma));
-    if (proposed) {
-        report.proposed = proposed->group;
-        report.readings = readings_for(*proposed, "exact = true");
-        report.message = fmt::format(
-            "{} is supported: chi2 {:.1f} for {} of {} conditions, p {:.2g}", proposed->group,
-            proposed->chi2, proposed->tested, proposed->conditions, proposed->p);
-        if (proposed != &form) {
-            report.message +=
-                fmt::format("; {} is denied (p {:.2g}), {}", form.group, form.p, spread);
-        }
-        return;
-    }
-    report.proposed = "C1";
-    // A single level facet may be all that is askew: the table that everything else is read from.
-    std::string askew;
-    bool others = false;
-    for (const TierSymmetry& tier : report.tiers) {
-        if (tier.p >= level) continue;
-        others = others || tier.facets.size() > 1 || !askew.empty();
-        askew =
-            fmt::format("{}, which stands {} degrees off", tier.tier, in_degrees(tier.worst_off));
-    }
-    if (!form.determined) {
-        report.message =
-            fmt::format("the readings leave {} open: they tell of {} of its {} conditions only",
-                        form.group, form.tested, form.conditions);
-        return;
-    }
-    report.message =
-        fmt::format("no exact symmetry: {} is denied (chi2 {:.1f} for {}, p {:.2g}); {}",
-                    form.group, form.chi2, form.tested, form.p, spread);
-    if (!askew.empty() && !others) {
-        report.message += fmt::format("; the stone would have it but for {}", askew);
-    }
-    report.readings =
-        readings_for(form, fmt::format("sigma = {:.2g}", std::max(1e-6, degrees(report.sigma))));
+    return all.usable() ? ""
+                        : "symmetry was not looked for: the stone has no covariance to test it by";
 }
 
 }  // namespace
@@ -279,22 +232,11 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covar
                            const FitOptions& options) {
     SymmetryReport report;
     const AxisGroup form = form_group(system, shape);
-    report.form = report.proposed = form.name();
-    if (form.is_trivial()) {
-        report.message = "the stone's form has no symmetry";
-        return report;
-    }
-    if (shape.normals.size() > k_most_facets || !all.usable()) {
-        report.proposed = "C1";
-        report.message =
-            shape.normals.size() > k_most_facets
-                ? fmt::format(
-                      "symmetry was not looked for: {} facets are more than the {} up to "
-                      "which it is tested, so C1 says nothing of this stone",
-                      shape.normals.size(), k_most_facets)
-                : "symmetry was not looked for: the stone has no covariance to test it by";
-        return report;
-    }
+    report.form = form.name();
+    report.proposed = form.is_trivial() ? report.form : "C1";
+    report.message =
+        form.is_trivial() ? "the stone's form has no symmetry" : cannot_be_tested(shape, all);
+    if (!report.message.empty()) return report;
     const std::vector<Tier> tiers = tiers_of(system, shape, form);
     const PolarCoordinates coordinates =
         polar_coordinates(system, shape, all.linear().writer, tiers);
@@ -302,7 +244,6 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covar
     const Eigen::MatrixXd covariance = all.joint(rows);
     const Eigen::MatrixXd reach = reach_of(all.linear(), rows);
     if (reach.size() == 0) {
-        report.proposed = "C1";
         report.message = "the meets could not be analysed";
         return report;
     }
@@ -311,30 +252,20 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covar
         report.groups.push_back(
             test_group(system, group, coordinates, space, options.significance));
     }
-    const SymmetricModel model = symmetric_model(coordinates, form);
+    SymmetricModel model = symmetric_model(coordinates, form);
     std::vector<int> alike;
     for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
         // A single facet is unlike nothing, unless turns must leave it level.
         if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
-        TierSymmetry tier = test_tier(system, orbit, model, covariance);
-        tier.tier = tier.facets.front();
-        for (const Tier& t : tiers) {
-            if (std::find(t.facets.begin(), t.facets.end(), orbit.facets.front()) !=
-                t.facets.end()) {
-                tier.tier = t.name;
-            }
-        }
-        report.tiers.push_back(std::move(tier));
+        report.tiers.push_back(test_tier(system, orbit, model, covariance, tiers));
         alike.insert(alike.end(), orbit.facets.begin(), orbit.facets.end());
     }
     // Together: a tier alone may be symmetric about an axis of its own.
-    SymmetricModel placed = model;
-    placed.columns.conservativeResize(Eigen::NoChange,
-                                      model.columns.cols() + coordinates.placement.cols());
-    placed.columns.rightCols(coordinates.placement.cols()) = coordinates.placement;
-    const Directions whole_stone = directions_of(alike, placed, covariance);
-    const VarianceComponent whole = spread_of(without_what_holds(
-        contrasts_of(whole_stone.deviations, whole_stone.covariance, whole_stone.columns)));
+    const Eigen::Index placed = coordinates.placement.cols();
+    model.columns.conservativeResize(Eigen::NoChange, model.columns.cols() + placed);
+    model.columns.rightCols(placed) = coordinates.placement;
+    const VarianceComponent whole =
+        spread_of(free_contrasts(directions_of(alike, model, covariance)));
     report.sigma = whole.sigma;
     report.sigma_sigma = whole.sigma_sigma;
     conclude(report, options.significance / double(report.tiers.size() + 1));

@@ -1,6 +1,5 @@
 #pragma once
-// The part of the fit report that tells of axis, tiers, meets, shape and symmetry. Private to the
-// room: shows JSON.
+// The part of the fit report that tells what was found out. Private to the room: shows JSON.
 
 #include <nlohmann/json.hpp>
 
@@ -8,8 +7,9 @@
 
 namespace culet {
 
-/// Adds `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`, `changes`
-/// and, when it was looked for, `symmetry`; and `inclination_own_axis` to the facets.
+/// Adds `tier_angles`, `proportions`, `disagreeing`, `proposals`, `undetermined`, `help` and, when
+/// they were looked for, `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`, `changes`
+/// and `symmetry`, and `inclination_own_axis` to the facets.
 void add_findings(const FitResult& result, nlohmann::ordered_json& report);
 
 }  // namespace culet

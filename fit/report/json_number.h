@@ -4,11 +4,26 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "stone/units.h"
+
 namespace culet {
 
 /// What is not known is null: JSON has no other word for it.
 inline nlohmann::ordered_json json_number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+/// Of an angle; in degrees.
+inline nlohmann::ordered_json json_degrees(double angle) {
+    return json_number(degrees(angle));
+}
+
+/// A list of what `object` makes of each element.
+template <class Elements, class Object>
+nlohmann::ordered_json json_list(const Elements& elements, const Object& object) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const auto& element : elements) list.push_back(object(element));
+    return list;
 }
 
 }  // namespace culet

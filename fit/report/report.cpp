@@ -7,22 +7,16 @@
 
 #include "fit/findings/result.h"
 #include "fit/findings/summary.h"
-#include "fit/report/assessment.h"
+#include "fit/findings/words.h"
 #include "fit/report/findings.h"
 #include "fit/report/json_number.h"
 #include "stone/design.h"
-#include "stone/units.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool in_degrees(ReadingKind kind) {
-    return is_angle(kind) || kind == ReadingKind::parallel || kind == ReadingKind::rotation ||
-           kind == ReadingKind::mirror;
-}
 
 Json prior_json(const PriorReport& prior) {
     Json json{{"source", name_of(prior.source)}};
@@ -32,29 +26,6 @@ Json prior_json(const PriorReport& prior) {
     json["tier_offset"] = prior.tier_offset;
     json["facet_offset"] = prior.facet_offset;
     return json;
-}
-
-Json tier_angles(const FitResult& result) {
-    Json tiers = Json::array();
-    for (const NamedTierFinding& tier : result.findings.named_tiers) {
-        Json odd = Json::array();
-        for (const OddFacets& o : tier.odd) {
-            odd.push_back({{"facets", o.facets},
-                           {"off", degrees(o.off)},
-                           {"sigma", degrees(o.sigma)},
-                           {"p", json_number(o.p)}});
-        }
-        tiers.push_back({{"tier", tier.name},
-                         {"words", tier.words},
-                         {"facets", tier.facets},
-                         {"read", tier.read},
-                         {"common", degrees(tier.common)},
-                         {"sigma", degrees(tier.sigma)},
-                         {"spread", degrees(tier.spread)},
-                         {"odd", odd},
-                         {"what", tier.what}});
-    }
-    return tiers;
 }
 
 // Tier and index setting of the design that the stone was cut by, where it is known.
@@ -78,8 +49,8 @@ Json facets_json(const std::vector<FittedFacet>& facets, const Design* design) {
                         {"offset", f.plane.offset},
                         {"inclination", degrees(f.inclination)},
                         {"azimuth", degrees(f.azimuth)},
-                        {"sigma_inclination", json_number(degrees(f.sigma_inclination))},
-                        {"sigma_azimuth", json_number(degrees(f.sigma_azimuth))},
+                        {"sigma_inclination", json_degrees(f.sigma_inclination)},
+                        {"sigma_azimuth", json_degrees(f.sigma_azimuth)},
                         {"sigma_offset", json_number(f.sigma_offset)},
                         {"from_readings",
                          {{"inclination", json_number(f.read_inclination)},
@@ -111,21 +82,21 @@ void add_photograph(const PhotographFinding& finding, Json& reading) {
     reading["rms_before"] = json_number(finding.rms_before);
     reading["rms"] = json_number(finding.rms);
     reading["moves_told"] = json_number(finding.moves_told);
-    Json& places = reading["contradictions"] = Json::array();
-    for (const PhotographFinding::Place& place : finding.contradictions) {
-        places.push_back({{"x", json_number(place.x)},
-                          {"y", json_number(place.y)},
-                          {"facet", place.facet},
-                          {"photograph_is", place.brighter ? "brighter" : "darker"},
-                          {"deviations", json_number(place.deviations)},
-                          {"area", json_number(place.area)}});
-    }
+    reading["contradictions"] =
+        json_list(finding.contradictions, [](const PhotographFinding::Place& place) -> Json {
+            return {{"x", json_number(place.x)},
+                    {"y", json_number(place.y)},
+                    {"facet", place.facet},
+                    {"photograph_is", place.brighter ? "brighter" : "darker"},
+                    {"deviations", json_number(place.deviations)},
+                    {"area", json_number(place.area)}};
+        });
 }
 
-Json readings_json(const std::vector<FittedReading>& readings) {
+Json readings_json(const std::vector<FittedReading>& readings, bool is_weighted) {
     Json json = Json::array();
     for (const FittedReading& r : readings) {
-        const double unit = in_degrees(r.kind) ? degrees(1) : 1;
+        const double unit = file_unit(r.kind);
         json.push_back(
             {{"id", r.id},
              {"kind", name_of(r.kind)},
@@ -143,14 +114,7 @@ Json readings_json(const std::vector<FittedReading>& readings) {
         if (r.photograph) add_photograph(*r.photograph, json.back());
         if (!r.left_out.empty()) json.back()["left_out"] = r.left_out;
         if (r.rounding > 0) json.back()["rounding"] = json_number(unit * r.rounding);
-    }
-    return json;
-}
-
-Json undetermined_json(const std::vector<Undetermined>& undetermined) {
-    Json json = Json::array();
-    for (const Undetermined& u : undetermined) {
-        json.push_back({{"facet", u.facet}, {"freedom", u.freedom}});
+        if (is_weighted) json.back()["weight"] = json_number(r.weight);
     }
     return json;
 }
@@ -171,7 +135,8 @@ Json options_json(const FitOptions& options) {
     return {{"meets", name_of(options.meets)},
             {"meet_sigma", options.meet_sigma ? Json(*options.meet_sigma) : Json("auto")},
             {"iterations", options.iterations},
-            {"significance", options.significance}};
+            {"significance", options.significance},
+            {"loss", name_of(options.loss)}};
 }
 
 // Stands in the report for the covariance, which is written a row a line.
@@ -207,20 +172,15 @@ std::string fit_report(const FitResult& result) {
     Json areas = Json::object();
     for (const FittedFacet& f : result.facets) areas[f.name] = f.area;
     report["areas"] = areas;
-    report["readings"] = readings_json(result.readings);
-    report["undetermined"] = undetermined_json(result.findings.undetermined);
+    report["readings"] = readings_json(result.readings, result.log.options.loss != Loss::none);
     report["undetermined_freedoms"] = result.statistics.rank_defect;
-    report["doubts"] = result.findings.doubts;
-    report["suspects"] = result.findings.suspects;
     report["suspect_limit"] = result.statistics.suspect_limit;
     report["missing_facets"] = result.checks.missing_facets;
-    report["vanishing_edges"] = result.findings.vanishing_edges;
     report["starts"] = result.log.starts;
     report["start"] = result.log.start;
     report["notes"] = result.log.notes;
     report["meets"] = meets_json(result.statistics.meets);
     report["prior"] = prior_json(result.statistics.prior);
-    report["tier_angles"] = tier_angles(result);
     add_findings(result, report);
     report["planarity_max"] = result.checks.planarity_max;
     report["closed"] = result.checks.closed;
@@ -234,7 +194,6 @@ std::string fit_report(const FitResult& result) {
     report["iterations"] = result.log.iterations;
     report["seconds"] = result.log.seconds;
     report["options"] = options_json(result.log.options);
-    report_assessment(result, report);
     report["facet_covariance"] = k_covariance_here.substr(1, k_covariance_here.size() - 2);
     std::string text = report.dump(1) + "\n";
     return text.replace(text.rfind(k_covariance_here), k_covariance_here.size(),

@@ -4,7 +4,6 @@
 
 #include "fit/report/json_number.h"
 #include "fit/study/study.h"
-#include "stone/units.h"
 
 namespace culet {
 
@@ -12,28 +11,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json object_of(const StudySetting& row) {
+Json setting_json(const StudySetting& row) {
     // Without a sound stone there is no error to tell.
     const auto if_sound = [&](double value) {
         return row.sound > 0 ? json_number(value) : Json(nullptr);
     };
-    return {
-        {"sweep", row.sweep},
-        {"setting", row.setting},
-        {"as_asked", row.as_asked},
-        {"fits", row.fits},
-        {"sound", row.sound},
-        {"settled", row.settled},
-        {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
-        {"angle_error", if_sound(degrees(row.angle_error))},
-        {"angle_left", row.angle_left < 0 ? Json(nullptr) : json_number(degrees(row.angle_left))},
-        {"offset_error", if_sound(row.offset_error)},
-        {"seconds", row.seconds},
-        {"seconds_low", row.seconds_low},
-        {"seconds_high", row.seconds_high}};
+    return {{"sweep", row.sweep},
+            {"setting", row.setting},
+            {"as_asked", row.as_asked},
+            {"fits", row.fits},
+            {"sound", row.sound},
+            {"settled", row.settled},
+            {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
+            {"angle_error", if_sound(degrees(row.angle_error))},
+            {"angle_left", row.angle_left < 0 ? Json(nullptr) : json_degrees(row.angle_left)},
+            {"offset_error", if_sound(row.offset_error)},
+            {"seconds", row.seconds},
+            {"seconds_low", row.seconds_low},
+            {"seconds_high", row.seconds_high}};
 }
 
-Json object_of(const StudyLimit& row) {
+Json limit_json(const StudyLimit& row) {
     const bool measured = row.draws > row.failed;
     const auto if_measured = [&](double value) {
         return measured ? json_number(value) : Json(nullptr);
@@ -45,7 +43,7 @@ Json object_of(const StudyLimit& row) {
         {"draws", row.draws},
         {"failed", row.failed},
         {"angle_error", if_measured(degrees(row.angle_error))},
-        {"angle_limit", json_number(degrees(row.angle_limit))},
+        {"angle_limit", json_degrees(row.angle_limit)},
         {"ratio", if_measured(row.ratio)},
         // One draw does not scatter.
         {"ratio_sigma", row.draws - row.failed > 1 ? if_measured(row.ratio_sigma) : Json(nullptr)},
@@ -75,13 +73,6 @@ std::string csv(const Json& rows) {
     return text;
 }
 
-template <typename Row>
-Json array_of(const std::vector<Row>& rows) {
-    Json array = Json::array();
-    for (const Row& row : rows) array.push_back(object_of(row));
-    return array;
-}
-
 }  // namespace
 
 std::string study_json(const Study& study) {
@@ -104,8 +95,8 @@ std::string study_json(const Study& study) {
                          {"iterations", fit.iterations},
                          {"starts", fit.starts},
                          {"significance", fit.significance}};
-    object["settings"] = array_of(study.settings);
-    object["limits"] = array_of(study.limits);
+    object["settings"] = json_list(study.settings, setting_json);
+    object["limits"] = json_list(study.limits, limit_json);
     object["limit_made_exact"] = study.limit_made_exact;
     object["limit_message"] = study.limit_message;
     object["left_out"] = study.left_out;
@@ -114,11 +105,11 @@ std::string study_json(const Study& study) {
 }
 
 std::string study_time_csv(const Study& study) {
-    return csv(array_of(study.settings));
+    return csv(json_list(study.settings, setting_json));
 }
 
 std::string study_limit_csv(const Study& study) {
-    return csv(array_of(study.limits));
+    return csv(json_list(study.limits, limit_json));
 }
 
 }  // namespace culet

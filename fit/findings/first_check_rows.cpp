@@ -1,0 +1,189 @@
+#include "fit/findings/first_check_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "fit/model/azimuth_turn.h"
+#include "stone/tiers.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// More level facets have no azimuth to speak of.
+constexpr double k_no_azimuth = radians(5);
+// Fewer azimuths, or such that scatter more, do not say where they begin.
+constexpr std::size_t k_fewest_azimuths = 4;
+constexpr double k_no_agreement = radians(10);
+
+class Rows {
+public:
+    Rows(const Stone& stone, const std::vector<Reading>& readings, const Vec3& up)
+        : stone_(stone), up_(up) {
+        turn_ = azimuth_turn(
+            readings, [&](int facet) { return normal(facet); }, stone.azimuth_from_mesh);
+    }
+
+    // What a reading would be of the mesh, where that can be told.
+    std::optional<double> in_mesh(const Reading& r) const;
+
+private:
+    Vec3 normal(int facet) const { return stone_.solid.facets[std::size_t(facet)].plane.normal; }
+    std::optional<double> in_mesh_angle(const Reading& r) const;
+    double table_width(const Vec3& direction) const;
+
+    const Stone& stone_;
+    Vec3 up_;
+    double turn_ = 0;  // of the azimuths read against the mesh
+};
+
+std::optional<double> Rows::in_mesh_angle(const Reading& r) const {
+    const bool is_mean = r.kind == ReadingKind::inclination && r.aggregate == Aggregate::mean;
+    const bool is_single = r.aggregate == Aggregate::single && r.facets.size() == 1;
+    if (r.facets.empty() || r.datum.kind != Datum::Kind::up || !(is_mean || is_single)) return {};
+    double mean = 0;
+    for (const int f : r.facets) mean += inclination(normal(f), up_) / double(r.facets.size());
+    if (r.kind == ReadingKind::inclination) return mean;
+    if (!(mean > k_no_azimuth)) return {};
+    return azimuth(normal(r.facets[0]));
+}
+
+double Rows::table_width(const Vec3& direction) const {
+    const int table = find_facet(stone_.solid, stone_.up_facet);
+    if (table < 0) return 0;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const int corner : stone_.solid.facets[std::size_t(table)].corners) {
+        const double along = glm::dot(direction, stone_.solid.vertices[std::size_t(corner)]);
+        low = std::min(low, along);
+        high = std::max(high, along);
+    }
+    return high - low;
+}
+
+std::optional<double> Rows::in_mesh(const Reading& r) const {
+    if (r.kind == ReadingKind::inclination || r.kind == ReadingKind::azimuth) {
+        return in_mesh_angle(r);
+    }
+    if (r.aggregate != Aggregate::single || !(r.value > 0)) return {};
+    const double a = r.azimuth - turn_;
+    const Vec3 across = r.has_direction ? r.direction : Vec3{std::cos(a), std::sin(a), 0};
+    const double mm3 = volume(stone_.solid) * std::pow(mm_per(stone_.unit), 3);
+    double mesh = 0;
+    if (r.kind == ReadingKind::width) mesh = width_along(stone_.solid, across);
+    if (r.kind == ReadingKind::table_width) mesh = table_width(across);
+    if (r.kind == ReadingKind::depth) mesh = width_along(stone_.solid, stone_.up);
+    if (r.kind == ReadingKind::volume) mesh = mm3;
+    if (r.kind == ReadingKind::weight) {
+        mesh = carat(mm3, stone_.material.density_g_cm3.value_or(0));
+    }
+    if (!(mesh > 0)) return {};
+    return mesh;
+}
+
+double half_turn(double angle) {
+    return std::remainder(angle, 2 * std::numbers::pi);
+}
+
+// The turn that most azimuths agree on: each one's own is tried. What is left of each, and how much
+// that scatters.
+struct Turn {
+    std::vector<double> left;
+    double sigma = std::numeric_limits<double>::infinity();
+};
+Turn common_turn(const std::vector<double>& turns) {
+    Turn best;
+    for (const double t : turns) {
+        Turn own;
+        for (const double other : turns) own.left.push_back(half_turn(other - t));
+        own.sigma = robust_sigma(own.left);
+        if (!(own.sigma < best.sigma)) continue;
+        const double middle = median(own.left);
+        for (double& left : own.left) left = half_turn(left - middle);
+        best = std::move(own);
+    }
+    return best;
+}
+
+// Azimuths count from a mark of their own, as drawn or the other way round (a mesh drawn as its
+// mirror image). Where they do not agree on it they are not checked.
+void turn_azimuths(std::vector<CheckedRow>& rows) {
+    std::array<std::vector<double>, 2> turns;
+    for (const CheckedRow& row : rows) {
+        if (row.kind != ReadingKind::azimuth) continue;
+        turns[0].push_back(row.value - row.mesh);
+        turns[1].push_back(row.value + row.mesh);
+    }
+    const Turn drawn = common_turn(turns[0]), mirrored = common_turn(turns[1]);
+    const Turn& common = mirrored.sigma < drawn.sigma ? mirrored : drawn;
+    if (turns[0].size() < k_fewest_azimuths || !(common.sigma < k_no_agreement)) {
+        std::erase_if(rows, [](const CheckedRow& r) { return r.kind == ReadingKind::azimuth; });
+        return;
+    }
+    auto left = common.left.begin();
+    for (CheckedRow& row : rows) {
+        if (row.kind == ReadingKind::azimuth) row.mesh = row.value - *left++;
+    }
+}
+
+}  // namespace
+
+double CheckedRow::off() const {
+    return is_angle(kind) ? value - mesh : std::log(value / mesh);
+}
+
+double CheckedRow::at(double off) const {
+    return is_angle(kind) ? mesh + off : mesh * std::exp(off);
+}
+
+std::vector<CheckedRow> checked_rows(const Stone& stone, const std::vector<Reading>& readings,
+                                     const Vec3& up, const std::vector<NamedTier>& tiers) {
+    const std::vector<int> tier_of = tier_of_each(tiers, stone.solid.facets.size());
+    const Rows mesh(stone, readings, up);
+    std::vector<CheckedRow> rows;
+    std::map<std::pair<std::string, long>, std::size_t> known;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const Reading& r = readings[i];
+        const std::optional<double> drawn = r.exact ? std::nullopt : mesh.in_mesh(r);
+        if (!drawn) continue;
+        if (r.kind == ReadingKind::inclination && r.line > 0) {
+            const auto [at, fresh] = known.try_emplace({r.file.string(), r.line}, rows.size());
+            if (!fresh) {
+                rows[at->second].readings.push_back(i);
+                continue;
+            }
+        }
+        CheckedRow row{
+            {i}, r.kind, r.value, std::hypot(r.sigma, r.rounding / std::sqrt(12.0)), *drawn};
+        row.line = r.line;
+        if (is_angle(r.kind)) {
+            row.tier = tier_of[std::size_t(r.facets[0])];
+            row.facet = r.aggregate == Aggregate::mean ? -1 : r.facets[0];
+        }
+        rows.push_back(std::move(row));
+    }
+    turn_azimuths(rows);
+    return rows;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double robust_sigma(const std::vector<double>& values) {
+    if (values.size() < 3) return 0;
+    const double middle = median(values);
+    std::vector<double> off;
+    for (const double v : values) off.push_back(std::abs(v - middle));
+    return 1.4826 * median(std::move(off));  // of a normal distribution
+}
+
+}  // namespace culet
