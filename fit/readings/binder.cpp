@@ -1,14 +1,17 @@
 #include "fit/readings/binder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "fit/readings/reading_kinds.h"
 #include "fit/readings/slips.h"
 #include "stone/errors.h"
 #include "stone/tiers.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -30,11 +33,11 @@ std::optional<double> plain_number(std::string_view text) {
 }
 
 Binder::Binder(const Stone& stone, const std::vector<WrittenReading>& all)
-    : stone_(stone), all_(all) {
+    : stone_(stone), all_(all), up_(up_of(stone)) {
     for (std::size_t i = 0; i < stone.solid.facets.size(); ++i) {
         facet_of_name_.emplace(stone.solid.facets[i].name, static_cast<int>(i));
     }
-    tier_of_ = tier_names_of(stone.solid, stone_up());
+    tier_of_ = tier_names_of(stone.solid, up_);
 }
 
 std::vector<Reading> Binder::bind(const WrittenReading& written, const std::string& id) {
@@ -57,31 +60,22 @@ std::vector<Reading> Binder::bind(const WrittenReading& written, const std::stri
     if (word->trade != KindWord::Trade::none && written.of.empty()) {
         return of_trade(base, word->trade);
     }
-    switch (kind) {
-        case ReadingKind::inclination:
-        case ReadingKind::azimuth:
+    switch (row_of(kind).of) {
+        case Named::one_facet:
             return of_one_facet(base);
-        case ReadingKind::dihedral:
-        case ReadingKind::edge:
+        case Named::two_facets:
             return of_two_facets(base);
-        case ReadingKind::distance:
+        case Named::two_places:
             return {of_two_places(base)};
-        case ReadingKind::width:
-        case ReadingKind::table_width:
+        case Named::direction:
             return {along_direction(base)};
-        case ReadingKind::depth:
-        case ReadingKind::volume:
-        case ReadingKind::weight:
+        case Named::whole_stone:
             return {of_whole_stone(base)};
-        case ReadingKind::meet:
-        case ReadingKind::parallel:
-        case ReadingKind::coplanar:
+        case Named::many_facets:
             return {of_many_facets(base)};
-        case ReadingKind::rotation:
-        case ReadingKind::mirror:
+        case Named::symmetry:
             return {of_symmetry(base)};
-        case ReadingKind::silhouette:
-        case ReadingKind::photograph:
+        case Named::unwritten:
             break;
     }
     fail("unknown kind");
@@ -94,15 +88,11 @@ void Binder::fail(const std::string& what) const {
 }
 
 void Binder::refuse_kind() const {
-    std::string known;
-    for (int i = 0; i <= static_cast<int>(ReadingKind::mirror); ++i) {
-        known += std::string(i == 0 ? "" : ", ") + name_of(static_cast<ReadingKind>(i));
-    }
     const auto near = near_kind_word(written_->kind);
-    throw InputError(
-        written_->file, written_->line,
-        fmt::format("unknown kind of reading '{}'{}; known are {}", written_->kind,
-                    near ? fmt::format(" (did you mean {}?)", *near) : std::string(), known));
+    throw InputError(written_->file, written_->line,
+                     fmt::format("unknown kind of reading '{}'{}; known are {}", written_->kind,
+                                 near ? fmt::format(" (did you mean {}?)", *near) : std::string(),
+                                 fmt::join(written_kinds(), ", ")));
 }
 
 void Binder::set_value(Reading& reading) const {
@@ -142,7 +132,7 @@ void Binder::set_value(Reading& reading) const {
     set_side(reading);
     // A tooth is no angle yet.
     if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
-    if (measure_of(reading.kind) == WrittenUnit::Of::angle) {
+    if (row_of(reading.kind).measure == WrittenUnit::Of::angle) {
         reading.value = radians(reading.value);
         reading.sigma = radians(reading.sigma);
         reading.rounding = radians(reading.rounding);
@@ -192,15 +182,10 @@ void Binder::refuse_value(const Reading& reading) const {
         case ReadingKind::distance:
             if (v < 0) fail(fmt::format("value {:g} is a negative length", v));
             break;
-        case ReadingKind::edge:
-        case ReadingKind::width:
-        case ReadingKind::depth:
-        case ReadingKind::table_width:
-        case ReadingKind::volume:
-        case ReadingKind::weight:
-            if (!(v > 0)) fail(fmt::format("value {:g} must be positive", v));
-            break;
         default:
+            if (!is_relation(reading.kind) && !(v > 0)) {
+                fail(fmt::format("value {:g} must be positive", v));
+            }
             break;
     }
 }
@@ -220,16 +205,9 @@ std::string Binder::meant_inclination(double value) const {
     if (found == facet_of_name_.end()) return {};
     const Vec3& normal = stone_.solid.facets[std::size_t(found->second)].plane.normal;
     const auto slip = find_slip(
-        value,
-        {degrees(inclination(normal, stone_up())), k_slip_tolerance_deg / 3, k_slip_tolerance_deg},
+        value, {degrees(inclination(normal, up_)), k_slip_tolerance_deg / 3, k_slip_tolerance_deg},
         Measured::angle);
     return slip ? fmt::format(" ({}: {:g}?)", slip->what, slip->corrected) : std::string();
-}
-
-Vec3 Binder::stone_up() const {
-    const auto up = facet_of_name_.find(stone_.up_facet);
-    return up == facet_of_name_.end() ? stone_.up
-                                      : stone_.solid.facets[std::size_t(up->second)].plane.normal;
 }
 
 Datum Binder::datum(ReadingKind kind) const {

@@ -46,7 +46,6 @@ private:
     [[noreturn]] void refuse_inclination(double v) const;
     void refuse_side_of_mesh(const Reading& reading, int facet) const;
     std::string meant_inclination(double value) const;
-    Vec3 stone_up() const;
     Datum datum(ReadingKind kind) const;
 
     // binder_names.cpp
@@ -84,6 +83,7 @@ private:
 
     const Stone& stone_;
     const std::vector<WrittenReading>& all_;
+    Vec3 up_;
     const WrittenReading* written_ = nullptr;
     std::map<std::string, int, std::less<>> facet_of_name_;
     std::vector<std::string> tier_of_;  // of each facet

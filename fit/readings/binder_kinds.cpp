@@ -19,7 +19,7 @@ void Binder::refuse_side_of_mesh(const Reading& reading, int f) const {
     constexpr double k_far_deg = 45;
     if (reading.side == 0) return;
     const Vec3& n = stone_.solid.facets[std::size_t(f)].plane.normal;
-    const double drawn = degrees(std::acos(std::clamp(glm::dot(n, stone_up()), -1.0, 1.0)));
+    const double drawn = degrees(std::acos(std::clamp(glm::dot(n, up_), -1.0, 1.0)));
     const double read = reading.side > 0 ? degrees(reading.value) : 180 - degrees(reading.value);
     if (std::abs(read - drawn) < k_far_deg) return;
     // A girdle facet that was read a little over 90 degrees: no side was meant.

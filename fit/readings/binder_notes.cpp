@@ -73,7 +73,7 @@ void Binder::note_tiers(const std::string& pattern, const std::vector<int>& face
     std::map<std::string, std::vector<double>> tiers;
     for (const int f : facets) {
         const Vec3& n = stone_.solid.facets[std::size_t(f)].plane.normal;
-        tiers[tier_of_[std::size_t(f)]].push_back(degrees(inclination(n, stone_up())));
+        tiers[tier_of_[std::size_t(f)]].push_back(degrees(inclination(n, up_)));
     }
     double least = 90, most = 0;
     std::string names;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fit/readings/binder.h"
+#include "fit/readings/reading_kinds.h"
 #include "stone/caliper.h"
 #include "stone/errors.h"
 #include "stone/tiers.h"
@@ -77,7 +78,7 @@ std::vector<double> distinct_half_turns(std::vector<double> azimuths) {
 double Binder::counted(double number, const WrittenUnit& unit, const char* column,
                        ReadingKind kind) const {
     const bool index = kind_word(written_->kind)->trade == KindWord::Trade::index;
-    Of wanted = measure_of(kind);
+    Of wanted = row_of(kind).measure;
     // The tooth stands in the value; what it may be off by is teeth or degrees.
     if (index) return number;
     if (unit.of == Of::none) return number;
@@ -147,16 +148,16 @@ std::vector<Reading> Binder::of_trade(const Reading& base, KindWord::Trade trade
 // The mean of what a caliper reads across opposite mains: as many widths of that value, together as
 // sure as the one reading.
 std::vector<Reading> Binder::of_diameter(const Reading& base) const {
-    const CaliperWidths widths = caliper_widths(stone_.solid, stone_up());
+    const CaliperWidths widths = caliper_widths(stone_.solid, up_);
     if (!widths.round()) {
         fail(
             fmt::format("the mesh is {:.4g} by {:.4g}: not round, so it has no one diameter; write "
                         "`width` with an azimuth in `of`",
                         widths.length, widths.least));
     }
-    const PlanFrame frame = plan_frame(stone_up());
+    const PlanFrame frame = plan_frame(up_);
     std::vector<double> azimuths;
-    for (const int f : main_facets(stone_.solid, stone_up(), true)) {
+    for (const int f : main_facets(stone_.solid, up_, true)) {
         const Vec3& n = stone_.solid.facets[f].plane.normal;
         azimuths.push_back(degrees(std::atan2(glm::dot(n, frame.y), glm::dot(n, frame.x))));
     }
@@ -200,7 +201,7 @@ std::vector<Reading> Binder::of_table(const Reading& base) const {
         }
     }
     const Facet& table = stone_.solid.facets[std::size_t(facet(stone_.up_facet))];
-    const PlanFrame frame = plan_frame(stone_up());
+    const PlanFrame frame = plan_frame(up_);
     const std::size_t count = table.corners.size(), half = count / 2;
     double least = 1e300, largest = 0;
     std::vector<double> azimuths;
@@ -236,14 +237,14 @@ std::vector<Reading> Binder::of_table(const Reading& base) const {
 
 std::vector<Reading> Binder::of_mains(const Reading& base, bool crown) const {
     Reading reading = base;
-    reading.facets = main_facets(stone_.solid, stone_up(), crown);
+    reading.facets = main_facets(stone_.solid, up_, crown);
     if (reading.facets.empty()) {
         fail(fmt::format("the mesh has no {} facets", crown ? "crown" : "pavilion"));
     }
     reading.aggregate = reading.facets.size() > 1 ? Aggregate::mean : Aggregate::single;
     std::string names;
     for (const int f : reading.facets) names += (names.empty() ? "" : "/") + facet_name(f);
-    for (const FacetTier& tier : tiers_of(stone_.solid, stone_up())) {
+    for (const FacetTier& tier : tiers_of(stone_.solid, up_)) {
         if (tier.facets == reading.facets && !tier.pattern.empty()) names = tier.pattern;
     }
     reading.of = {reading.facets.size() > 1 ? "mean(" + names + ")" : names};

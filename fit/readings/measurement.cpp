@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "fit/readings/reading_words.h"
 #include "fit/readings/readings_csv.h"
@@ -14,11 +13,6 @@
 namespace culet {
 
 namespace {
-
-constexpr std::array<const char*, 17> k_kind_names{
-    "inclination", "azimuth",     "dihedral", "distance",   "edge",      "width",
-    "depth",       "table_width", "volume",   "weight",     "meet",      "parallel",
-    "coplanar",    "rotation",    "mirror",   "silhouette", "photograph"};
 
 WrittenReading reading_of_table(const TomlTable& table) {
     table.refuse_unknown({"kind", "of", "value", "sigma", "exact", "released", "datum", "side",
@@ -53,29 +47,6 @@ WrittenReading reading_of_table(const TomlTable& table) {
 }
 
 }  // namespace
-
-const char* name_of(ReadingKind kind) {
-    return k_kind_names[static_cast<std::size_t>(kind)];
-}
-
-std::optional<ReadingKind> reading_kind(std::string_view name) {
-    for (std::size_t i = 0; i < k_kind_names.size(); ++i) {
-        if (name == k_kind_names[i]) return static_cast<ReadingKind>(i);
-    }
-    return std::nullopt;
-}
-
-bool is_relation(ReadingKind kind) {
-    return kind == ReadingKind::meet || kind == ReadingKind::parallel ||
-           kind == ReadingKind::coplanar || kind == ReadingKind::rotation ||
-           kind == ReadingKind::mirror || kind == ReadingKind::silhouette ||
-           kind == ReadingKind::photograph;
-}
-
-bool is_angle(ReadingKind kind) {
-    return kind == ReadingKind::inclination || kind == ReadingKind::azimuth ||
-           kind == ReadingKind::dihedral;
-}
 
 std::size_t skipped_readings(const std::vector<WrittenReading>& written) {
     return static_cast<std::size_t>(std::count_if(

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "fit/readings/reading_kinds.h"
 #include "stone/text_scan.h"
 #include "stone/toml_file.h"
 
@@ -12,7 +13,6 @@ namespace culet {
 namespace {
 
 using Trade = KindWord::Trade;
-using Of = WrittenUnit::Of;
 
 struct Synonym {
     const char* word;
@@ -83,10 +83,7 @@ std::optional<KindWord> kind_word(std::string_view written) {
 std::optional<std::string> near_kind_word(std::string_view written) {
     const std::string word = plain_word(written.substr(0, 64));
     if (word.size() < 2) return std::nullopt;
-    std::vector<std::string> known;
-    for (int i = 0; i <= static_cast<int>(ReadingKind::mirror); ++i) {
-        known.emplace_back(name_of(static_cast<ReadingKind>(i)));
-    }
+    std::vector<std::string> known = written_kinds();
     for (const Synonym& synonym : k_synonyms) known.emplace_back(synonym.word);
     for (const std::string& name : known) {
         if (word.size() >= 3 && name.starts_with(word)) return name;
@@ -97,24 +94,6 @@ std::optional<std::string> near_kind_word(std::string_view written) {
         return std::nullopt;
     }
     return near;
-}
-
-WrittenUnit::Of measure_of(ReadingKind kind) {
-    switch (kind) {
-        case ReadingKind::inclination:
-        case ReadingKind::azimuth:
-        case ReadingKind::dihedral:
-        case ReadingKind::parallel:
-        case ReadingKind::rotation:
-        case ReadingKind::mirror:
-            return Of::angle;
-        case ReadingKind::weight:
-            return Of::weight;
-        case ReadingKind::volume:
-            return Of::volume;
-        default:
-            return Of::length;
-    }
 }
 
 void mark_blank(WrittenReading& reading) {

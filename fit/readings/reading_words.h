@@ -32,9 +32,6 @@ std::optional<KindWord> kind_word(std::string_view written);
 /// The word that was meant by one that is none: the nearest, or the one that begins so.
 std::optional<std::string> near_kind_word(std::string_view written);
 
-/// What a number of this kind is counted in.
-WrittenUnit::Of measure_of(ReadingKind kind);
-
 /// Names parted by `/`, but not inside the brackets of mean(A/B). Blanks at the ends go.
 std::vector<std::string> split_names(std::string_view text);
 

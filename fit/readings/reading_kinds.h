@@ -1,0 +1,36 @@
+#pragma once
+// The kinds of reading, one row each. Private to the room; `name_of`, `reading_kind`, `is_relation`
+// and `is_angle` of measurement.h read it.
+
+#include <string>
+#include <vector>
+
+#include "fit/readings/measurement.h"
+
+namespace culet {
+
+/// What `of` names. `unwritten`: no [[reading]] is of this kind.
+enum class Named {
+    one_facet,
+    two_facets,
+    two_places,
+    direction,
+    whole_stone,
+    many_facets,
+    symmetry,
+    unwritten
+};
+
+struct KindOfReading {
+    ReadingKind kind;
+    const char* name;
+    Named of;
+    WrittenUnit::Of measure;  ///< of value and sigma
+    bool has_value;           ///< false: a relation
+};
+const KindOfReading& row_of(ReadingKind kind);
+
+/// Of those that a [[reading]] may have.
+std::vector<std::string> written_kinds();
+
+}  // namespace culet
