@@ -73,40 +73,6 @@ void refuse_other_unit(const Reading& reading, const Stone& stone) {
     }
 }
 
-// Three or more overall lengths that all ask for the same other size: then it is the mesh that was
-// drawn in another unit, which is no matter, since only its shape counts.
-bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& stone) {
-    std::vector<double> ratios;
-    for (const Reading& r : readings) {
-        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
-                            : r.kind == ReadingKind::width ? diameter(stone.solid)
-                                                           : 0;
-        if (mine > 0 && r.value > 0) ratios.push_back(r.value / mine);
-    }
-    if (ratios.size() < 3) return false;
-    std::sort(ratios.begin(), ratios.end());
-    const double middle = ratios[ratios.size() / 2];
-    // Proportions that are drawn wrong by half and more count for less than that.
-    return std::max(middle, 1 / middle) > 2.5 && ratios.back() < 8 * ratios.front();
-}
-
-// Most overall lengths agree with each other and with the mesh's proportions: one that does not is
-// a slip of its own, which the first check names (first_check.h), and no matter of units.
-bool most_lengths_agree(const std::vector<Reading>& readings, const Stone& stone) {
-    std::vector<double> logs;
-    for (const Reading& r : readings) {
-        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
-                            : r.kind == ReadingKind::width ? diameter(stone.solid)
-                                                           : 0;
-        if (mine > 0 && r.value > 0) logs.push_back(std::log(r.value / mine));
-    }
-    if (logs.size() < 3) return false;
-    const double middle = upper_median(logs);
-    const auto near = std::count_if(logs.begin(), logs.end(),
-                                    [&](double l) { return std::abs(l - middle) < std::log(2.0); });
-    return std::abs(middle) < std::log(2.5) && 2 * near > std::ptrdiff_t(logs.size());
-}
-
 // Logarithms of how much larger readings are than the mesh, in their order, and whose they are.
 struct Asked {
     std::vector<double> logs;
@@ -127,6 +93,33 @@ Asked asked_by_overall_lengths(const std::vector<Reading>& readings, const Stone
         if (r.kind == ReadingKind::width) asked.add(r, diameter(stone.solid));
     }
     return asked;
+}
+
+// Fewer overall lengths do not outvote the mesh.
+constexpr std::size_t k_enough_lengths = 3;
+// Nobody draws a stone so many times too large or small in its own unit.
+constexpr double k_other_size = 2.5;
+// Proportions that are drawn wrong by half and more count for less than that.
+constexpr double k_one_size = 8;
+
+// Overall lengths that all ask for the same other size: then it is the mesh that was drawn in
+// another unit, which is no matter, since only its shape counts.
+bool mesh_is_in_another_unit(const Asked& overall) {
+    if (overall.logs.size() < k_enough_lengths) return false;
+    const auto [least, most] = std::minmax_element(overall.logs.begin(), overall.logs.end());
+    return std::abs(overall.middle()) > std::log(k_other_size) &&
+           *most - *least < std::log(k_one_size);
+}
+
+// Most overall lengths agree with each other and with the mesh's proportions: one that does not is
+// a slip of its own, which the first check names (first_check.h), and no matter of units.
+bool most_lengths_agree(const Asked& overall) {
+    if (overall.logs.size() < k_enough_lengths) return false;
+    const double middle = overall.middle();
+    const auto near = std::count_if(overall.logs.begin(), overall.logs.end(),
+                                    [&](double l) { return std::abs(l - middle) < std::log(2.0); });
+    return std::abs(middle) < std::log(k_other_size) &&
+           2 * near > std::ptrdiff_t(overall.logs.size());
 }
 
 Asked asked_by_edges(const std::vector<Reading>& readings, const Stone& stone) {
@@ -188,12 +181,12 @@ void refuse_impossible_volume(const Reading& reading, const Stone& stone, double
 }  // namespace
 
 void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone) {
-    const bool agree = most_lengths_agree(readings, stone);
-    if (!agree && !mesh_is_in_another_unit(readings, stone)) {
-        for (const Reading& reading : readings) refuse_other_unit(reading, stone);
-    }
     const Asked overall = asked_by_overall_lengths(readings, stone),
                 edges = asked_by_edges(readings, stone);
+    const bool agree = most_lengths_agree(overall);
+    if (!agree && !mesh_is_in_another_unit(overall)) {
+        for (const Reading& reading : readings) refuse_other_unit(reading, stone);
+    }
     refuse_lengths_of_two_units(overall, edges, stone);
     if (agree) return;
     const Asked& lengths = overall.logs.empty() ? edges : overall;

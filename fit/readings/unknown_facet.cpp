@@ -7,7 +7,9 @@
 #include <optional>
 #include <set>
 
+#include "stone/caliper.h"
 #include "stone/units.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -27,25 +29,12 @@ std::optional<double> value_of(const std::string& kind, const std::string& name,
     return std::nullopt;
 }
 
-struct Frame {
-    Vec3 x, y, up;
-};
-
-Frame upright(const Stone& stone) {
-    const int table = find_facet(stone.solid, stone.up_facet);
-    const Vec3 up =
-        glm::normalize(table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal : stone.up);
-    const Vec3 aside = std::abs(up.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 x = glm::normalize(aside - glm::dot(aside, up) * up);
-    return {x, glm::cross(up, x), up};
-}
-
-double azimuth_in(const Frame& frame, const Vec3& n) {
+double azimuth_in(const PlanFrame& frame, const Vec3& n) {
     return std::atan2(glm::dot(frame.y, n), glm::dot(frame.x, n));
 }
 
 // Where the readings' azimuths begin: the mean direction of their differences.
-double azimuth_zero(const Frame& frame, const std::vector<WrittenReading>& written,
+double azimuth_zero(const PlanFrame& frame, const std::vector<WrittenReading>& written,
                     const Stone& stone) {
     double east = 0, north = 0;
     for (const WrittenReading& w : written) {
@@ -67,7 +56,8 @@ std::string where_it_may_lie(const std::string& name, const std::vector<WrittenR
     const auto inclination_deg = value_of("inclination", name, written),
                azimuth_deg = value_of("azimuth", name, written);
     if (!inclination_deg || !azimuth_deg || stone.solid.facets.empty()) return {};
-    const Frame frame = upright(stone);
+    const Vec3 up = up_of(stone);
+    const PlanFrame frame = plan_frame(up);
     const double zero = azimuth_zero(frame, written, stone);
     std::set<std::string> read;
     for (const WrittenReading& w : written) read.insert(w.of.begin(), w.of.end());
@@ -76,8 +66,8 @@ std::string where_it_may_lie(const std::string& name, const std::vector<WrittenR
     std::string nearest, corners;
     for (const int side : {1, -1}) {
         const double i = radians(*inclination_deg), a = radians(*azimuth_deg) - zero;
-        const Vec3 n = std::sin(i) * (std::cos(a) * frame.x + std::sin(a) * frame.y) +
-                       side * std::cos(i) * frame.up;
+        const Vec3 n =
+            std::sin(i) * (std::cos(a) * frame.x + std::sin(a) * frame.y) + side * std::cos(i) * up;
         for (const Facet& facet : stone.solid.facets) {
             if (read.count(facet.name) > 0 || facet.name == stone.up_facet) continue;
             const double off = angle_between(n, facet.plane.normal);
