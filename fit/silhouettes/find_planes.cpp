@@ -97,13 +97,10 @@ bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, st
 }
 
 // From where an earlier round ended; the start's pull stays where the start was.
-void run_on(const PlaneFitProblem& problem, int steps, const std::function<void()>& goes_on,
-            FoundPlanes& found) {
-    const int before = found.fit.steps;
+void run_on(const PlaneFitProblem& problem, int steps, FoundPlanes& found) {
     PlaneFitProblem from_here = problem;
     from_here.motions = found.fit.motions;
-    found.fit = fit_planes(from_here, found.fit.planes, steps, goes_on);
-    found.fit.steps += before;
+    found.fit = fit_planes(from_here, found.fit.planes, steps);
     if (!found.fit.body.closed) {
         throw InputError(
             "the planes of the outlines enclose no stone: are they of this stone, and "
@@ -113,8 +110,7 @@ void run_on(const PlaneFitProblem& problem, int steps, const std::function<void(
 
 // Only these planes go on. Body, distances and scales are made anew at once: they are numbered by
 // planes.
-void keep(const std::vector<bool>& kept, PlaneFitProblem& problem,
-          const std::function<void()>& goes_on, FoundPlanes& found) {
+void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, FoundPlanes& found) {
     std::vector<Plane> start, planes;
     std::vector<double> tilts;
     std::vector<int> facets;
@@ -132,19 +128,18 @@ void keep(const std::vector<bool>& kept, PlaneFitProblem& problem,
     problem.start_tilts = std::move(tilts);
     found.fit.planes = std::move(planes);
     found.mesh_facet = std::move(facets);
-    run_on(problem, 0, goes_on, found);
+    run_on(problem, 0, found);
 }
 
 }  // namespace
 
-FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem,
-                        const std::function<void()>& goes_on) {
+FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
     FoundPlanes found;
     for (std::size_t f = 0; f < problem.start.size(); ++f) found.mesh_facet.push_back(int(f));
     found.fit.planes = problem.start;
     found.fit.motions = problem.motions;
     problem.reach = k_reach * problem.width;
-    run_on(problem, k_first_steps, goes_on, found);
+    run_on(problem, k_first_steps, found);
     for (int round = 0; round < k_rounds; ++round) {
         bring_back(mesh, problem, found);
         const std::size_t room = k_most_planes - std::min(k_most_planes, problem.start.size());
@@ -157,17 +152,17 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem,
             found.fit.planes.push_back(plane);
             found.mesh_facet.push_back(-1);
         }
-        run_on(problem, k_round_steps, goes_on, found);
-        keep(kept_planes(found.fit, mesh_planes(found), false), problem, goes_on, found);
+        run_on(problem, k_round_steps, found);
+        keep(kept_planes(found.fit, mesh_planes(found), false), problem, found);
     }
     problem.reach = 0;
     bring_back(mesh, problem, found);
     // Each round but the last drops planes: what comes out is a fit of its own planes.
     for (;;) {
-        run_on(problem, k_last_steps, goes_on, found);
+        run_on(problem, k_last_steps, found);
         const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found), true);
         if (std::count(kept.begin(), kept.end(), false) == 0) return found;
-        keep(kept, problem, goes_on, found);
+        keep(kept, problem, found);
     }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // All planes that outlines show, the mesh's and further ones. Private to the room.
 
-#include <functional>
 #include <vector>
 
 #include "fit/silhouettes/plane_fit.h"
@@ -21,7 +20,6 @@ std::size_t mesh_planes(const FoundPlanes& found);
 /// Fits the planes of the mesh, then further ones where the body stands out over the outlines,
 /// until no more are missing. `problem` begins with the mesh's facets, and ends with the planes
 /// that were found. Throws InputError when they enclose nothing.
-FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem,
-                        const std::function<void()>& goes_on);
+FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem);
 
 }  // namespace culet

@@ -20,7 +20,7 @@ constexpr double k_longest = 0.1;
 }  // namespace
 
 PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& planes,
-                    int most_steps, const std::function<void()>& goes_on) {
+                    int most_steps) {
     const PlaneSolver solver(problem);
     PlaneFit result;
     PlaneState state{planes, problem.motions, {}, {}};
@@ -34,7 +34,6 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
             const PlaneSolver::Equations equations = solver.equations(state, weights, scales, true);
             bool better = false;
             while (!better && damping < k_most_damping && result.steps < most_steps) {
-                goes_on();
                 ++result.steps;
                 Eigen::MatrixXd damped = equations.matrix;
                 damped.diagonal() *= 1 + damping;

@@ -8,7 +8,6 @@
 // body anew, so that corners may come and go.
 
 #include <Eigen/Core>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,9 +37,9 @@ struct PlaneFit {
     bool converged = false;
 };
 
-/// From these planes, which may be off `problem.start`. `goes_on`: asked before each step.
+/// From these planes, which may be off `problem.start`.
 PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& planes,
-                    int most_steps, const std::function<void()>& goes_on);
+                    int most_steps);
 
 /// Of a fit: sigma of each set, as stated or estimated from the residuals: sqrt(sum of weighted
 /// squares / (points - parameters)).

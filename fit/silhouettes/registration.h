@@ -1,7 +1,6 @@
 #pragma once
 // How a set of outlines and a body lie to each other. Private to the room.
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,12 +34,7 @@ double registration_cost(std::span<const Vec3> corners, std::span<const FlatCont
 /// turntable), else one of the three axes of the set's frame; the body stands upright (+z) on
 /// either end of it, is scaled to the outlines' widths, and is turned about the axis in steps of
 /// two degrees. The holder may hide one end of the stone. The few best are registered.
-/// `up`: of the body. The best first, `most` of them; places that the body's symmetry makes the
-/// same are one.
-std::vector<Similarity> found_registrations(std::span<const Vec3> corners, const Vec3& up,
-                                            std::span<const FlatContour> contours,
-                                            std::size_t most);
-/// The best of them.
+/// `up`: of the body. Places that the body's symmetry makes the same are one.
 Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
                               std::span<const FlatContour> contours);
 

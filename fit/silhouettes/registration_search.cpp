@@ -169,6 +169,10 @@ struct Trial {
     double cost = 0;
 };
 
+bool is_better(const Trial& a, const Trial& b) {
+    return a.cost < b.cost;
+}
+
 // Each corner of one lies near some corner of the other: the same place, or one that the body's own
 // symmetry makes the same.
 bool are_alike(const std::vector<Vec3>& one, const std::vector<Vec3>& other, double within) {
@@ -181,8 +185,7 @@ bool are_alike(const std::vector<Vec3>& one, const std::vector<Vec3>& other, dou
 // The best of those that are not alike.
 std::vector<Trial> different(std::vector<Trial> trials, std::span<const Vec3> corners,
                              double within, std::size_t most) {
-    std::stable_sort(trials.begin(), trials.end(),
-                     [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
+    std::stable_sort(trials.begin(), trials.end(), is_better);
     std::vector<Trial> kept;
     std::vector<std::vector<Vec3>> places;
     for (const Trial& trial : trials) {
@@ -200,9 +203,8 @@ std::vector<Trial> different(std::vector<Trial> trials, std::span<const Vec3> co
 
 }  // namespace
 
-std::vector<Similarity> found_registrations(std::span<const Vec3> corners, const Vec3& up,
-                                            std::span<const FlatContour> contours,
-                                            std::size_t most) {
+Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
+                              std::span<const FlatContour> contours) {
     const std::vector<FlatContour> few = thinned(contours, 24, 60);
     const Axes axes = axes_of(contours);
     const Search search(corners, up, few);
@@ -231,16 +233,8 @@ std::vector<Similarity> found_registrations(std::span<const Vec3> corners, const
         trial.at = registered(corners, few, trial.at, all);
         trial.cost = registration_cost(corners, more, trial.at, 0.25 * allowed);
     }
-    std::vector<Similarity> best;
-    for (const Trial& trial : different(std::move(found), corners, k_alike * width, most)) {
-        best.push_back(registered(corners, more, trial.at, all));
-    }
-    return best;
-}
-
-Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
-                              std::span<const FlatContour> contours) {
-    return found_registrations(corners, up, contours, 1).front();
+    const Trial& best = *std::min_element(found.begin(), found.end(), is_better);
+    return registered(corners, more, best.at, all);
 }
 
 }  // namespace culet

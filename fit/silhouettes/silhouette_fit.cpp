@@ -118,16 +118,14 @@ std::string list_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets,
-                              const std::function<void()>& goes_on) {
+SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets) {
     if (!mesh.convex) {
         throw InputError(
             "outlines show a convex stone only: take `convex = false` or the "
             "[[silhouette]] tables out of the stone file");
     }
     SilhouetteStart start = silhouette_start(mesh, sets);
-    const FoundPlanes found = find_planes(
-        mesh, start.problem, goes_on ? goes_on : [] {});
+    const FoundPlanes found = find_planes(mesh, start.problem);
     SilhouetteFit result;
     const FrameMotion back = to_mesh_frame(mesh, start, found);
     result.stone = named_stone(mesh, found, back);
@@ -187,15 +185,10 @@ SilhouetteMisfit silhouette_misfit(const Solid& solid, const std::vector<Contour
                                    const FrameMotion& motion) {
     const Similarity start{inverse(motion), 1};
     const Similarity at = registered(solid.vertices, flattened(fitted, 0), start, {});
-    std::vector<Vec3> corners;
-    for (const Vec3& v : solid.vertices) corners.push_back(at.placed(v));
+    const std::vector<Vec3> corners = placed_corners(solid.vertices, at);
     const std::vector<FlatContour> flat = flattened(contours, 0);
     const std::vector<FrameMotion> same(1);
     return misfit_of(outline_distances(corners, flat, same), flat, 0);
-}
-
-FrameMotion found_motion(const Solid& solid, const Vec3& up, const std::vector<Contour>& contours) {
-    return inverse(found_registration(solid.vertices, up, flattened(contours, 0)).motion);
 }
 
 }  // namespace culet

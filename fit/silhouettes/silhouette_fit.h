@@ -2,7 +2,6 @@
 // From a mesh and outlines to the stone that the outlines show, and what they tell of its planes,
 // for the fit to weigh against other readings.
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,15 +34,11 @@ struct SilhouetteFit {
 /// The convex stone that all sets show together. Throws InputError when the stone need not be
 /// convex, or the outlines enclose none.
 SilhouetteFit fit_silhouettes(const Stone& mesh,
-                              const std::vector<std::shared_ptr<const SilhouetteSet>>& sets,
-                              const std::function<void()>& goes_on = {});
+                              const std::vector<std::shared_ptr<const SilhouetteSet>>& sets);
 
 /// How far outlines lie from a solid, in the place in which it suits `fitted` best, near `motion`;
 /// `contours` are held against it there.
 SilhouetteMisfit silhouette_misfit(const Solid& solid, const std::vector<Contour>& fitted,
                                    const std::vector<Contour>& contours, const FrameMotion& motion);
-
-/// The place of a solid among outlines from nothing but its up direction: to the solid's frame.
-FrameMotion found_motion(const Solid& solid, const Vec3& up, const std::vector<Contour>& contours);
 
 }  // namespace culet

@@ -48,8 +48,7 @@ SilhouetteStart silhouette_start(const Stone& mesh,
     } else {
         start.from_mesh = found_registration(corners, up_of(mesh), flattened(sets[0]->contours, 0));
     }
-    std::vector<Vec3> placed;
-    for (const Vec3& c : corners) placed.push_back(start.from_mesh.placed(c));
+    const std::vector<Vec3> placed = placed_corners(corners, start.from_mesh);
     PlaneFitProblem& problem = start.problem;
     for (const Facet& facet : mesh.solid.facets) {
         std::vector<Vec3> loop;

@@ -90,7 +90,7 @@ TEST(FindPlanes, WhatIsNumberedByPlanesIsOfThoseThatAreLeft) {
                 test::seen_along(truth, sight, {.points = 350, .sigma = 0.01}, random));
         }
         SilhouetteStart start = silhouette_start(stone_of(design), {set});
-        const FoundPlanes found = find_planes(stone_of(design), start.problem, [] {});
+        const FoundPlanes found = find_planes(stone_of(design), start.problem);
         const std::size_t planes = found.fit.planes.size();
         EXPECT_EQ(start.problem.start.size(), planes) << seed;
         EXPECT_EQ(found.mesh_facet.size(), planes) << seed;
