@@ -105,11 +105,13 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
     join_parted_tiers(cut.solid, design);
     cut.solid.design = std::make_shared<const Design>(std::move(design));
 
-    if (cut.contracted_edges > 0) {
+    // A meet that rounding alone keeps apart is exact.
+    const double missed = planarity(cut.solid) / width;
+    if (cut.contracted_edges > 0 && missed > k_same_plane) {
         cut.details.push_back(fmt::format(
             "joined meets that miss: {} edges shorter than {:g} of the width; corners lie up to "
             "{:.2g} of the width off their planes",
-            cut.contracted_edges, how.meet_tolerance, planarity(cut.solid) / width));
+            cut.contracted_edges, how.meet_tolerance, missed));
     }
     for (const std::string& place : cut.repeated_planes) {
         cut.notes.push_back(fmt::format("repeated plane left out: {}", place));

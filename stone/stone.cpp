@@ -22,7 +22,7 @@ double inclination(const Vec3& normal, const Vec3& up) {
 
 double azimuth(const Vec3& normal) {
     const double angle = std::atan2(normal.y, normal.x);
-    if (angle >= 0) return angle;
+    if (angle >= 0) return angle + 0.0;  // and not -0
     // A tiny negative angle plus a full turn rounds to the full turn itself.
     const double turned = angle + 2 * std::numbers::pi;
     return turned < 2 * std::numbers::pi ? turned : 0.0;
