@@ -28,8 +28,16 @@ struct TierRead {
     const NamedTier* tier = nullptr;
     std::vector<const CheckedRow*> rows;
     std::vector<double> values;
-    double value = 0, mesh = 0, off = 0;  // means; the median of what each is off
+    double value = 0, mesh = 0, off = 0;  ///< means; what its readings agree that it is off
 };
+
+// The median; of an even number the middle one nearer to the mesh. One of two readings that is off
+// is a slip in that one, not in both.
+double agreed(std::vector<double> off) {
+    std::sort(off.begin(), off.end());
+    const double low = off[(off.size() - 1) / 2], high = off[off.size() / 2];
+    return std::abs(low) < std::abs(high) ? low : high;
+}
 
 std::vector<TierRead> tiers_read(const std::vector<CheckedRow>& rows,
                                  const std::vector<NamedTier>& tiers) {
@@ -48,7 +56,7 @@ std::vector<TierRead> tiers_read(const std::vector<CheckedRow>& rows,
         if (off.empty()) continue;
         read.value /= double(off.size());
         read.mesh /= double(off.size());
-        read.off = median(std::move(off));
+        read.off = agreed(std::move(off));
         found.push_back(std::move(read));
     }
     return found;

@@ -4,6 +4,7 @@
 #include "fit/findings/first_check.h"
 #include "fit/fit.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -146,18 +147,43 @@ TEST_F(FirstCheck, ATierThatIsOffAsOthersAreIsNoSlip) {
     EXPECT_EQ(first_check(stone_, tiers_as_drawn(stone_, drawn + 5, 0.1), true).size(), 8u);
 }
 
-TEST_F(FirstCheck, ATierWhoseFacetsDifferByDesignIsNoSlip) {
+Stone an_oval() {
     Stone oval;
     oval.solid = make_cut("oval", {{"ratio", 1.4}});
     oval.up_facet = "T";
+    return oval;
+}
+
+// One row for each facet of these tiers, as drawn.
+std::vector<WrittenReading> rows_as_drawn(const Stone& stone, const std::string& letters) {
     std::vector<WrittenReading> rows;
-    long line = 2;
-    for (const Facet& facet : oval.solid.facets) {
-        if (facet.name[0] != 'C') continue;
+    for (const Facet& facet : stone.solid.facets) {
+        if (letters.find(facet.name[0]) == std::string::npos) continue;
         const double is = degrees(inclination(facet.plane.normal, {0, 0, 1}));
-        rows.push_back(row("inclination", {facet.name}, is, 0.1, line++));
+        rows.push_back(row("inclination", {facet.name}, is, 0.1, long(rows.size()) + 2));
     }
-    EXPECT_TRUE(first_check(oval, bind_readings(rows, oval), true).empty());
+    return rows;
+}
+
+TEST_F(FirstCheck, ATierWhoseFacetsDifferByDesignIsNoSlip) {
+    const Stone oval = an_oval();
+    EXPECT_TRUE(first_check(oval, bind_readings(rows_as_drawn(oval, "C"), oval), true).empty());
+}
+
+// An oval's mains at its two ends are a tier of two facets, C1 and C5, of one angle by symmetry: a
+// lost digit in the second row is no slip in the first.
+TEST_F(FirstCheck, ASlipInOneOfTwoFacetsIsNotOneOfTheirTier) {
+    const Stone oval = an_oval();
+    std::vector<WrittenReading> rows = rows_as_drawn(oval, "CPS");
+    const auto fifth = std::find_if(rows.begin(), rows.end(), [](const WrittenReading& r) {
+        return r.of == std::vector<std::string>{"C5"};
+    });
+    ASSERT_NE(fifth, rows.end());
+    fifth->value = std::fmod(*fifth->value, 10);
+    const std::vector<Doubt> doubts = first_check(oval, bind_readings(rows, oval), true);
+    ASSERT_EQ(doubts.size(), 1u);
+    EXPECT_FALSE(doubts[0].of_tier);
+    EXPECT_THAT(doubts[0].what, HasSubstr(fmt::format("line {}", fifth->line)));
 }
 
 TEST_F(FirstCheck, AFitGoesOnWithoutTheDoubtedReadingAndListsItFirst) {
