@@ -154,8 +154,7 @@ void say_result(const CompareArguments& a, const Comparison& comparison, bool ca
     say(calibrated ? comparison.reason + "."
                    : fmt::format("{}: {}", verdict_words(comparison.verdict), comparison.reason),
         a.common.quiet);
-    for (const std::string& note : comparison.notes)
-        if (note.starts_with("pose: ")) say(note, a.common.quiet);
+    if (!comparison.pose_note.empty()) say("pose: " + comparison.pose_note, a.common.quiet);
     if (comparison.within)
         say(fmt::format(
                 "{:.0f} % of the pixels are within one sigma of what the readings leave open, "
@@ -172,8 +171,7 @@ void say_result(const CompareArguments& a, const Comparison& comparison, bool ca
     for (const std::string& warning : comparison.registration.warnings) {
         say("  " + warning, a.common.quiet);
     }
-    for (const std::string& note : comparison.notes)
-        if (!note.starts_with("pose: ")) say("  " + note, a.common.quiet);
+    for (const std::string& note : comparison.notes) say("  " + note, a.common.quiet);
 }
 
 int run_compare(const CompareArguments& a, const std::string& version) {

@@ -7,6 +7,7 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
+#include "compare/calibration/scene_comparison.h"
 #include "compare/photo/photo.h"
 #include "compare/pose/find_pose.h"
 #include "render/scene/scene_io.h"
@@ -18,8 +19,6 @@
 namespace culet {
 
 namespace {
-
-constexpr double k_unsure_deg = 2;  // as k_sure of scene_comparison.cpp
 
 struct RegisterArguments {
     CommonOptions common;
@@ -56,7 +55,7 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
                     degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
                     pose.sigmas.shift_99_px),
         quiet);
-    if (degrees(pose.sigmas.angle_99) > k_unsure_deg)
+    if (pose.sigmas.angle_99 > k_sure_pose)
         say("that is not very sure: tilt the stone by 10 to 20 degrees and take it larger, or fit "
             "it to more readings; culet compare looks for a surer one by the picture itself",
             quiet);

@@ -38,9 +38,8 @@ constexpr double k_ns_per_second = 2e9, k_fixed_ns = 6e9, k_fixed_ns_per_pixel =
 // Of the budget: what the photograph's own picture may take, and the plan of those that the view is
 // sought with.
 constexpr double k_for_picture = 0.15, k_for_search = 0.05;
-// A pose that is sure (99 %) to so much is taken as it is. In a calibration what it is off by
-// weighs as much as small facet errors.
-constexpr double k_sure = radians(2.0), k_sure_to_calibrate = radians(0.3);
+// As k_sure_pose: in a calibration what a pose is off by weighs as much as small facet errors.
+constexpr double k_sure_to_calibrate = radians(0.3);
 constexpr double k_farthest_search = radians(5.0);
 // Of pictures that only tell where bright and dark are.
 constexpr double k_search_tolerance = 0.1, k_search_cut = 0.02;
@@ -131,7 +130,7 @@ struct Standpoint {
     Camera camera;
     double sigma = 0;  // of the view, about either axis across the line of sight; radians
     double budget_ns = 0, worked_ns = 0;
-    std::vector<std::string> notes;
+    std::string note;
 };
 
 // By the stone's picture, from where its edges say, and from the scene's own camera where that is
@@ -163,17 +162,17 @@ void search_further(const Photo& photo, const Scene& scene, const SceneCompareOp
             searched(scene.camera, k_farthest_search, part_of(progress, 0.5, 1));
         scenes_own = other.agreement > best.agreement;
         if (scenes_own) best = other;
-        stand.notes.push_back(fmt::format(
-            "pose: {}. Views near that one and near the scene's camera were drawn; the one that "
+        stand.note = fmt::format(
+            "{}. Views near that one and near the scene's camera were drawn; the one that "
             "agrees best lies {:.1f} degrees from {}. If that is not how the stone was held, turn "
             "the scene's camera to where it was and say --keep-pose",
             pose.trouble, degrees(best.moved),
-            scenes_own ? "the scene's camera" : "the one that the edges show"));
+            scenes_own ? "the scene's camera" : "the one that the edges show");
     } else {
-        stand.notes.push_back(fmt::format(
-            "pose: its edges show it to {:.2f} degrees (99 %); {} views within that were drawn, "
+        stand.note = fmt::format(
+            "its edges show it to {:.2f} degrees (99 %); {} views within that were drawn, "
             "and the one that agrees best lies {:.2f} degrees from it",
-            degrees(pose.sigmas.angle_99), best.drawn, degrees(best.moved)));
+            degrees(pose.sigmas.angle_99), best.drawn, degrees(best.moved));
     }
     result.pose_used = !scenes_own;
     pose.camera = stand.camera = best.camera;
@@ -189,9 +188,9 @@ Standpoint find_standpoint(const Photo& photo, const Scene& scene,
     stand.budget_ns = k_ns_per_second * options.budget_seconds;
     if (!options.find_pose) return stand;
     if (!is_convex(scene.stone.solid)) {
-        stand.notes.push_back(
-            "pose: only convex stones are found in a photograph, and this mesh is not convex (a "
-            "fitted one is, unless the stone is not); the scene's own camera was taken instead");
+        stand.note =
+            "only convex stones are found in a photograph, and this mesh is not convex (a "
+            "fitted one is, unless the stone is not); the scene's own camera was taken instead";
         return stand;
     }
     PoseOptions pose_options;
@@ -200,7 +199,7 @@ Standpoint find_standpoint(const Photo& photo, const Scene& scene,
     result.pose =
         find_pose(photo, scene.stone.solid, scene.camera, pose_options, part_of(progress, 0, 0.5));
     const FoundPose& pose = *result.pose;
-    const double sure = options.calibrate ? k_sure_to_calibrate : k_sure;
+    const double sure = options.calibrate ? k_sure_to_calibrate : k_sure_pose;
     if (pose.usable() && pose.sigmas.angle_99 <= sure) {
         result.pose_used = true;
         stand.camera = pose.camera;
@@ -208,8 +207,7 @@ Standpoint find_standpoint(const Photo& photo, const Scene& scene,
     } else if (stone_diameter_px(photo, options.compare.mask) > 0) {
         search_further(photo, scene, options, result, stand, part_of(progress, 0.5, 1));
     } else {
-        stand.notes.push_back("pose: " + pose.trouble +
-                              "; the scene's own camera was taken instead");
+        stand.note = pose.trouble + "; the scene's own camera was taken instead";
     }
     return stand;
 }
@@ -254,8 +252,7 @@ SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
         result.comparison = scored(pair, photo, result.render, how, rest);
     }
     result.comparison.within = within_readings(pair, photo, result.render);
-    std::vector<std::string>& all_notes = result.comparison.notes;
-    all_notes.insert(all_notes.end(), stand.notes.begin(), stand.notes.end());
+    result.comparison.pose_note = stand.note;
     return result;
 }
 

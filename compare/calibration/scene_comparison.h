@@ -11,8 +11,12 @@
 #include "compare/scores/compare.h"
 #include "render/render.h"
 #include "render/uncertainty/drawn_stones.h"
+#include "stone/units.h"
 
 namespace culet {
+
+/// A pose that is sure (99 %) to so much, radians, is taken as it is.
+constexpr double k_sure_pose = radians(2.0);
 
 struct SceneCompareOptions {
     CompareOptions compare;

@@ -114,6 +114,7 @@ std::string provenance_section(const Report& report) {
         row("seed", std::to_string(report.comparison->seed));
         row("photograph", report.comparison->simulated ? "simulated" : "as given");
         for (const std::string& note : report.comparison->notes) row("note", note);
+        row("pose", report.comparison->pose_note);
     }
     if (rows.empty() && report.settings.empty()) return {};
     return folded_section("provenance", "How this page was made",

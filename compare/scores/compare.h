@@ -91,6 +91,7 @@ struct Comparison {
     /// scored: in a calibrated comparison it is as soft as the photograph; else 0.
     double render_blur_px = 0;
     std::vector<std::string> notes;
+    std::string pose_note;  ///< of a comparison with a scene: where its view was sought, and why
     bool simulated = false;
     std::uint64_t seed = 1;
     std::optional<WithinReadings> within;  ///< of a render with bands (Photo::bands)
