@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
     CLI::App app("Simulated cutters: slips named, stones found, uncertainties honest");
     int sets = 50;
     std::uint64_t seed = 1;
-    bool verbose = false, clean_only = false;
+    bool verbose = false, clean_only = false, whole_tiers = false;
     std::string only;
     Population population;
     app.add_option("--sets", sets, "of each cut, with a slip and without");
@@ -170,6 +170,7 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({"exact", "soft", "released"}));
     app.add_flag("--verbose", verbose, "what was said of sets that went wrong");
     app.add_flag("--clean", clean_only, "no slips");
+    app.add_flag("--whole-tiers", whole_tiers, "the slip is a tier typed with another's values");
     CLI11_PARSE(app, argc, argv);
     Tally all, all_clean;
     for (const char* cut : {"round-brilliant", "oval", "cushion", "step", "pear", "trillion"}) {
@@ -179,7 +180,7 @@ int main(int argc, char** argv) {
             count(cutters_evening(cut, population, Slipped::none, seed + std::uint64_t(i)), verbose,
                   clean);
             if (clean_only) continue;
-            const auto slip = Slipped(1 + i % k_slips);
+            const auto slip = whole_tiers ? Slipped::whole_tier : Slipped(1 + i % k_slips);
             count(cutters_evening(cut, population, slip, seed + std::uint64_t(i)), verbose, slips);
         }
         all_clean += clean;

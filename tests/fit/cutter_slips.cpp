@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace culet::bench {
@@ -71,6 +73,7 @@ std::string slipped(const CutterRow& row, Slipped slip, const std::vector<Cutter
             break;
         case Slipped::none:
         case Slipped::rows_exchanged:
+        case Slipped::whole_tier:
             return {};
     }
     return text;
@@ -84,14 +87,45 @@ bool is_gross(const CutterRow& row, const std::string& value) {
     return row.kind == "inclination" ? std::abs(is - was) > 2 : std::abs(std::log(is / was)) > 0.1;
 }
 
+// Pattern rows are no single reading of a cutter's.
+bool is_single(const CutterRow& row) {
+    return row.of.empty() || row.of[0].find('*') == std::string::npos;
+}
+
+// C of C5, and C1 of C1N, a side of a step.
+std::string tier_of(const std::string& facet) {
+    if (std::isdigit(static_cast<unsigned char>(facet.back())) == 0)
+        return facet.substr(0, facet.size() - 1);
+    return facet.substr(0, facet.find_last_not_of("0123456789") + 1);
+}
+
+// The rows of a tier that are read one by one, with the values of another's.
+std::vector<std::size_t> mix_up_tiers(std::vector<CutterRow>& rows, Random& random) {
+    std::map<std::string, std::vector<std::size_t>> tiers;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].kind == "inclination" && is_single(rows[i]))
+            tiers[tier_of(rows[i].of[0])].push_back(i);
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+        const auto to = std::next(tiers.begin(), long(one_of(random, tiers.size()))),
+                   from = std::next(tiers.begin(), long(one_of(random, tiers.size())));
+        std::vector<std::string> values;
+        for (std::size_t k = 0; k < to->second.size(); ++k)
+            values.push_back(rows[from->second[k % from->second.size()]].value);
+        const bool gross = std::equal(
+            values.begin(), values.end(), to->second.begin(),
+            [&](const std::string& value, std::size_t i) { return is_gross(rows[i], value); });
+        if (!gross) continue;
+        for (std::size_t k = 0; k < values.size(); ++k) rows[to->second[k]].value = values[k];
+        return to->second;
+    }
+    throw std::runtime_error("no tiers for this slip");
+}
+
 }  // namespace
 
 std::vector<std::size_t> make_slip(std::vector<CutterRow>& rows, Slipped slip, Random& random) {
     if (slip == Slipped::none) return {};
-    // Pattern rows are no single reading of a cutter's.
-    const auto is_single = [](const CutterRow& row) {
-        return row.of.empty() || row.of[0].find('*') == std::string::npos;
-    };
+    if (slip == Slipped::whole_tier) return mix_up_tiers(rows, random);
     for (int attempt = 0; attempt < 1000; ++attempt) {
         const std::size_t at = one_of(random, rows.size());
         if (!is_single(rows[at])) continue;
@@ -117,7 +151,7 @@ const char* name_of(Slipped slip) {
         "none",       "digits swapped",  "decimal point",  "another first digit",
         "digit lost", "digit doubled",   "other side",     "inches",
         "grams",      "of another tier", "rows exchanged", "turned digit",
-        "copied row"};
+        "copied row", "whole tier"};
     return names[int(slip)];
 }
 

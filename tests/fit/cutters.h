@@ -24,9 +24,10 @@ enum class Slipped {
     other_tier,      ///< the value of a facet of another tier
     rows_exchanged,  ///< a crown main's value and a pavilion main's
     turned_digit,    ///< 6 for 9, 1 for 7, 3 for 8 in the first two places
-    copied_row       ///< a length's value written once more in an angle's or length's row
+    copied_row,      ///< a length's value written once more in an angle's or length's row
+    whole_tier       ///< all facets of a tier, with the values of another's
 };
-inline constexpr int k_slips = 12;
+inline constexpr int k_slips = 12;  ///< but the last, which is in more than a row or two
 const char* name_of(Slipped slip);
 
 /// How the stones differ from the design; standard deviations.
