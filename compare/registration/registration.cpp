@@ -1,8 +1,10 @@
 #include "compare/registration/registration.h"
 
+#include <ceres/ceres.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -59,69 +61,71 @@ Sample sample(const cv::Mat& field, const cv::Point2d& p) {
     return result;
 }
 
-// In the form q = (a, -b; b, a) (p - about) + about + t the unknowns enter linearly.
-struct Unknowns {
-    double a = 1, b = 0;
-    cv::Point2d t;
-};
+// a, b, x and y in q = (a, -b; b, a) (p - about) + about + (x, y): the unknowns enter linearly.
+using Unknowns = std::array<double, 4>;
 
 Similarity similarity_of(const Unknowns& u, const cv::Point2d& about) {
-    return {std::hypot(u.a, u.b), std::atan2(u.b, u.a), about, u.t};
+    return {std::hypot(u[0], u[1]), std::atan2(u[1], u[0]), about, {u[2], u[3]}};
 }
 
-cv::Point2d apply(const Unknowns& u, const cv::Point2d& arm, const cv::Point2d& about) {
-    return {u.a * arm.x - u.b * arm.y + about.x + u.t.x,
-            u.b * arm.x + u.a * arm.y + about.y + u.t.y};
-}
+/// Distance of a point of the photo's outline from the render's.
+class OutlineResidual : public ceres::SizedCostFunction<1, 4> {
+public:
+    OutlineResidual(const cv::Mat& field, const cv::Point2d& point, const cv::Point2d& about)
+        : field_(field), arm_(point - about), about_(about) {}
+    bool Evaluate(double const* const* blocks, double* residual, double** slopes) const override {
+        const double* u = blocks[0];
+        const Sample found = sample(field_, {u[0] * arm_.x - u[1] * arm_.y + about_.x + u[2],
+                                             u[1] * arm_.x + u[0] * arm_.y + about_.y + u[3]});
+        residual[0] = found.value;
+        if (slopes == nullptr || slopes[0] == nullptr) return true;
+        slopes[0][0] = found.slope.dot(arm_);
+        slopes[0][1] = found.slope.y * arm_.x - found.slope.x * arm_.y;
+        slopes[0][2] = found.slope.x;
+        slopes[0][3] = found.slope.y;
+        return true;
+    }
+
+private:
+    const cv::Mat& field_;
+    cv::Point2d arm_, about_;
+};
+
+struct Found {
+    Unknowns unknowns{1, 0, 0, 0};
+    double rms = 0;
+};
 
 double rms_residual(const cv::Mat& field, const std::vector<cv::Point2d>& points,
                     const cv::Point2d& about, const Unknowns& u) {
+    const Similarity moved = similarity_of(u, about);
     double sum = 0;
     for (const cv::Point2d& p : points) {
-        const double r = sample(field, apply(u, p - about, about)).value;
+        const double r = sample(field, moved(p)).value;
         sum += r * r;
     }
     return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-// One Gauss-Newton step; the turn is held when it is not in the outline.
-Unknowns step(const cv::Mat& field, const std::vector<cv::Point2d>& points,
-              const cv::Point2d& about, const Unknowns& u, double huber, bool turn_free) {
-    cv::Matx44d normal = cv::Matx44d::zeros();
-    cv::Vec4d right(0, 0, 0, 0);
-    const double arm_scale =
-        std::max(1.0, std::hypot(points[0].x - about.x, points[0].y - about.y));
-    for (const cv::Point2d& p : points) {
-        const cv::Point2d arm = p - about;
-        const Sample s = sample(field, apply(u, arm, about));
-        const double weight = std::abs(s.value) <= huber ? 1 : huber / std::abs(s.value);
-        cv::Vec4d row(s.slope.dot(arm) / arm_scale,
-                      (s.slope.y * arm.x - s.slope.x * arm.y) / arm_scale, s.slope.x, s.slope.y);
-        if (!turn_free) row[1] = 0;
-        normal += weight * (row * row.t());
-        right -= weight * s.value * row;
-    }
-    if (!turn_free) normal(1, 1) = 1;
-    cv::Vec4d change;
-    if (!cv::solve(normal, right, change, cv::DECOMP_SVD)) return u;
-    return {u.a + change[0] / arm_scale,
-            u.b + change[1] / arm_scale,
-            {u.t.x + change[2], u.t.y + change[3]}};
-}
-
-Unknowns refine(const cv::Mat& field, const std::vector<cv::Point2d>& points,
-                const cv::Point2d& about, Unknowns u, double diameter, bool turn_free) {
+// The turn is held when it is not in the outline.
+Found refined(const cv::Mat& field, const std::vector<cv::Point2d>& points,
+              const cv::Point2d& about, Unknowns u, double diameter, bool turn_free) {
     // Wide at first, then down to a pixel: far points must be able to come in, and then not pull.
-    double huber = 0.05 * diameter;
-    for (int round = 0; round < 60; ++round) {
-        const Unknowns next = step(field, points, about, u, huber, turn_free);
-        const double moved = std::hypot(next.a - u.a, next.b - u.b) * diameter / 2 +
-                             std::hypot(next.t.x - u.t.x, next.t.y - u.t.y);
-        u = next;
-        huber = std::max(1.0, 0.7 * huber);
-        if (moved < 1e-6 && huber <= 1.0) break;
+    for (const double huber : {0.05 * diameter, 1.0}) {
+        ceres::Problem problem;
+        auto* loss = new ceres::HuberLoss(huber);
+        for (const cv::Point2d& p : points)
+            problem.AddResidualBlock(new OutlineResidual(field, p, about), loss, u.data());
+        if (!turn_free) problem.SetManifold(u.data(), new ceres::SubsetManifold(4, {1}));
+        ceres::Solver::Options options;
+        options.linear_solver_type = ceres::DENSE_QR;
+        options.function_tolerance = 1e-8;
+        options.num_threads = 1;
+        options.logging_type = ceres::SILENT;
+        ceres::Solver::Summary summary;
+        ceres::Solve(options, &problem, &summary);
     }
-    return u;
+    return {u, rms_residual(field, points, about, u)};
 }
 
 double overlap(const cv::Mat& photo_mask, const cv::Mat& render_mask, const Similarity& s) {
@@ -141,24 +145,21 @@ double wrapped(double angle) {
     return std::remainder(angle, 2 * std::numbers::pi);
 }
 
-struct Found {
-    Unknowns unknowns;
-    double rms = 0;
-};
-
 Found best_from(const cv::Mat& field, const std::vector<cv::Point2d>& points,
                 const Silhouette& photo, const Silhouette& render, const std::vector<double>& turns,
                 bool turn_free, double most_turn) {
     Found best;
     best.rms = -1;
     const double scale = render.diameter / photo.diameter;
+    const cv::Point2d shift = render.centre - photo.centre;
     for (const double turn : turns) {
-        Unknowns u{scale * std::cos(turn), scale * std::sin(turn), render.centre - photo.centre};
-        u = refine(field, points, photo.centre, u, render.diameter, turn_free);
-        if (std::abs(std::atan2(u.b, u.a)) > most_turn) continue;
-        const double rms = rms_residual(field, points, photo.centre, u);
+        const Found found =
+            refined(field, points, photo.centre,
+                    {scale * std::cos(turn), scale * std::sin(turn), shift.x, shift.y},
+                    render.diameter, turn_free);
+        if (std::abs(std::atan2(found.unknowns[1], found.unknowns[0])) > most_turn) continue;
         // A later start must be better by more than the noise of a fit that is the same.
-        if (best.rms < 0 || rms < 0.98 * best.rms) best = {u, rms};
+        if (best.rms < 0 || found.rms < 0.98 * best.rms) best = found;
     }
     return best;
 }
@@ -237,7 +238,8 @@ OutlineMatch match_outlines(const Silhouette& photo, const Silhouette& render,
     const bool far_turned = found.rms < 0;
     if (far_turned) {
         // Laid over by centre and area only, for the picture that shows why it does not fit.
-        found.unknowns = {render.diameter / photo.diameter, 0, render.centre - photo.centre};
+        const cv::Point2d shift = render.centre - photo.centre;
+        found.unknowns = {render.diameter / photo.diameter, 0, shift.x, shift.y};
         found.rms = rms_residual(field, points, photo.centre, found.unknowns);
     }
     match.render_from_photo = similarity_of(found.unknowns, photo.centre);

@@ -43,9 +43,9 @@ struct OutlineLimits {
 };
 
 /// Starts from the silhouettes' centres and areas, with turn 0 and, for stones that are not round,
-/// with the turn of their long axes; then Gauss-Newton on the distance of the photo's outline
-/// points to the render's outline, weighted by Huber's function (1964) so that a holder or a chip
-/// does not pull. Turning by quarters and mirroring are tried only to explain a failure.
+/// with the turn of their long axes; then least squares (Ceres) on the distance of the photo's
+/// outline points to the render's outline, with Huber's loss (1964) so that a holder or a chip does
+/// not pull. Turning by quarters and mirroring are tried only to explain a failure.
 OutlineMatch match_outlines(const Silhouette& photo, const Silhouette& render,
                             const OutlineLimits& limits = {});
 
