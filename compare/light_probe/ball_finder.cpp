@@ -132,12 +132,6 @@ void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<F
 
 }  // namespace
 
-std::optional<FoundBall> refined_ball(const Photo& photo, const BallCircle& rough, double reach) {
-    const auto ball = fitted_in_steps(seen_luminance(photo), rough, reach);
-    if (!ball) return ball;
-    return to_a_fraction_of_a_pixel(luminance(colour_of(photo)), *ball);
-}
-
 std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
     if (photo.width < 16 || photo.height < 16) return {};
     const cv::Mat whole = seen_luminance(photo);

@@ -30,9 +30,4 @@ inline constexpr double k_rival_evidence = 0.8;
 /// Deterministic.
 std::vector<FoundBall> find_balls(const Photo& photo, double least_support = 0.45);
 
-/// A ball given roughly (by a click), fitted to the edges within `reach` of its radius; nothing
-/// when too few edges are there.
-std::optional<FoundBall> refined_ball(const Photo& photo, const BallCircle& rough,
-                                      double reach = 0.1);
-
 }  // namespace culet

@@ -9,6 +9,8 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "render/colour/colour.h"
 #include "render/scene/environment_layout.h"
@@ -24,76 +26,55 @@ constexpr double k_seen = 1e-4;
 // Each correction to this power: Richardson and Lucy's steps are timid (Meinel 1986).
 constexpr double k_boldness = 1.6;
 
+cv::Mat on_each_channel(const cv::Mat& plane) {
+    cv::Mat three;
+    cv::merge(std::vector<cv::Mat>(3, plane), three);
+    return three;
+}
+
+// Means over blocks of two by two; an odd row or column has a neighbour of nothing.
+cv::Mat halved(const cv::Mat& picture) {
+    cv::Mat even, half;
+    cv::copyMakeBorder(picture, even, 0, picture.rows % 2, 0, picture.cols % 2, cv::BORDER_CONSTANT,
+                       cv::Scalar::all(0));
+    cv::resize(even, half, even.size() / 2, 0, 0, cv::INTER_AREA);
+    return half;
+}
+
 // Pull and push (Grossman & Gortler 1998 in spirit): means over ever larger blocks fill what
-// holds nothing. Blocks are weighted by solid angle.
+// holds nothing (weight 0), bilinearly between the blocks and round the corner in azimuth.
+cv::Mat with_holes_filled(const cv::Mat& rgb, const cv::Mat& weight) {
+    if (rgb.total() == 1 || cv::countNonZero(weight) == static_cast<int>(weight.total()))
+        return rgb;
+    const cv::Mat block_weight = halved(weight);
+    const cv::Mat blocks = with_holes_filled(
+        halved(rgb.mul(on_each_channel(weight))) /
+            on_each_channel(cv::max(block_weight, std::numeric_limits<double>::min())),
+        block_weight);
+    cv::Mat round, between;
+    cv::copyMakeBorder(blocks, round, 0, 0, 1, 1, cv::BORDER_WRAP);
+    cv::resize(round, between, round.size() * 2, 0, 0, cv::INTER_LINEAR);
+    cv::Mat result = rgb.clone();
+    between(cv::Rect({2, 0}, rgb.size())).copyTo(result, weight == 0);
+    return result;
+}
+
+// Their solid angle. Blocks are weighted by it.
 double fill_holes(EnvironmentMap& map, const std::vector<double>& weight) {
-    struct Level {
-        int width, height;
-        std::vector<double> rgb, weight;
-    };
-    std::vector<Level> levels(1);
-    levels[0] = {map.width, map.height, {}, {}};
-    levels[0].rgb.assign(map.rgb.begin(), map.rgb.end());
-    levels[0].weight.resize(weight.size());
+    cv::Mat known(map.height, map.width, CV_64F);
     double empty_sr = 0;
     for (int y = 0; y < map.height; ++y) {
         const double omega = lat_long_solid_angle(y, map.width, map.height);
         for (int x = 0; x < map.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * map.width + x;
-            levels[0].weight[i] = weight[i] > 0 ? omega : 0;
-            if (weight[i] <= 0) empty_sr += omega;
+            const bool holds = weight[static_cast<std::size_t>(y) * map.width + x] > 0;
+            known.at<double>(y, x) = holds ? omega : 0;
+            if (!holds) empty_sr += omega;
         }
     }
     if (empty_sr == 0) return 0;
-    while (levels.back().width > 1 || levels.back().height > 1) {
-        const Level& fine = levels.back();
-        Level next{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
-        const std::size_t cells = static_cast<std::size_t>(next.width) * next.height;
-        next.rgb.assign(3 * cells, 0);
-        next.weight.assign(cells, 0);
-        for (int y = 0; y < fine.height; ++y) {
-            for (int x = 0; x < fine.width; ++x) {
-                const std::size_t from = static_cast<std::size_t>(y) * fine.width + x;
-                const std::size_t to = static_cast<std::size_t>(y / 2) * next.width + x / 2;
-                next.weight[to] += fine.weight[from];
-                for (std::size_t c = 0; c < 3; ++c)
-                    next.rgb[3 * to + c] += fine.weight[from] * fine.rgb[3 * from + c];
-            }
-        }
-        for (std::size_t i = 0; i < cells; ++i) {
-            for (std::size_t c = 0; c < 3; ++c)
-                if (next.weight[i] > 0) next.rgb[3 * i + c] /= next.weight[i];
-        }
-        levels.push_back(std::move(next));
-    }
-    for (std::size_t l = levels.size() - 1; l-- > 0;) {
-        Level& fine = levels[l];
-        const Level& coarse = levels[l + 1];
-        for (int y = 0; y < fine.height; ++y) {
-            for (int x = 0; x < fine.width; ++x) {
-                const std::size_t at = static_cast<std::size_t>(y) * fine.width + x;
-                if (fine.weight[at] > 0) continue;
-                // Bilinear between the blocks, round the corner in azimuth.
-                const double u = (x - 0.5) / 2, v = std::max((y - 0.5) / 2, 0.0);
-                const int x0 = static_cast<int>(std::floor(u)), y0 = static_cast<int>(v);
-                const double s = u - x0, t = v - y0;
-                std::array<double, 3> sum{};
-                for (int corner = 0; corner < 4; ++corner) {
-                    const int i = (x0 + corner % 2 + coarse.width) % coarse.width;
-                    const int j = std::min(y0 + corner / 2, coarse.height - 1);
-                    const double share = (corner % 2 ? s : 1 - s) * (corner / 2 ? t : 1 - t);
-                    for (std::size_t c = 0; c < 3; ++c)
-                        sum[c] +=
-                            share *
-                            coarse.rgb[3 * (static_cast<std::size_t>(j) * coarse.width + i) + c];
-                }
-                for (std::size_t c = 0; c < 3; ++c) fine.rgb[3 * at + c] = sum[c];
-                fine.weight[at] = 1e-30;  // known to the next finer level, of no weight
-            }
-        }
-    }
-    for (std::size_t i = 0; i < map.rgb.size(); ++i)
-        map.rgb[i] = static_cast<float>(levels[0].rgb[i]);
+    cv::Mat own(map.height, map.width, CV_32FC3, map.rgb.data()), rgb;
+    own.convertTo(rgb, CV_64F);
+    with_holes_filled(rgb, known).convertTo(own, CV_32F);
     return empty_sr;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -22,26 +23,15 @@ constexpr double k_floor = 2e-3;  // of the mean luminance, below which stops sa
 }  // namespace
 
 double floor_of(const Photo& picture) {
-    double sum = 0;
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) sum += luminance(&picture.rgb[i]);
-    return k_floor * std::max(sum / static_cast<double>(picture.rgb.size() / 3), 1e-30);
+    return k_floor * std::max(cv::mean(luminance(colour_of(picture)))[0], 1e-30);
 }
 
 cv::Mat stops_of(const Photo& picture, double sigma_px) {
-    const double floor = floor_of(picture);
-    cv::Mat plane(picture.height, picture.width, CV_32F);
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * picture.width + x;
-            plane.at<float>(y, x) = static_cast<float>(luminance(&picture.rgb[3 * i]));
-        }
-    }
-    if (sigma_px > 0) cv::GaussianBlur(plane, plane, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
-    for (int y = 0; y < plane.rows; ++y) {
-        float* row = plane.ptr<float>(y);
-        for (int x = 0; x < plane.cols; ++x) row[x] = static_cast<float>(std::log2(row[x] + floor));
-    }
-    return plane;
+    cv::Mat plane;
+    cv::GaussianBlur(luminance(colour_of(picture)), plane, {}, sigma_px, sigma_px,
+                     cv::BORDER_REPLICATE);
+    cv::log(plane + floor_of(picture), plane);
+    return plane / std::numbers::ln2;
 }
 
 double stops_at(const cv::Mat& plane, const PixelPlace& place) {

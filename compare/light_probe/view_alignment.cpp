@@ -10,7 +10,6 @@
 #include <numbers>
 
 #include "compare/light_probe/even_directions.h"
-#include "compare/light_probe/view_refinement.h"
 #include "compare/light_probe/weighted_pairs.h"
 #include "compare/pose/stone_view.h"
 #include "render/colour/colour.h"
@@ -177,12 +176,7 @@ std::vector<Candidate> distinct(std::vector<Candidate> list, double apart, std::
     return kept;
 }
 
-struct CoarseResult {
-    Candidate best;
-    double rival = -1;
-};
-
-CoarseResult over_all_rotations(const ViewMap& first, const ViewMap& second) {
+RoughTurn over_all_rotations(const ViewMap& first, const ViewMap& second) {
     // Half as much common weight as two views at right angles have is asked for.
     const auto asked = [](const SmoothPoints& points, const SmoothMap& map) {
         double weight = 0;
@@ -224,7 +218,7 @@ CoarseResult over_all_rotations(const ViewMap& first, const ViewMap& second) {
         best[i] = climbed(many, fine, best[i], radians(2), radians(0.2), fine_weight);
     });
     best = distinct(best, radians(6), 8);
-    return {best.front(), best.size() > 1 ? best[1].score : -1.0};
+    return {best.front().rotation, best.front().score, best.size() > 1 ? best[1].score : -1.0};
 }
 
 }  // namespace
@@ -240,20 +234,7 @@ RoughTurn rough_turn(const BallView& first, const BallView& second) {
     // In camera frames, whatever the views' own worlds are.
     BallView a = first, b = second;
     a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
-    const CoarseResult coarse = over_all_rotations(view_map(a, 256), view_map(b, 256));
-    return {coarse.best.rotation, coarse.best.score, coarse.rival};
-}
-
-ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
-                          const BallView& second, const ViewPrior& second_prior,
-                          const RoughTurn& rough) {
-    BallView a = first, b = second;
-    a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
-    const RefinedViews fine =
-        refine_views(a, first_prior, b, second_prior, rough.first_from_second);
-    return {fine.first_from_second, fine.correlation, rough.rival, fine.gain,
-            fine.residual,          fine.sigma,       fine.first,  fine.second,
-            rough.ambiguous()};
+    return over_all_rotations(view_map(a, 256), view_map(b, 256));
 }
 
 }  // namespace culet

@@ -78,7 +78,7 @@ bool less_sure(const SurePair& a, const SurePair& b) {
 }
 
 bool is_in(const std::vector<std::size_t>& list, std::size_t index) {
-    return std::find(list.begin(), list.end(), index) != list.end();
+    return std::ranges::find(list, index) != list.end();
 }
 
 ViewAlignment place(PlacedViews& views, const SurePair& pair) {

@@ -1,5 +1,3 @@
-#include "compare/light_probe/view_refinement.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "compare/light_probe/even_directions.h"
 #include "compare/light_probe/light_merge.h"
 #include "compare/light_probe/view_agreement.h"
+#include "compare/light_probe/view_alignment.h"
 #include "compare/pose/stone_view.h"
 #include "render/colour/colour.h"
 
@@ -71,11 +70,6 @@ OwnMap own_map(const BallView& view, const MirrorBall& ball, int width,
             map_from_camera};
 }
 
-double luminance_at(const EnvironmentMap& map, const Vec3& direction) {
-    const Rgb rgb = map.at(direction);
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 struct Pixel {
     PixelPlace place;
     double taken = 0;  // stops above the floor
@@ -131,7 +125,7 @@ double predicted(const Pixel& pixel, int steps, const MirrorBall& own,
             if (!moved) return k_unseen;
             in_map = *moved;
         }
-        sum += luminance_at(map.map, map.map_from_camera * in_map);
+        sum += luminance(map.map.at(map.map_from_camera * in_map));
     }
     return std::log2(sum / (steps * steps) + map.floor);
 }
@@ -187,10 +181,13 @@ double outline_moves(const ViewPair& pair, const ViewParameters& p) {
 
 }  // namespace
 
-RefinedViews refine_views(const BallView& first, const ViewPrior& first_prior,
+ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
                           const BallView& second, const ViewPrior& second_prior,
-                          const glm::dmat3& first_from_second) {
-    ViewPair pair{first, second, first_prior, second_prior, first_from_second, false};
+                          const RoughTurn& rough) {
+    // In camera frames, whatever the views' own worlds are.
+    BallView a = first, b = second;
+    a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
+    ViewPair pair{a, b, first_prior, second_prior, rough.first_from_second, false};
     pair.find_distance = (first_prior.focal_px <= 0 && first_prior.distance <= 0) ||
                          (second_prior.focal_px <= 0 && second_prior.distance <= 0);
     ViewSolution solution;
@@ -212,11 +209,11 @@ RefinedViews refine_views(const BallView& first, const ViewPrior& first_prior,
     }
     // Sets of pixels that have none in common, and grids of texels that lie otherwise: what they
     // differ by is no sampling of the light, and each one's own sigma does not know of it.
-    const ViewSolution rough = solution;
+    const ViewSolution common = solution;
     std::vector<ViewSolution> trials;
     ViewParameters mean = ViewParameters::Zero();
     for (std::size_t trial = 0; trial < k_trials; ++trial) {
-        trials.push_back(by_prediction(pair, rough, width, trial));
+        trials.push_back(by_prediction(pair, common, width, trial));
         mean += trials.back().at / k_trials;
     }
     double scatter = 0, within = 0;
@@ -228,12 +225,14 @@ RefinedViews refine_views(const BallView& first, const ViewPrior& first_prior,
     solution.at = mean;
     solution.sigma = std::sqrt(scatter + within);
     return {pair.rotation(solution.at),
-            pair.ball(solution.at, false),
-            pair.ball(solution.at, true),
+            correlation_of(pair, solution.at),
+            rough.rival,
             gain_of(pair, solution.at),
             solution.residual,
-            correlation_of(pair, solution.at),
-            solution.sigma};
+            solution.sigma,
+            pair.ball(solution.at, false),
+            pair.ball(solution.at, true),
+            rough.ambiguous()};
 }
 
 }  // namespace culet

@@ -150,22 +150,6 @@ TEST(BallFinder, AnotherBallIsARival) {
     EXPECT_NEAR(std::abs(found[0].rival->x - found[0].circle.x), 300, 3);
 }
 
-TEST(BallFinder, AClickIsEnough) {
-    simulated::BallShot shot;
-    shot.width = 420;
-    shot.height = 320;
-    shot.radius = 100;
-    shot.centre_x = 214.6;
-    shot.centre_y = 155.3;
-    shot.samples = 3;
-    const auto taken = simulated::take(shot, simulated::room(4));
-    const auto ball = refined_ball(taken.photo, {218, 151, 104});
-    ASSERT_TRUE(ball);
-    EXPECT_NEAR(ball->circle.x, taken.x, 0.5);
-    EXPECT_NEAR(ball->circle.y, taken.y, 0.5);
-    EXPECT_NEAR(ball->circle.radius, taken.radius, 0.5);
-}
-
 TEST(BallFinder, ThereIsNoBallInAnEmptyPictureOrASmallOne) {
     Photo photo;
     photo.width = 200;
@@ -175,7 +159,6 @@ TEST(BallFinder, ThereIsNoBallInAnEmptyPictureOrASmallOne) {
     photo.width = photo.height = 3;
     photo.rgb.resize(27);
     EXPECT_TRUE(find_balls(photo).empty());
-    EXPECT_FALSE(refined_ball(photo, {1, 1, 1}));
 }
 
 }  // namespace
