@@ -1,8 +1,10 @@
 #include "compare/light_probe/view_solver.h"
 
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -19,7 +21,15 @@ namespace {
 
 // Patches some 20 degrees across: wider than an edge's error, and enough of them for a scatter.
 constexpr int k_patches = 96;
-constexpr double k_distance_sigma = 0.05;  // of 1 / distance about that of k_unknown_distance
+constexpr int k_distance = 9, k_gain = 10;  // of the parameters
+constexpr double k_distance_sigma = 0.05;   // of 1 / distance about that of k_unknown_distance
+// Residuals of more scales than this count by their logarithm only: photographers, lamps that
+// moved. One that is not seen counts as twice as many: losing overlap gains nothing.
+constexpr double k_loss = 2, k_lost = 4;
+// The scale of the residuals and the solution depend on each other: in turns until the scale
+// changes by less than this.
+constexpr int k_scale_rounds = 4;
+constexpr double k_same_scale = 0.02;
 
 using Square = Eigen::Matrix<double, k_view_parameters, k_view_parameters>;
 
@@ -28,212 +38,224 @@ double median(std::vector<double> values) {
     return values.empty() ? 0 : upper_median(std::move(values));
 }
 
-std::vector<int> patches_of(const std::vector<ViewWitness>& witnesses) {
+std::vector<Eigen::Index> patches_of(const std::vector<ViewWitness>& witnesses) {
     const std::vector<Vec3> middles = even_directions(k_patches);
-    std::vector<int> patches;
+    std::vector<Eigen::Index> patches;
     for (const ViewWitness& witness : witnesses) {
-        int nearest = 0;
-        double most = -2;
-        for (int k = 0; k < k_patches; ++k) {
-            const double cosine = glm::dot(witness.direction, middles[static_cast<std::size_t>(k)]);
-            if (cosine <= most) continue;
-            most = cosine;
-            nearest = k;
-        }
-        patches.push_back(nearest);
+        const auto nearest =
+            std::max_element(middles.begin(), middles.end(), [&](const Vec3& a, const Vec3& b) {
+                return glm::dot(witness.direction, a) < glm::dot(witness.direction, b);
+            });
+        patches.push_back(nearest - middles.begin());
     }
     return patches;
 }
 
-/// What all witnesses say about the parameters, counted as independent ones.
-struct Evidence {
-    Square normal = Square::Zero();   ///< of the reweighted squares
-    Square bend = Square::Zero();     ///< of the loss itself, which outliers bend the other way
-    Square scatter = Square::Zero();  ///< of the patches' pulls
-    ViewParameters pull = ViewParameters::Zero();
-    int patches = 0;  ///< that hold any
+/// All residuals and their slopes, worked out at once whenever the solver moves on.
+class Differences : public ceres::EvaluationCallback {
+public:
+    /// `steps`: for the slopes, 0 for parameters that are held.
+    Differences(const ViewResiduals& residuals, const ViewParameters& at,
+                const ViewParameters& steps)
+        : residuals_(residuals), at_(at), steps_(steps) {
+        PrepareForEvaluation(false, true);
+    }
+    void PrepareForEvaluation(bool with_slopes, bool at_new_place) override {
+        if (at_new_place) values_ = residuals_(at_);
+        if (!with_slopes) return;
+        slopes_ = Eigen::MatrixXd::Zero(k_view_parameters, std::ssize(values_));
+        slopes_.row(k_gain).setOnes();  // linear: its column is known
+        for (int k = 0; k < k_gain; ++k) {
+            if (steps_[k] == 0) continue;
+            ViewParameters p = at_;
+            p[k] += steps_[k];
+            const std::vector<double> moved = residuals_(p);
+            for (std::size_t i = 0; i < moved.size(); ++i) {
+                const double slope = (moved[i] - values_[i]) / steps_[k];
+                slopes_(k, Eigen::Index(i)) = moved[i] < k_unseen ? slope : k_unseen;
+            }
+        }
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            auto slopes = slopes_.col(Eigen::Index(i));
+            if (values_[i] >= k_unseen || slopes.maxCoeff() >= k_unseen) slopes.setZero();
+        }
+    }
+    const std::vector<double>& values() const { return values_; }
+    /// All zero where a side sees nothing.
+    auto slopes(std::size_t i) const { return slopes_.col(Eigen::Index(i)); }
+
+    std::vector<double> known() const {
+        std::vector<double> result;
+        std::copy_if(values_.begin(), values_.end(), std::back_inserter(result),
+                     [](double value) { return value < k_unseen; });
+        return result;
+    }
+
+    // The spread of residuals where the pictures have structure: walls of one colour agree
+    // whatever the turn, and would make every edge an outlier.
+    double scale() const {
+        ViewParameters p = at_;
+        for (int k = 0; k < 3; ++k) p[k] += 1e-3;
+        const std::vector<double> moved = residuals_(p);
+        std::vector<std::pair<double, double>> by_structure;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            if (values_[i] < k_unseen && moved[i] < k_unseen)
+                by_structure.emplace_back(std::abs(moved[i] - values_[i]), std::abs(values_[i]));
+        }
+        const std::ptrdiff_t kept = std::ssize(by_structure) / 5;
+        if (kept < 20) return 1.0;
+        std::nth_element(by_structure.begin(), by_structure.begin() + kept, by_structure.end(),
+                         std::greater<>());
+        std::vector<double> sizes;
+        for (std::ptrdiff_t i = 0; i < kept; ++i)
+            sizes.push_back(by_structure[std::size_t(i)].second);
+        return std::max(1.4826 * median(std::move(sizes)), 1e-3);
+    }
+
+private:
+    const ViewResiduals& residuals_;
+    const ViewParameters& at_;
+    const ViewParameters steps_;
+    std::vector<double> values_;
+    Eigen::MatrixXd slopes_;
+};
+
+class WitnessResidual : public ceres::SizedCostFunction<1, k_view_parameters> {
+public:
+    WitnessResidual(const Differences& differences, std::size_t witness, double scale)
+        : differences_(differences), witness_(witness), scale_(scale) {}
+    bool Evaluate(double const* const*, double* residual, double** slopes) const override {
+        const double value = differences_.values()[witness_];
+        residual[0] = value < k_unseen ? value / scale_ : k_lost;
+        if (slopes == nullptr || slopes[0] == nullptr) return true;
+        for (int k = 0; k < k_view_parameters; ++k)
+            slopes[0][k] = differences_.slopes(witness_)[k] / scale_;
+        return true;
+    }
+
+private:
+    const Differences& differences_;
+    std::size_t witness_;
+    double scale_;
 };
 
 class Solver {
 public:
     Solver(const ViewPair& pair, const std::vector<ViewWitness>& witnesses,
            const ViewResiduals& residuals)
-        : residuals_(residuals), patches_(patches_of(witnesses)) {
-        for (const ViewWitness& witness : witnesses) weights_.push_back(witness.weight);
-        middle_[9] = 1 / k_unknown_distance;
-        for (int k = 0; k < 9; ++k) {
-            if (k < 3) {
-                step_[k] = 1e-4;
-                continue;
-            }
+        : witnesses_(witnesses), residuals_(residuals) {
+        expected_[k_distance] = 1 / k_unknown_distance;
+        certainty_[k_distance] = 1 / k_distance_sigma;
+        for (int k = 0; k < k_distance; ++k) {
             const double sigma = (k < 6 ? pair.first_prior : pair.second_prior).circle_sigma_px;
-            step_[k] = sigma > 0 ? 0.05 : 0;
-            prior_(k, k) = sigma > 0 ? 1 / (sigma * sigma) : 0;
+            if (k >= 3 && sigma > 0) certainty_[k] = 1 / sigma;
+            step_[k] = k < 3 ? 1e-4 : sigma > 0 ? 0.05 : 0;
         }
-        step_[9] = pair.find_distance ? 1e-3 : 0;
-        prior_(9, 9) = 1 / (k_distance_sigma * k_distance_sigma);
-        step_[10] = 1;  // linear: its column is known
+        step_[k_distance] = pair.find_distance ? 1e-3 : 0;
+        step_[k_gain] = 1;
     }
 
-    ViewSolution solve(ViewSolution result) {
-        // Gain first, by the median.
-        std::vector<double> r = residuals_(result.at), known;
-        for (std::size_t i = 0; i < r.size(); ++i)
-            if (r[i] < k_unseen && weights_[i] > 0) known.push_back(r[i]);
+    ViewSolution solve(ViewSolution result) const {
+        Differences differences(residuals_, result.at, step_);
+        std::vector<double> known = differences.known();
         const double all = static_cast<double>(known.size());
-        if (result.witnesses > 0) share_ = std::min(1.0, result.witnesses / std::max(all, 1.0));
-        result.at[10] -= median(std::move(known));
-        r = residuals_(result.at);
-        double damping = 1e-3, scale = scale_of(r, result.at), cost = cost_of(r, scale, result.at);
-        for (int iteration = 0; iteration < 12; ++iteration) {
-            const Evidence evidence = evidence_of(r, scale, result.at);
-            const Square normal = share_ * evidence.normal + prior_ + held();
-            const ViewParameters gradient = share_ * evidence.pull + prior_ * (result.at - middle_);
-            ViewParameters moved = ViewParameters::Zero();
-            bool better = false;
-            for (int attempt = 0; attempt < 5 && !better; ++attempt) {
-                Square damped = normal;
-                damped.diagonal() *= 1 + damping;
-                moved = -PivotedCholesky(damped).solve_one(gradient);
-                if (!moved.allFinite()) break;
-                ViewParameters p = result.at + moved;
-                p[9] = std::clamp(p[9], 1e-6, 0.5);
-                std::vector<double> tried = residuals_(p);
-                if (cost_of(tried, scale, p) < cost) {
-                    better = true;
-                    result.at = p;
-                    r = std::move(tried);
-                    damping = std::max(damping / 5, 1e-9);
-                } else {
-                    damping *= 8;
-                }
-            }
-            if (!better) break;
-            scale = scale_of(r, result.at);
-            cost = cost_of(r, scale, result.at);
-            if (moved.head<3>().norm() < 1e-6 && moved.segment<6>(3).norm() < 2e-3) break;
+        const double share =
+            result.witnesses > 0 ? std::min(1.0, result.witnesses / std::max(all, 1.0)) : 1;
+        result.at[k_gain] -= median(std::move(known));
+        differences.PrepareForEvaluation(false, true);
+        double scale = differences.scale();
+        for (int round = 0; round < k_scale_rounds; ++round) {
+            minimise(differences, scale, share, result.at);
+            differences.PrepareForEvaluation(false, true);
+            const double before = std::exchange(scale, differences.scale());
+            if (std::abs(scale / before - 1) < k_same_scale) break;
         }
-        tell_certainty(evidence_of(r, scale, result.at), all, result);
-        std::vector<double> sizes;
-        for (std::size_t i = 0; i < r.size(); ++i)
-            if (r[i] < k_unseen && weights_[i] > 0) sizes.push_back(std::abs(r[i]));
+        differences.PrepareForEvaluation(true, false);
+        tell_certainty(differences, scale, share, all, result);
+        std::vector<double> sizes = differences.known();
+        for (double& size : sizes) size = std::abs(size);
         result.residual = median(std::move(sizes));
         return result;
     }
 
 private:
-    // The spread of residuals where the pictures have structure: walls of one colour agree
-    // whatever the turn, and would make every edge an outlier.
-    double scale_of(const std::vector<double>& r, ViewParameters p) const {
-        for (int k = 0; k < 3; ++k) p[k] += 1e-3;
-        const std::vector<double> moved = residuals_(p);
-        std::vector<std::pair<double, double>> by_structure;
-        for (std::size_t i = 0; i < r.size(); ++i) {
-            if (r[i] < k_unseen && moved[i] < k_unseen && weights_[i] > 0)
-                by_structure.emplace_back(std::abs(moved[i] - r[i]), std::abs(r[i]));
+    void minimise(Differences& differences, double scale, double share, ViewParameters& at) const {
+        ceres::Problem::Options at_once;
+        at_once.evaluation_callback = &differences;
+        ceres::Problem problem(at_once);
+        problem.AddParameterBlock(at.data(), k_view_parameters);
+        for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+            auto* loss = new ceres::ScaledLoss(new ceres::CauchyLoss(k_loss),
+                                               share * witnesses_[i].weight, ceres::TAKE_OWNERSHIP);
+            problem.AddResidualBlock(new WitnessResidual(differences, i, scale), loss, at.data());
         }
-        const std::size_t kept = by_structure.size() / 5;
-        if (kept < 20) return 1.0;
-        std::nth_element(by_structure.begin(),
-                         by_structure.begin() + static_cast<std::ptrdiff_t>(kept),
-                         by_structure.end(), std::greater<>());
-        std::vector<double> sizes;
-        for (std::size_t i = 0; i < kept; ++i) sizes.push_back(by_structure[i].second);
-        return std::max(1.4826 * median(std::move(sizes)), 1e-3);
+        problem.AddResidualBlock(
+            new ceres::NormalPrior(Eigen::MatrixXd(certainty_.asDiagonal()), expected_), nullptr,
+            at.data());
+        std::vector<int> held;
+        for (int k = 0; k < k_view_parameters; ++k)
+            if (step_[k] == 0) held.push_back(k);
+        if (!held.empty())
+            problem.SetManifold(at.data(), new ceres::SubsetManifold(k_view_parameters, held));
+        ceres::Solver::Options options;
+        options.linear_solver_type = ceres::DENSE_QR;
+        options.max_num_iterations = 12;
+        options.num_threads = 1;
+        options.logging_type = ceres::SILENT;
+        ceres::Solver::Summary summary;
+        ceres::Solve(options, &problem, &summary);
     }
 
-    // Cauchy's loss at twice the scale: photographers, lamps that moved.
-    double cost_of(const std::vector<double>& r, double scale, const ViewParameters& p) const {
-        double cost = 0;
-        for (std::size_t i = 0; i < r.size(); ++i) {
-            if (weights_[i] <= 0) continue;
-            const double v = r[i] < k_unseen ? r[i] : 4 * scale;  // losing overlap gains nothing
-            const double x = v / (2 * scale);
-            cost += weights_[i] * 4 * std::log1p(x * x);
+    // The witnesses' pulls and their scatter over the patches, counted as independent ones.
+    void tell_certainty(const Differences& differences, double scale, double share_before,
+                        double all, ViewSolution& result) const {
+        Square normal = Square::Zero();  // of the reweighted squares
+        Square bend = Square::Zero();    // of the loss itself, which outliers bend the other way
+        Eigen::Matrix<double, k_view_parameters, k_patches> pulls;
+        Eigen::Array<bool, k_patches, 1> holds;
+        pulls.setZero();
+        holds.setConstant(false);
+        const std::vector<Eigen::Index> patches = patches_of(witnesses_);
+        for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+            const auto row = differences.slopes(i);
+            if (row[k_gain] == 0) continue;
+            const double value = differences.values()[i], x = value / (k_loss * scale);
+            const double squeezed = 1 / (1 + x * x);
+            const double w = witnesses_[i].weight / (scale * scale) * squeezed;
+            normal.noalias() += w * row * row.transpose();
+            bend.noalias() += w * squeezed * (1 - x * x) * row * row.transpose();
+            pulls.col(patches[i]) += w * value * row;
+            holds[patches[i]] = true;
         }
-        return share_ * cost + (p - middle_).dot(prior_ * (p - middle_));
-    }
-
-    Evidence evidence_of(const std::vector<double>& r, double scale,
-                         const ViewParameters& at) const {
-        std::array<std::vector<double>, k_view_parameters> moved;
-        for (int k = 0; k < 10; ++k) {
-            if (step_[k] == 0) continue;
-            ViewParameters p = at;
-            p[k] += step_[k];
-            moved[static_cast<std::size_t>(k)] = residuals_(p);
-        }
-        Evidence evidence;
-        std::array<ViewParameters, k_patches> pulls;
-        std::array<bool, k_patches> holds{};
-        pulls.fill(ViewParameters::Zero());
-        for (std::size_t i = 0; i < r.size(); ++i) {
-            if (r[i] >= k_unseen || weights_[i] <= 0) continue;
-            ViewParameters row = ViewParameters::Zero();
-            bool whole = true;
-            for (int k = 0; k < 10 && whole; ++k) {
-                if (step_[k] == 0) continue;
-                const double to = moved[static_cast<std::size_t>(k)][i];
-                whole = to < k_unseen;
-                row[k] = (to - r[i]) / step_[k];
-            }
-            if (!whole) continue;
-            row[10] = 1;
-            const double x = r[i] / (2 * scale), squeezed = 1 / (1 + x * x);
-            const double w = weights_[i] / (scale * scale) * squeezed;
-            evidence.normal.noalias() += w * row * row.transpose();
-            evidence.bend.noalias() += w * squeezed * (1 - x * x) * row * row.transpose();
-            const auto patch = static_cast<std::size_t>(patches_[i]);
-            pulls[patch] += w * r[i] * row;
-            holds[patch] = true;
-        }
-        for (const ViewParameters& pull : pulls) evidence.pull += pull;
-        evidence.patches = static_cast<int>(std::count(holds.begin(), holds.end(), true));
-        const ViewParameters mean = evidence.pull / std::max(1, evidence.patches);
-        for (std::size_t k = 0; k < pulls.size(); ++k) {
-            if (!holds[k]) continue;
-            const ViewParameters off = pulls[k] - mean;
-            evidence.scatter.noalias() += off * off.transpose();
-        }
-        return evidence;
-    }
-
-    void tell_certainty(const Evidence& evidence, double all, ViewSolution& result) const {
-        const double unknowns = static_cast<double>((step_.array() != 0).count());
-        const double freedom = evidence.patches - unknowns;
+        const double count = static_cast<double>(holds.count());
+        const double freedom = count - static_cast<double>((step_.array() != 0).count());
         if (!(freedom > 0)) {
             // Too few patches to tell a scatter: nothing is known of the turn.
             result.sigma = std::numeric_limits<double>::infinity();
             return;
         }
-        const Square scatter = evidence.scatter * (evidence.patches / freedom);
+        const ViewParameters sum = pulls.rowwise().sum();
+        const Square scatter =
+            (pulls * pulls.transpose() - sum * sum.transpose() / count) * (count / freedom);
+        Square prior = Square(certainty_.cwiseAbs2().asDiagonal());
+        const Square held =
+            Square((step_.array() == 0).cast<double>().matrix().asDiagonal()) * 1e30;
         // Of independent witnesses both would be one.
-        const Square flat = inverse_of(evidence.normal + prior_ / share_ + held());
-        const double repeated =
-            std::max(1.0, (flat * scatter).trace() / (flat * evidence.normal).trace());
+        const Square flat = inverse_of(normal + prior / share_before + held);
+        const double repeated = std::max(1.0, (flat * scatter).trace() / (flat * normal).trace());
         result.witnesses = all / repeated;
         const double share = 1 / repeated;
-        Square bend = share * evidence.bend + prior_ + held();
-        if (PivotedCholesky(bend).pivots().minCoeff() <= 0)
-            bend = share * evidence.normal + prior_ + held();
+        bend = share * bend + prior + held;
+        if (PivotedCholesky(bend).pivots().minCoeff() <= 0) bend = share * normal + prior + held;
         const Square back = inverse_of(bend);
-        const Square covariance = back * (share * share * scatter + prior_) * back;
+        const Square covariance = back * (share * share * scatter + prior) * back;
         result.sigma = std::sqrt(std::max(covariance.topLeftCorner<3, 3>().trace() / 3, 0.0));
     }
 
-    Square held() const {
-        Square held = Square::Zero();
-        for (int k = 0; k < k_view_parameters; ++k)
-            if (step_[k] == 0) held(k, k) = 1e30;
-        return held;
-    }
-
+    const std::vector<ViewWitness>& witnesses_;
     const ViewResiduals& residuals_;
-    std::vector<double> weights_;
-    std::vector<int> patches_;
-    double share_ = 1;  // of the witnesses that are independent
-    ViewParameters step_ = ViewParameters::Zero(), middle_ = ViewParameters::Zero();
-    Square prior_ = Square::Zero();
+    ViewParameters step_ = ViewParameters::Zero();  // for slopes; 0: held
+    ViewParameters expected_ = ViewParameters::Zero(), certainty_ = ViewParameters::Zero();
 };
 
 }  // namespace
@@ -248,7 +270,7 @@ MirrorBall ViewPair::ball(const ViewParameters& p, bool is_second) const {
     prior.circle.x += p[at];
     prior.circle.y += p[at + 1];
     prior.circle.radius += p[at + 2];
-    return ball_of(prior, 1 / std::max(p[9], 1e-6));
+    return ball_of(prior, 1 / std::max(p[k_distance], 1e-6));
 }
 
 ViewSolution solve_views(const ViewPair& pair, const std::vector<ViewWitness>& witnesses,

@@ -26,7 +26,7 @@ struct ViewPair {
 
 /// What the two views say of one direction or pixel.
 struct ViewWitness {
-    double weight = 0;
+    double weight = 0;  ///< over 0
     Vec3 direction{0};  ///< in the first camera's frame: neighbours err together
 };
 
@@ -42,7 +42,7 @@ struct ViewSolution {
     double witnesses = 0;  ///< so many independent ones are all of them worth; 0: not known yet
 };
 
-/// Levenberg-Marquardt with Cauchy's loss, the outlines held by their sigmas.
+/// Least squares with Cauchy's loss (Ceres), the outlines held by their sigmas.
 ///
 /// Neighbouring pixels are wrong together: each edge of a light is off by what the pictures' grids
 /// do to it. Counted as independent they would outvote the outlines' sigmas and promise too much.
