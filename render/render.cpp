@@ -9,10 +9,9 @@
 #include "render/beams/frame_renderer.h"
 #include "render/engine/engine.h"
 #include "render/planner/error_estimate.h"
-#include "render/planner/ladder.h"
-#include "render/planner/paced_drawing.h"
-#include "render/planner/paced_samples.h"
 #include "render/planner/planner.h"
+#include "render/planner/refinement.h"
+#include "render/planner/time_budget.h"
 #include "render/setup/scene_checks.h"
 #include "render/work/work_meter.h"
 
@@ -44,35 +43,44 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     };
     std::vector<Try> tries{{false, Planner::Leave::likely}, {false, Planner::Leave::surely}};
     if (tried_with_merged_waves(scene)) tries.insert(tries.begin(), {true, Planner::Leave::likely});
-    Ladder ladder(scene, progress);
+    Refinement refinement(scene, progress);
     std::optional<ErrorEstimator> estimator;
     std::vector<std::string> tried;
     double seconds_before = 0;
     RenderResult result;
     for (const Try& now : tries) {
-        Planner planner(scene, progress, now.merged_waves, now.leave);
-        planner.give_estimator(std::move(estimator));
-        const ScenePlan plan = planner.run();
-        estimator = planner.take_estimator();
-        if (!estimator) {
-            Scene settled = scene;
-            settled.settings = plan.settings;
-            result = drawn(settled, progress);
-            result.stats.seconds_setup += plan.seconds_planning;
-            result.stats.plan = plan;
-            break;
+        try {
+            Planner planner(scene, progress, now.merged_waves, now.leave);
+            planner.give_estimator(std::move(estimator));
+            const ScenePlan plan = planner.run();
+            estimator = planner.take_estimator();
+            if (!estimator) {
+                Scene settled = scene;
+                settled.settings = plan.settings;
+                result = drawn(settled, progress);
+                result.stats.seconds_setup += plan.seconds_planning;
+                result.stats.plan = plan;
+                break;
+            }
+            RefinedPicture picture = refinement.draw(plan, *estimator);
+            // Where little work is left, more effects may leave more noise than they bring.
+            if (seconds_before > 0 && scene.settings.meter->limited() &&
+                picture.result.stats.error_bound > result.stats.error_bound)
+                break;
+            result = std::move(picture.result);
+            result.stats.seconds_setup += seconds_before;
+            if (picture.near_enough) bound_by_picture(result);
+            if (!picture.misjudged) break;
+            seconds_before = seconds_of(result.stats);
+            if (!now.merged_waves && now.leave == Planner::Leave::likely &&
+                !scene.settings.meter->limited())
+                tried.push_back(
+                    "what was left out matters more than its pilot saw: drawn with all that is not "
+                    "sure to change nothing");
+        } catch (const OverAllowance&) {
+            if (seconds_before == 0) throw;
+            break;  // what was drawn with fewer effects stands, with the error that it has
         }
-        LadderPicture picture = ladder.draw(plan, *estimator);
-        result = std::move(picture.result);
-        result.stats.seconds_setup += seconds_before;
-        if (picture.near_enough) bound_by_picture(result);
-        if (!picture.misjudged) break;
-        seconds_before = seconds_of(result.stats);
-        if (!now.merged_waves && now.leave == Planner::Leave::likely &&
-            !scene.settings.meter->limited())
-            tried.push_back(
-                "what was left out matters more than its pilot saw: drawn with all that is not "
-                "sure to change nothing");
     }
     result.stats.notes.insert(result.stats.notes.end(), tried.begin(), tried.end());
     return result;

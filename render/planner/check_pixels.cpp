@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "render/beams/frame_renderer.h"
-#include "render/planner/contrast.h"
+#include "render/colour/colour_error.h"
 #include "render/planner/light_edge_scan.h"
 #include "render/planner/wavelengths.h"
 #include "render/reference/surroundings.h"
@@ -29,11 +30,53 @@ constexpr float k_filled = 0.5f;
 // Of the rest, what goes to where a light's edge may be.
 constexpr double k_share_of_edges = 0.5;
 
+// Contrast is looked at in so many pixels, about.
+constexpr double k_contrast_pixels = 65536;
+
+// A place from 0 to side - 1: fractions of a number's multiples, in 32 bits.
+int place_in(int side, std::uint32_t number, std::uint32_t multiple) {
+    return static_cast<int>(static_cast<std::uint64_t>(side) * (number * multiple) >> 32);
+}
+// Of the golden ratio's like in two dimensions (Roberts 2018): no grid of facets falls in with
+// them.
+constexpr std::uint32_t k_along = 0xC13FA9A9, k_down = 0x91E10DA6;
+
 double brightest_light(const Scene& scene) {
     return surroundings_of(scene, WavelengthSet(even_wavelengths(3)))->max_radiance();
 }
 
 }  // namespace
+
+Contrast contrast_of(const Picture& picture, int windows, double filled) {
+    Contrast found;
+    if (picture.coverage.empty()) return found;
+    const int width = picture.width / windows, height = picture.height;
+    const int side = static_cast<int>(std::sqrt(std::clamp(filled / k_contrast_pixels, 1.0, 1e6)));
+    std::uint32_t number = 0;
+    for (int top = 0; top < height; top += side) {
+        for (int left = 0; left < width; left += side, ++number) {
+            const int x = left + place_in(side, number, k_along),
+                      y = top + place_in(side, number, k_down);
+            if (x >= width || y >= height) continue;
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                static_cast<std::size_t>(x);
+            if (picture.coverage[pixel] < k_filled) continue;
+            const Rgb here = picture.pixel(x, y);
+            double most = 0;
+            if (x > 0) most = std::max(most, apart(here, picture.pixel(x - 1, y)));
+            if (x + 1 < width) most = std::max(most, apart(here, picture.pixel(x + 1, y)));
+            if (y > 0) most = std::max(most, apart(here, picture.pixel(x, y - 1)));
+            if (y + 1 < height) most = std::max(most, apart(here, picture.pixel(x, y + 1)));
+            const double root = std::isfinite(most) ? std::sqrt(most) : 0, mean = mean_of(here),
+                         radiance = std::isfinite(mean) ? std::max(0.0, mean) : 0;
+            found.pixels.push_back({x, y, root, radiance});
+            found.sum += root;
+            found.radiance += radiance;
+        }
+    }
+    return found;
+}
 
 // More often where the picture changes beside a pixel. With the root of that change: pixels of
 // little contrast are off as well, because a picture may lack what is there.

@@ -30,17 +30,12 @@ constexpr double k_noisy = 0.5, k_noisy_price = 12;
 // What the mean of N rays is off by falls about as N^-0.6; and of what a bound may be, what it
 // should be by that to be sought.
 constexpr double k_noise_power = 0.6, k_likely_room = 0.95;
-// What the truth's paths are cut at, as a share of the tolerance. Trees that branch play roulette:
-// the quickest way to little noise is to follow few branches where few rays do.
+// What the truth's paths are cut at, as a share of the tolerance.
 constexpr double k_cut_share = 0.01;
-constexpr double k_roulette_weight = 0.04, k_split_weight = 0.6, k_fine_roulette_weight = 0.01,
-                 k_fine_split_weight = 0.3;
 // Outliers are pixels that have this share of the tolerance of the picture's light; so many do at
 // most.
 constexpr double k_outlier_share = 1.0 / 24;
 constexpr std::size_t k_most_outliers = 96;
-// Below this tolerance the truth takes the finest wavelengths, and larger trees.
-constexpr double k_fine_tolerance = 0.02;
 // What finding out about a single picture may cost: about two seconds of a processor.
 constexpr double k_most_ns_at_once = 2e9;
 
@@ -57,16 +52,14 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
       nodes_(k_node_counts[tolerance < k_fine_tolerance ? 3 : 2]),
       progress_(&progress) {
     const OpticalSetup plan = make_optical_setup(scene_, nodes_);
-    const bool branches = paths_branch(scene_, plan), fine = tolerance < k_fine_tolerance;
+    const bool branches = paths_branch(scene_, plan);
     // Interference depends on how wide the wavelengths' bands are.
     if (plan.on(Effects::coherence)) nodes_ = k_node_counts.back();
     // Other random paths than the picture's.
     limits_.seed = scene_.settings.seed + 1;
     limits_.depth = scene_.settings.depth > 0 ? scene_.settings.depth : k_deepest;
-    limits_.cut_weight = !branches ? std::max(k_cut_share * tolerance, 1e-7)
-                         : fine    ? k_fine_roulette_weight
-                                   : k_roulette_weight;
-    limits_.split_weight = fine ? k_fine_split_weight : k_split_weight;
+    limits_.cut_weight = branches ? tree_cut(tolerance) : std::max(k_cut_share * tolerance, 1e-7);
+    limits_.split_weight = tree_split(tolerance);
     limits_.roulette = branches;
     work_ = work_along_paths(plan);
     levels_.resize(1);
@@ -90,10 +83,6 @@ int ErrorEstimator::samples() const {
     return sum;
 }
 
-void ErrorEstimator::take(int wanted) {
-    while (samples() < wanted && levels_.size() < k_sides.size()) take_more();
-}
-
 void ErrorEstimator::take_more() {
     if (levels_.size() == k_sides.size()) return;
     Level more;
@@ -110,6 +99,10 @@ double ErrorEstimator::more_ns() const {
 
 double ErrorEstimator::pixel_ns() const {
     return rays_drawn_ > 0 ? price_ns(work_) * samples() / rays_drawn_ : 0;
+}
+
+double ErrorEstimator::bands_of_a_ray() const {
+    return static_cast<double>(nodes_) / turns_for(levels_.front().samples, nodes_);
 }
 
 PilotDrawing ErrorEstimator::draw(const StonePixels& pixels, int samples) {

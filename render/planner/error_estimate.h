@@ -16,6 +16,7 @@
 //
 // One picture is looked at `k_looks` times at most, with a bound each.
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -39,7 +40,20 @@ struct ErrorEstimate {
 
     /// The difference less the noise, as of independent quantities.
     double error() const;
+    /// The same, as far as it can be seen: noise that is all that is seen hides it.
+    double seen() const { return std::max(error(), 0.5 * difference); }
 };
+
+/// Below this tolerance pictures and the truth take more wavelengths and follow larger trees.
+constexpr double k_fine_tolerance = 0.02;
+/// Trees that branch play roulette below this weight, and above the other follow both branches: the
+/// quickest way to little noise is to follow few branches where few rays do.
+constexpr double tree_cut(double tolerance) {
+    return tolerance < k_fine_tolerance ? 0.01 : 0.04;
+}
+constexpr double tree_split(double tolerance) {
+    return tolerance < k_fine_tolerance ? 0.3 : 0.6;
+}
 
 /// Pixels of a check, as the truth's fewest rays show them.
 struct CheckedSample {
@@ -63,8 +77,6 @@ public:
 
     /// What 16 rays of the truth are off by, as some pixels show it, which are drawn for it.
     double noise_of_16();
-    /// The truth with so many rays or more.
-    void take(int samples);
     /// With about twice as many; what was drawn counts.
     void take_more();
     int samples() const;
@@ -72,6 +84,8 @@ public:
     double more_ns() const;
     /// Price of a pixel with these (price.h), as what was drawn shows it.
     double pixel_ns() const;
+    /// Wavelengths that an eye ray of the fewest carries, where each has its own way.
+    double bands_of_a_ray() const;
 
     /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
     /// picture is certainly too far off, or the next step would be worth more than `most_ns`.

@@ -243,17 +243,13 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
             }
         }
     }
-    for (int x = 0; x < whole.camera.width; ++x)
-        column_of_.push_back(static_cast<std::size_t>(x / (step * times)));
-    for (int y = 0; y < whole.camera.height; ++y)
-        row_of_.push_back(static_cast<std::size_t>(y / (step * times)));
+    side_ = step * times;
 }
 
 double LightEdgeScan::near(int x, int y) const {
     if (cells_.empty()) return 0;
-    const std::size_t row = row_of_[static_cast<std::size_t>(y)];
-    return static_cast<double>(
-        cells_[row * static_cast<std::size_t>(columns_) + column_of_[static_cast<std::size_t>(x)]]);
+    const int row = static_cast<int>(y / side_), column = static_cast<int>(x / side_);
+    return static_cast<double>(cells_[static_cast<std::size_t>(row * columns_ + column)]);
 }
 
 }  // namespace culet

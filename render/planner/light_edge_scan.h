@@ -46,8 +46,8 @@ public:
 
 private:
     int columns_ = 0;
-    std::vector<float> cells_;                     // row by row
-    std::vector<std::size_t> column_of_, row_of_;  // of pixels
+    double side_ = 1;           // of a cell, in pixels
+    std::vector<float> cells_;  // row by row
 };
 
 }  // namespace culet

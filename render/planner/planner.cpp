@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/beams/frame_renderer.h"
-#include "render/planner/ladder_steps.h"
+#include "render/planner/refinement_levels.h"
 #include "render/planner/resolutions.h"
 #include "render/planner/wavelengths.h"
 #include "render/scene/fingerprint.h"
@@ -133,7 +133,7 @@ bool Planner::costs_less_than_pilots() {
     const double pilots =
         k_usual_rays_of_pilots * static_cast<double>(pixels_.at.size()) * price_ns(ray);
     settle_effects();
-    const Step first = LadderSteps(scene_, plan_, *estimator_, progress_).first();
+    const RefinementLevel first = RefinementLevels(scene_, plan_, *estimator_, progress_).first();
     return drawn_by_beams(first.settings) && first.price_ns <= pilots;
 }
 
@@ -259,7 +259,7 @@ void Planner::bound_depth() {
 }
 
 void Planner::choose_first_picture() {
-    const Step first = LadderSteps(scene_, plan_, *estimator_, progress_).first();
+    const RefinementLevel first = RefinementLevels(scene_, plan_, *estimator_, progress_).first();
     plan_.settings = first.settings;
     plan_.engine_why = first.why;
     plan_.seconds = first.price_ns;

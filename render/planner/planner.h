@@ -1,6 +1,14 @@
 #pragma once
-// Which effects a picture needs: what is known beforehand, then pilots of the scene with each of
-// them left out.
+// From a scene and a tolerance to a picture whose error is known, in this folder:
+//
+// - `planner`: which effects a picture needs, by what is known beforehand, then by a pilot of the
+//   scene with each of them left out (`pilot_picture`); `resolutions` and `explain` tell it.
+// - `refinement`: pictures of these effects from coarse to fine (`refinement_levels`), each held
+//   against the truth until one is near enough.
+// - `error_estimate`: the truth is the reference with everything on, at few pixels that
+//   `check_pixels` and, for small bright lights, `light_edge_scan` choose; a mean with three
+//   standard errors is the bound.
+// - `time_budget`: where there is no tolerance, as fine as a given amount of counted work allows.
 
 #include <chrono>
 #include <limits>
@@ -17,9 +25,8 @@
 
 namespace culet {
 
-// Rays in each pixel of a pilot.
+// Rays in each pixel of a pilot; of the tolerance, the weight below which its paths are cut.
 constexpr int k_pilot_rays = 4;
-// Of the tolerance: the weight below which the pilots' paths are cut.
 constexpr double k_pilot_cut = 0.03;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* k_merged_waves = "the two waves are merged";
@@ -62,10 +69,8 @@ private:
     PilotDrawing draw(const Scene& scene, int samples) const;
     // Of one eye ray.
     PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
-    // Whether something that is likely to be off by so much may be left out, with all that is:
-    // `share` of the tolerance at most.
-    bool may_go(double bound, double likely, double share) const;
-    void leave_out(double bound, double likely);
+    bool leaves_out(PlanItem& line, const ColourError& error, bool exact, double bound,
+                    double share);
 
     void begin();
     void finish();

@@ -76,14 +76,27 @@ void Planner::say_what_is_known() {
     }
 }
 
-bool Planner::may_go(double bound, double likely, double share) const {
-    return bound <= tolerance_ && likely <= share * tolerance_ &&
-           std::hypot(left_out_, likely) <= k_share_of_effects * tolerance_;
-}
-
-void Planner::leave_out(double bound, double likely) {
+// Leaves it out where that is likely to cost less than `share` of the tolerance, with all that is
+// left out already; returns whether it does.
+bool Planner::leaves_out(PlanItem& line, const ColourError& error, bool exact, double bound,
+                         double share) {
+    line.matters = error.radiance;
+    line.matters_delta_e = error.delta_e;
+    const double likely = std::min(bound, error.radiance),
+                 at_most = std::min(bound, error.radiance + error.radiance_spread);
+    if (!user_.effects_auto || bound > tolerance_ || at_most > share * tolerance_ ||
+        std::hypot(left_out_, at_most) > k_share_of_effects * tolerance_) {
+        line.why += fmt::format("; without it the picture is off by {:.2g}", error.radiance);
+        return false;
+    }
+    line.on = false;
+    line.bound = bound;
+    line.bound_delta_e = exact ? 0 : error.bound_delta_e();
+    line.why =
+        exact ? k_same_light : fmt::format("bound {:.2g} under tolerance {:g}", bound, tolerance_);
     spent_ += bound;
     left_out_ = std::hypot(left_out_, likely);
+    return true;
 }
 
 // Leaves an effect out if that is likely to cost less than `share` of the tolerance.
@@ -101,8 +114,6 @@ void Planner::try_without(Effects effect, double share) {
     const PilotDrawing there = samples == k_pilot_rays ? first_ : draw(with, samples);
     const PilotDrawing gone = draw(without, samples);
     const ColourError error = colour_error(gone.rgb, there.rgb);
-    line.matters = error.radiance;
-    line.matters_delta_e = error.delta_e;
     const bool exact = same_light_everywhere(scene_.lights) && !on(Effects::absorption) &&
                        effect != Effects::absorption && effect != Effects::aperture &&
                        !scene_.camera.optics.analyzer;
@@ -114,17 +125,7 @@ void Planner::try_without(Effects effect, double share) {
                  price_without = price_ns(work_of(without, gone, samples));
     line.seconds_with = price;  // relative, until times are estimated
     line.seconds_without = price_without;
-    if (!user_.effects_auto ||
-        !may_go(bound, std::min(bound, error.radiance + error.radiance_spread), share)) {
-        line.why += fmt::format("; without it the picture is off by {:.2g}", error.radiance);
-        return;
-    }
-    line.on = false;
-    line.bound = bound;
-    line.bound_delta_e = exact ? 0 : error.bound_delta_e();
-    line.why =
-        exact ? k_same_light : fmt::format("bound {:.2g} under tolerance {:g}", bound, tolerance_);
-    leave_out(bound, std::min(bound, error.radiance));
+    if (!leaves_out(line, error, exact, bound, share)) return;
     first_ = gone;
     work_ = work_of(without, gone, samples);
 }
@@ -261,20 +262,9 @@ void Planner::try_without_dispersion() {
         return std::array{drawn(k_spectral_rays), drawn(k_other_spectral_rays)};
     };
     const ColourError gone = error_in_common(spectral(false), spectral(true));
-    line.matters = gone.radiance;
-    line.matters_delta_e = gone.delta_e;
     line.seconds_with = 2;
     line.seconds_without = 1;
-    if (!user_.effects_auto ||
-        !may_go(gone.bound(), gone.radiance + gone.radiance_spread, k_share_of_effects)) {
-        line.why += fmt::format("; without it the picture is off by {:.2g}", gone.radiance);
-        return;
-    }
-    line.on = false;
-    line.bound = gone.bound();
-    line.bound_delta_e = gone.bound_delta_e();
-    line.why = fmt::format("bound {:.2g} under tolerance {:g}", gone.bound(), tolerance_);
-    leave_out(gone.bound(), gone.radiance);
+    leaves_out(line, gone, false, gone.bound(), k_share_of_effects);
 }
 
 }  // namespace culet

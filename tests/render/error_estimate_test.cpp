@@ -17,7 +17,6 @@
 #include "render/colour/colour_error.h"
 #include "render/planner/cause_pilot.h"
 #include "render/planner/check_pixels.h"
-#include "render/planner/contrast.h"
 #include "render/planner/light_edge_scan.h"
 #include "render/planner/planner.h"
 #include "render/planner/truth.h"

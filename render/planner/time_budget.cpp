@@ -1,23 +1,34 @@
-#include "render/planner/paced_samples.h"
+#include "render/planner/time_budget.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "render/engine/engine.h"
 #include "render/planner/pilot_picture.h"
+#include "render/planner/quick_picture.h"
 #include "render/planner/wavelengths.h"
 #include "render/reference/prepared_scene.h"
 #include "render/work/price.h"
+#include "render/work/work_meter.h"
 
 namespace culet {
 
 namespace {
 
+// The first tolerance, and what the next one is of what was reached, at the finest: at another
+// tolerance a picture is another one, with two waves instead of one, or lights looked for. What
+// that takes cannot be told from far away. Steps that would gain less than the last are not made.
+constexpr double k_first_tolerance = 0.2, k_finer = 2, k_least_step = 1.25;
+// Work rises about as so a power of one over the tolerance.
+constexpr double k_power = 1.5;
+// Of what is left, what the next picture, or the rays, may take by what is known.
+constexpr double k_share_of_rest = 0.8;
+
 constexpr int k_counted_pixels = 256, k_first_samples = 16, k_most_samples = 4096;
 // Guesses from the one before: rays share the wavelengths, so that work is not in proportion.
 constexpr int k_most_guesses = 4;
-// Of what is allowed, what the picture may take; a few pixels tell only about what all of them do.
-constexpr double k_share = 0.8;
 
 // Spread evenly (Roberts 2018, R2).
 StonePixels some_pixels(const Camera& camera) {
@@ -73,6 +84,50 @@ int samples_within(const Scene& scene, double allowed_ns, const Progress& progre
 
 }  // namespace
 
+RenderResult draw_within_allowance(const Scene& scene, const Progress& progress,
+                                   const DrawToTolerance& draw, const PictureSink& better) {
+    const double allowed = scene.settings.allowed_ns, finest = scene.settings.tolerance;
+    const auto meter = std::make_shared<WorkMeter>();
+    meter->allow(allowed);
+    meter->expect(allowed);
+    const Progress counted = counted_by(progress, meter);
+    Scene attempt = scene;
+    attempt.settings.meter = meter;
+    attempt.settings.allowed_ns = 0;
+    std::optional<RenderResult> best;
+    double tolerance = std::max(k_first_tolerance, finest), spent = 0;
+    for (bool more = true; more;) {
+        attempt.settings.tolerance = tolerance;
+        double bound = std::numeric_limits<double>::infinity();
+        try {
+            RenderResult result = draw(attempt, counted);
+            bound = result.stats.error_bound;
+            if (!best || bound < best->stats.error_bound) {
+                best = std::move(result);
+                best->stats.allowed_tolerance = tolerance;
+                if (better) better(*best);
+            }
+        } catch (const OverAllowance&) {
+        }
+        // What was let go half done came to what chance had it: all that it might take counts.
+        if (meter->over()) meter->use_up();
+        const double took = static_cast<double>(meter->spent()) - spent;
+        spent += took;
+        const double left = allowed - spent, reached = std::max(bound, finest);
+        if (!(bound <= tolerance && left > 0)) break;
+        const double affordable =
+            reached * std::pow(std::max(took, 1.0) / (k_share_of_rest * left), 1 / k_power);
+        tolerance = std::max({reached / k_finer, affordable, finest});
+        more = (tolerance == finest && reached > finest) || reached / tolerance >= k_least_step;
+    }
+    if (!best) {
+        // Not even a coarse one: as coarse as it gets, and nobody knows how near.
+        best = draw_quickly(scene, progress);
+        if (better) better(*best);
+    }
+    return std::move(*best);
+}
+
 bool leaves_samples_open(const Scene& scene) {
     return scene.furnished() && scene.settings.samples == 0 &&
            engine_of(scene.settings).approaches_truth();
@@ -80,7 +135,7 @@ bool leaves_samples_open(const Scene& scene) {
 
 Scene with_allowed_samples(const Scene& whole, const Progress& progress) {
     Scene scene = whole;
-    const double allowed = k_share * whole.settings.allowed_ns;
+    const double allowed = k_share_of_rest * whole.settings.allowed_ns;
     RenderSettings& settings = scene.settings;
     settings.allowed_ns = 0;
     // The two windows of a dichroscope are one view, seen twice.

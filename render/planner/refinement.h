@@ -1,59 +1,54 @@
 #pragma once
-// Pictures from coarse to fine, each held against the truth, until one is near enough.
-//
-// A fixed ladder: previews, beams, the reference. How far up the next step goes, and with what, the
-// pixels tell that were held against the truth (ladder_steps.h).
+// Pictures from coarse to fine, each held against the truth, until one is near enough: previews,
+// beams, the reference (refinement_levels.h).
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "render/beams/frame_renderer.h"
 #include "render/engine/render_result.h"
 #include "render/engine/scene_plan.h"
 #include "render/planner/error_estimate.h"
-#include "render/planner/ladder_steps.h"
+#include "render/planner/refinement_levels.h"
 
 namespace culet {
 
-struct LadderPicture {
+struct RefinedPicture {
     RenderResult result;
     bool near_enough = false;
     bool misjudged = false;  ///< not for its beams: the plan left out more than it saw
 };
 
-class Ladder {
+class Refinement {
 public:
     /// Both must outlive it; the scene has a meter.
-    Ladder(const Scene& scene, const Progress& progress)
+    Refinement(const Scene& scene, const Progress& progress)
         : scene_(scene), drawn_(scene), progress_(progress) {}
 
-    /// The nearest of the pictures drawn, with the effects of the plan, of which there are some at
-    /// most, or those that the scene's meter allows. Throws Interrupted, and OverAllowance where it
-    /// allows none.
-    LadderPicture draw(ScenePlan plan, ErrorEstimator& estimator);
+    /// The nearest of the pictures drawn, with the effects of the plan. Where the scene's meter has
+    /// a limit, the reference takes the rays that are left of it. Throws Interrupted, and
+    /// OverAllowance where it allows none.
+    RefinedPicture draw(ScenePlan plan, ErrorEstimator& estimator);
 
 private:
     struct SoFar {
         std::optional<RenderResult> best;
-        RenderSettings settings;  // of it
-        std::string why;          // it was drawn so
-        double noise = 0;
+        RefinementLevel level;  // of it
         double bound_delta_e = 0;
         bool blind = false;  // it may miss the sun
         bool near_enough = false, misjudged = false;
         int pixels_without = 0;  // at which the truth was drawn without what the plan left out
         double off_without = 0;
+        double seconds = 0;
+        void take(RenderResult result, const RefinementLevel& drawn, const ErrorEstimate& estimate,
+                  bool may_be_blind);
     };
-    void climb(const ScenePlan& plan, ErrorEstimator& estimator, const LadderSteps& steps,
-               SoFar& so_far);
+    void refine(const ScenePlan& plan, ErrorEstimator& estimator, const RefinementLevels& levels,
+                SoFar& so_far);
     RenderResult draw_with(const RenderSettings& settings);
     ErrorEstimate held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
                                      double price, double most_ns, double error_before);
     bool misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
                    const RenderSettings& settings, SoFar& so_far) const;
-    std::optional<Step> next(const LadderSteps& steps, const Step& step,
-                             const ErrorEstimate& estimate, bool again) const;
 
     const Scene& scene_;
     Scene drawn_;

@@ -1,6 +1,4 @@
-#include "render/planner/ladder.h"
-
-#include <fmt/format.h>
+#include "render/planner/refinement.h"
 
 #include <algorithm>
 #include <chrono>
@@ -18,7 +16,6 @@ namespace {
 
 // Of all effects that are to be drawn; where a crystal's two waves are merged for a try.
 constexpr int k_most_drawings = 7, k_most_merged = 3;
-constexpr int k_most_rays = 1600;  // a pixel
 // What is off by this share still is no better than what was drawn before: then the truth is
 // suspected, whose few rays may be noisier than they look, where noise is such a share of the
 // difference; a smaller one where finding out costs no more than this share of the picture's price.
@@ -31,19 +28,12 @@ constexpr double k_misjudged = 0.7;
 // The next step of a check may take this share of the picture's price before a finer one is drawn,
 // which takes longer. After the reference there is no other way.
 constexpr double k_check_share = 1.5, k_last_check_share = 6, k_least_check_ns = 3e7;
-// About what checks take of the pictures' prices.
-constexpr double k_usual_check = 0.7;
-// Paths at so many times what is left are not begun.
-constexpr double k_surely_over = 1.3;
+// Of what is left of a limit, what the reference may take before its check.
+constexpr double k_share_for_reference = 0.8;
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// The work is what is given, and the tolerance follows.
-bool is_paced(const RenderSettings& settings) {
-    return settings.meter->limited();
 }
 
 void add_plan(const ScenePlan& plan, RenderStats& stats) {
@@ -61,7 +51,7 @@ double seconds_of(const RenderStats& stats) {
 }
 
 // Beams are held against the truth by the estimator, not by their own check.
-RenderResult Ladder::draw_with(const RenderSettings& settings) {
+RenderResult Refinement::draw_with(const RenderSettings& settings) {
     drawn_.settings = settings;
     if (!drawn_by_beams(settings)) return engine_named(settings.engine).draw(drawn_, progress_);
     if (frames_) {
@@ -74,8 +64,8 @@ RenderResult Ladder::draw_with(const RenderSettings& settings) {
     return frames_->take();
 }
 
-ErrorEstimate Ladder::held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
-                                         double price, double most_ns, double error_before) {
+ErrorEstimate Refinement::held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
+                                             double price, double most_ns, double error_before) {
     const double tolerance = scene_.settings.tolerance;
     FrameRenderer* frames = frames_ ? &*frames_ : nullptr;
     ErrorEstimate estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
@@ -90,68 +80,65 @@ ErrorEstimate Ladder::held_against_truth(const RenderResult& result, ErrorEstima
 }
 
 // What was left out is known once the truth's own rays have shown it at the pixels of the check.
-bool Ladder::misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
-                       const RenderSettings& settings, SoFar& so_far) const {
-    const double tolerance = scene_.settings.tolerance;
+bool Refinement::misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
+                           const RenderSettings& settings, SoFar& so_far) const {
     if (estimate.pixels > so_far.pixels_without) {
         so_far.pixels_without = estimate.pixels;
         CausePilot pilot(estimator.scene(), settings,
                          estimator.sample(static_cast<std::size_t>(estimate.pixels)), progress_);
         so_far.off_without = pilot.without_effects();
     }
-    return so_far.off_without > k_misjudged * std::min(tolerance, LadderSteps::seen(estimate));
+    return so_far.off_without > k_misjudged * std::min(scene_.settings.tolerance, estimate.seen());
 }
 
-std::optional<Step> Ladder::next(const LadderSteps& steps, const Step& step,
-                                 const ErrorEstimate& estimate, bool again) const {
-    const RenderSettings& user = scene_.settings;
-    if (!drawn_by_beams(step.settings)) {
-        if (user.samples > 0 || step.settings.samples >= k_most_rays) return std::nullopt;
-        Step more = steps.more_rays(step, estimate);
-        more.why = fmt::format("{} rays a pixel were off by {:.2g}: drawn with more",
-                               step.settings.samples, estimate.bound);
-        return more;
-    }
-    Step finer = steps.finer_beams(step, estimate, again);
-    if (user.engine != k_auto_engine) return finer;
-    Step reference = steps.by_reference(&estimate);
-    if (finer.price_ns <= reference.price_ns) return finer;
-    reference.why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
-                                estimate.bound);
-    return reference;
+// The nearest is kept; what may miss the sun is off by nobody knows how much.
+void Refinement::SoFar::take(RenderResult result, const RefinementLevel& drawn,
+                             const ErrorEstimate& estimate, bool may_be_blind) {
+    result.stats.seconds_setup += seconds;
+    seconds = seconds_of(result.stats);
+    if (best && (blind < may_be_blind ||
+                 (blind == may_be_blind && result.stats.error_bound >= best->stats.error_bound)))
+        return;
+    blind = may_be_blind;
+    best = std::move(result);
+    level = drawn;
+    bound_delta_e = estimate.bound_delta_e;
 }
 
-void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const LadderSteps& steps,
-                   SoFar& so_far) {
+void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
+                        const RefinementLevels& levels, SoFar& so_far) {
     const double tolerance = scene_.settings.tolerance;
     WorkMeter* const meter = scene_.settings.meter.get();
-    Step step = steps.first();
     const bool merged = plan.item(name_of(Effects::birefringence)).why == k_merged_waves;
     const int most = merged ? k_most_merged : k_most_drawings;
-    double seconds_before = plan.seconds_planning, error_before = 0;
-    for (int drawing = 1;; ++drawing) {
-        const bool beams = drawn_by_beams(step.settings);
-        meter->expect_more((1 + k_usual_check) * step.price_ns);
+    std::optional<RefinementLevel> level = levels.first();
+    if (meter->limited() && !drawn_by_beams(level->settings) &&
+        !levels.fit(*level, k_share_for_reference * meter->left()))
+        throw OverAllowance();
+    so_far.seconds = plan.seconds_planning;
+    double error_before = 0;
+    for (int drawing = 1; level; ++drawing) {
+        const bool beams = drawn_by_beams(level->settings);
         // What paths take is known well; what beams take they find out.
-        if (is_paced(scene_.settings) && !beams && step.price_ns > k_surely_over * meter->left())
-            throw OverAllowance();
+        if (meter->limited() && !beams && level->price_ns > meter->left()) throw OverAllowance();
+        meter->expect_more(2 * level->price_ns);  // with its check, about
         const long long spent = meter->spent();
-        RenderResult result = draw_with(step.settings);
+        RenderResult result = draw_with(level->settings);
         RenderStats& stats = result.stats;
-        if (beams) step.price_ns = static_cast<double>(meter->spent() - spent);
+        if (beams) level->price_ns = static_cast<double>(meter->spent() - spent);
         const auto start = Clock::now();
         const double share = beams && drawing < most ? k_check_share : k_last_check_share;
         const ErrorEstimate estimate =
-            held_against_truth(result, estimator, step.price_ns,
-                               std::max(k_least_check_ns, share * step.price_ns), error_before);
-        const bool blind = beams && steps.may_miss_the_sun(step.settings);
+            held_against_truth(result, estimator, level->price_ns,
+                               std::max(k_least_check_ns, share * level->price_ns), error_before);
+        const bool blind = beams && levels.may_miss_the_sun(level->settings);
         so_far.near_enough = estimate.bound <= tolerance && !blind;
-        std::optional<Step> other;
+        std::optional<RefinementLevel> other;
         // Once the work allowed is done, the picture counts as it is.
         if (!so_far.near_enough && !meter->over()) {
-            so_far.misjudged = misjudged(estimate, estimator, step.settings, so_far);
+            so_far.misjudged = misjudged(estimate, estimator, level->settings, so_far);
             if (!so_far.misjudged && drawing < most)
-                other = next(steps, step, estimate, drawing > 1);
+                other = levels.after(*level, estimate, drawing > 1);
         }
         error_before = estimate.error();
         if (blind) estimator.look_elsewhere();
@@ -159,40 +146,28 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         stats.checked_pixels = estimate.pixels;
         if (beams) stats.engine_error = estimate.bound;
         stats.seconds_check = seconds_since(start);
-        stats.seconds_setup += seconds_before;
-        seconds_before = seconds_of(stats);
-        // What may miss the sun is off by nobody knows how much.
-        if (!so_far.best || so_far.blind > blind ||
-            (so_far.blind == blind && stats.error_bound < so_far.best->stats.error_bound)) {
-            so_far.blind = blind;
-            so_far.best = std::move(result);
-            so_far.settings = step.settings;
-            so_far.why = step.why;
-            so_far.noise = step.noise;
-            so_far.bound_delta_e = estimate.bound_delta_e;
-        }
-        if (!other) break;
-        step = std::move(*other);
+        so_far.take(std::move(result), *level, estimate, blind);
+        level = std::move(other);
     }
     // Nothing else is left to blame.
     if (!so_far.near_enough && so_far.off_without > 0) so_far.misjudged = true;
-    so_far.best->stats.seconds_setup += seconds_before - seconds_of(so_far.best->stats);
+    so_far.best->stats.seconds_setup += so_far.seconds - seconds_of(so_far.best->stats);
 }
 
-LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
+RefinedPicture Refinement::draw(ScenePlan plan, ErrorEstimator& estimator) {
     Scene window = scene_;
     if (window.camera.optics.two_windows) window.camera.width /= 2;
     SoFar so_far;
     try {
-        climb(plan, estimator, LadderSteps(window, plan, estimator, progress_), so_far);
+        refine(plan, estimator, RefinementLevels(window, plan, estimator, progress_), so_far);
     } catch (const OverAllowance&) {
         if (!so_far.best) throw;
         so_far.misjudged = false;
     }
-    LadderPicture done{std::move(*so_far.best), so_far.near_enough, so_far.misjudged};
-    plan.settings = so_far.settings;
-    plan.engine_why = so_far.why;
-    plan.bound_of_sampling = so_far.noise;
+    RefinedPicture done{std::move(*so_far.best), so_far.near_enough, so_far.misjudged};
+    plan.settings = so_far.level.settings;
+    plan.engine_why = so_far.level.why;
+    plan.bound_of_sampling = so_far.level.noise;
     plan.bound_delta_e = so_far.bound_delta_e;
     plan.checked_bound = done.result.stats.error_bound;
     set_resolutions(plan, scene_, scene_.settings);
