@@ -72,6 +72,32 @@ const TierRead* whose_value(const TierRead& own, const std::vector<TierRead>& al
     return nullptr;
 }
 
+// How far the tiers that one is held against are off the mesh.
+struct Others {
+    double sigma = 0, dof = 0, largest = 0;
+    double sigma_of(const TierRead& own) const {
+        return std::hypot(sigma, own.rows.front()->sigma);
+    }
+};
+
+Others others_of(const std::vector<const TierRead*>& tiers, double from_mesh) {
+    Others others;
+    double squares = k_stated_count * from_mesh * from_mesh;
+    for (const TierRead* tier : tiers) {
+        squares += tier->off * tier->off;
+        others.largest = std::max(others.largest, std::abs(tier->off));
+    }
+    others.dof = k_stated_count + double(tiers.size());
+    others.sigma = std::sqrt(squares / others.dof);
+    return others;
+}
+
+bool is_far(const TierRead& own, const Others& others, const std::vector<TierRead>& all) {
+    const double level = whose_value(own, all) != nullptr ? k_level_of_another : k_tier_level;
+    const double strength = std::abs(own.off) / others.sigma_of(own);
+    return student_tail(strength, others.dof) * double(all.size()) <= level;
+}
+
 std::string what_of(const TierRead& own, const TierRead* source, double others,
                     const std::vector<Reading>& readings) {
     const Reading& first = readings[own.rows.front()->readings.front()];
@@ -105,29 +131,33 @@ void check_tiers(const std::vector<Reading>& readings, const std::vector<Checked
                  std::vector<Doubt>& doubts) {
     const std::vector<TierRead> all = tiers_read(rows, tiers);
     if (all.size() <= k_fewest_other_tiers) return;
-    for (const TierRead& own : all) {
-        const CheckedRow& first = *own.rows.front();
-        double squares = k_stated_count * from_mesh * from_mesh, largest = 0;
-        for (const TierRead& other : all) {
-            if (&other == &own) continue;
-            squares += other.off * other.off;
-            largest = std::max(largest, std::abs(other.off));
-        }
-        const double dof = k_stated_count + double(all.size() - 1);
-        const double sigma = std::hypot(std::sqrt(squares / dof), first.sigma);
-        const double strength = std::abs(own.off) / sigma;
-        const TierRead* source = whose_value(own, all);
-        const double level = source != nullptr ? k_level_of_another : k_tier_level;
-        const bool known = std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& d) {
-            return d.reading == first.readings.front();
-        });
-        if (known || student_tail(strength, dof) * double(all.size()) > level) continue;
-        const std::string what = what_of(own, source, largest, readings);
-        for (const CheckedRow* row : own.rows) {
-            for (const std::size_t i : row->readings) {
-                doubts.push_back({i, row->mesh, sigma, strength, {}, 0, true, what});
+    std::vector<const TierRead*> farthest_first;
+    for (const TierRead& tier : all) farthest_first.push_back(&tier);
+    std::stable_sort(
+        farthest_first.begin(), farthest_first.end(),
+        [](const TierRead* a, const TierRead* b) { return std::abs(a->off) > std::abs(b->off); });
+    // Who writes the pavilion's angles into the crown's rows has several tiers wrong at once, and
+    // each would hide the others: from half of the tiers down, the least far of so many is held
+    // against those that are nearer (Rosner 1983).
+    for (std::size_t count = all.size() / 2; count > 0; --count) {
+        const Others others = others_of(
+            {farthest_first.begin() + std::ptrdiff_t(count), farthest_first.end()}, from_mesh);
+        if (!is_far(*farthest_first[count - 1], others, all)) continue;
+        for (std::size_t k = 0; k < count; ++k) {
+            const TierRead& own = *farthest_first[k];
+            const bool known = std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& d) {
+                return d.reading == own.rows.front()->readings.front();
+            });
+            if (known || !is_far(own, others, all)) continue;
+            const std::string what = what_of(own, whose_value(own, all), others.largest, readings);
+            const double sigma = others.sigma_of(own), strength = std::abs(own.off) / sigma;
+            for (const CheckedRow* row : own.rows) {
+                for (const std::size_t i : row->readings) {
+                    doubts.push_back({i, row->mesh, sigma, strength, {}, 0, true, what});
+                }
             }
         }
+        return;
     }
 }
 

@@ -40,15 +40,20 @@ bool may_be_bent(const Problem& given, const FitResult& result, const std::vecto
            });
 }
 
+bool is_plain_inclination(const Reading& r) {
+    return r.kind == ReadingKind::inclination && r.facets.size() == 1 &&
+           r.datum.kind == Datum::Kind::up;
+}
+
+// By how many sigmas a fit without an inclination denies it.
+double denied_by(const Reading& r, const FitResult& without) {
+    const FittedFacet& facet = without.facets[std::size_t(r.facets[0])];
+    return std::abs(facet.inclination - r.value) / std::hypot(facet.sigma_inclination, r.sigma);
+}
+
 // By a fit without it, where that tells: of inclinations.
 bool is_denied(const Reading& r, const FitResult& without) {
-    if (r.kind != ReadingKind::inclination || r.facets.size() != 1 ||
-        r.datum.kind != Datum::Kind::up) {
-        return true;
-    }
-    const FittedFacet& facet = without.facets[std::size_t(r.facets[0])];
-    return std::abs(facet.inclination - r.value) >
-           without.statistics.suspect_limit * std::hypot(facet.sigma_inclination, r.sigma);
+    return !is_plain_inclination(r) || denied_by(r, without) > without.statistics.suspect_limit;
 }
 
 // Readings of one row count once, as they do beside a prior.
@@ -77,6 +82,19 @@ double fall_at_first_sigmas(const Problem& given, const std::vector<Doubt>& doub
     return most;
 }
 
+// A tier that is off as a whole makes the prior so wide that nothing is missed at the first fit's
+// sigmas. At those of the fit without it chi-square rises by the square of this when one of its
+// readings is believed again, and by no less with more of them.
+double rise_at_second_sigmas(const Problem& given, const std::vector<Doubt>& doubts,
+                             const FitResult& again) {
+    double most = 0;
+    for (const Doubt& d : doubts) {
+        const Reading& r = given.readings[d.reading];
+        if (is_plain_inclination(r)) most = std::max(most, std::pow(denied_by(r, again), 2));
+    }
+    return most;
+}
+
 }  // namespace
 
 std::optional<Problem> without_doubted(const Problem& given, const Attempt& first) {
@@ -96,12 +114,13 @@ Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem&
     std::erase_if(doubts, [&](const Doubt& d) {
         return is_among(given.readings[d.reading].id, changed.readings);
     });
+    const double level = given.options.significance;
     const double gain = std::max(first.result.statistics.chi2 - again.statistics.chi2,
                                  fall_at_first_sigmas(given, doubts, first.result));
-    if (first.result.status != FitStatus::not_converged &&
-        !(gain > chi2_quantile(given.options.significance, rows_of(given, doubts)))) {
-        return {};
-    }
+    const bool pays = gain > chi2_quantile(level, rows_of(given, doubts)) ||
+                      rise_at_second_sigmas(given, doubts, again) >
+                          chi2_quantile(level / double(doubts.size()), 1);
+    if (first.result.status != FitStatus::not_converged && !pays) return {};
     // A rough mesh doubts what is right: what the others do not deny goes back.
     std::vector<Doubt> denied = doubts;
     if (given.read_in_full) {

@@ -225,11 +225,13 @@ Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale
     ceres::Problem problem(settings);
     blocks.add_to(problem);
     using Term = Relaxation::Term;
-    for (const Term& term : relaxation.terms(
-             penalty, {}, relaxation.above(shape, k_stage.hinge_margin * penalty.incidence))) {
-        const bool is_hinge = term.kind == Term::Kind::hinge;
-        add(is_hinge ? positive_part(term.formula) : term.formula, std::sqrt(term.variance), blocks,
-            problem);
+    const std::vector<Term> terms = relaxation.terms(
+        penalty, {}, relaxation.above(shape, k_stage.hinge_margin * penalty.incidence));
+    const auto hinges = std::find_if(terms.begin(), terms.end(), [](const Term& term) {
+        return term.kind == Term::Kind::hinge;
+    });
+    for (auto term = terms.begin(); term != hinges; ++term) {
+        add(term->formula, std::sqrt(term->variance), blocks, problem);
     }
     const Shape& mesh = relaxation.system().mesh_shape();
     for (int i = 0; i < 3 * int(mesh.points.size()) && penalty.with_priors; ++i) {
@@ -237,6 +239,9 @@ Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale
         axis[i % 3] = 1;
         add(point_component(i / 3, axis, mesh.points[std::size_t(i / 3)][i % 3]),
             penalty.mesh_sigma, blocks, problem);
+    }
+    for (auto term = hinges; term != terms.end(); ++term) {
+        add(positive_part(term->formula), std::sqrt(term->variance), blocks, problem);
     }
     Interruptor interruptor(progress, fraction);
     ceres::Solver::Options solver = solver_options(options.most_steps);
