@@ -44,8 +44,10 @@ constexpr int k_most_side = 40, k_pupil_points = 16, k_most_pupil_points = 256;
 // What the mean of N rays is off by falls about as N to this power.
 constexpr double k_power_of_rays = 0.7;
 
-// With which the rays of a pixel take turns: a few rays would carry many each.
-int nodes_for(int rays) {
+// With which the rays of a pixel take turns. A few rays that the time allows would carry many each;
+// a few that the scene asks for do.
+int nodes_for(int rays, bool asked_for) {
+    if (asked_for) return rays < 36 ? 29 : 57;
     return rays < 4 ? 3 : rays < 9 ? 8 : rays < 36 ? 29 : 57;
 }
 
@@ -143,8 +145,8 @@ void RefinementLevels::set_rays(RefinementLevel& level, int rays) const {
     const std::size_t before = settings.wavelengths_nm.size();
     settings.samples = rays;
     if (wavelengths_are_open())
-        settings.wavelengths_nm =
-            even_wavelengths(std::max(nodes_for(rays), static_cast<int>(before)));
+        settings.wavelengths_nm = even_wavelengths(
+            std::max(nodes_for(rays, scene_.settings.samples > 0), static_cast<int>(before)));
     const bool dispersed = (setup_.on(Effects::dispersion) || setup_.on(Effects::coherence)) &&
                            setup_.bands.size() > 1;
     const auto wavelengths = static_cast<double>(settings.wavelengths_nm.size());
