@@ -11,65 +11,71 @@
 #include "compare/calibration/photo_blur.h"
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/score_list.h"
-#include "render/scene/fingerprint.h"
 #include "stone/errors.h"
 
 namespace culet {
 
 namespace {
 
-// Of the calibration's own workings: a cached table of another version is not used.
-constexpr int k_version = 5;
+class Draws {
+public:
+    Draws(const OtherWorlds& worlds, const Photo& model_picture, const DraftRenderer& renderer,
+          const CalibrateOptions& options, const std::vector<CameraModel>& cameras)
+        : worlds_(worlds),
+          model_picture_(model_picture),
+          renderer_(renderer),
+          options_(options),
+          cameras_(cameras) {
+        for (const CameraModel& camera : cameras)
+            soft_pictures_.push_back(softened(model_picture, camera.psf_px));
+    }
 
-CalibrationDraw photographed_draw(const WorldDraw& job, const Photo& stone,
-                                  const Photo& model_picture, const Photo& soft_picture,
-                                  CameraModel camera, const CalibrateOptions& options) {
+    /// One for each camera.
+    std::vector<CalibrationDraw> draw(const WorldDraw& job) const;
+
+private:
+    CalibrationDraw photograph(const WorldDraw& job, const Photo& stone, std::size_t camera) const;
+
+    const OtherWorlds& worlds_;
+    const Photo& model_picture_;
+    std::vector<Photo> soft_pictures_;  // as each camera's lens shows it
+    const DraftRenderer& renderer_;
+    const CalibrateOptions& options_;
+    const std::vector<CameraModel>& cameras_;
+};
+
+CalibrationDraw Draws::photograph(const WorldDraw& job, const Photo& stone,
+                                  std::size_t which) const {
     CalibrationDraw result{job.world, job.name, job.facet_error_deg, {}};
+    CameraModel camera = cameras_[which];
     if (job.world == World::light || job.world == World::both || job.world == World::pose) {
         // Under another light a photographer would meter again.
-        const double exposure = exposure_like(stone, model_picture);
+        const double exposure = exposure_like(stone, model_picture_);
         for (double& gain : camera.gain) gain *= exposure;
     }
+    const Photo& soft_picture = soft_pictures_[which];
     const auto seed = seed_of(job.seed, 11, static_cast<std::uint64_t>(1e4 * job.facet_error_deg));
-    const auto scores = [&] {
-        return calibration_scores(photographed(stone, camera, seed), soft_picture, options);
-    };
-    result.scores = scores();
+    const Photo photo = photographed(stone, camera, seed);
+    result.scores = calibration_scores(photo, soft_picture, options_);
     const bool none = std::none_of(result.scores.begin(), result.scores.end(),
                                    [](const auto& s) { return s.has_value(); });
     if (none && camera.outline_from_background) {
         // Too dark at its border to be found there: told by the coverage instead.
         camera.outline_from_background = false;
-        result.scores = scores();
+        result.scores =
+            calibration_scores(photographed(stone, camera, seed), soft_picture, options_);
     }
     return result;
 }
 
-}  // namespace
-
-std::string calibration_hash(const Scene& model, const CalibrateOptions& options) {
-    Fingerprint print;
-    print.add(k_version);
-    print.add(model);
-    const CameraModel& camera = options.camera;
-    print.add(camera.psf_px);
-    print.add(camera.electrons);
-    print.add(camera.read_noise);
-    print.add(camera.bits);
-    print.add(camera.clips ? 1 : 0);
-    print.add(camera.outline_from_background ? 1 : 0);
-    print.add(camera.scale_error);
-    for (const double g : camera.gain) print.add(g);
-    for (const float g : camera.ground) print.add(static_cast<double>(g));
-    print.add(options.draws);
-    print.add(options.null_draws);
-    print.add(static_cast<double>(options.seed));
-    print.add(options.view_sigma);
-    print.add(options.largest);
-    print.add(options.ignored);
-    if (options.start) print.add(*options.start);
-    return print.hex();
+std::vector<CalibrationDraw> Draws::draw(const WorldDraw& job) const {
+    const Photo stone = renderer_.draw(worlds_.scene_of(job));
+    std::vector<CalibrationDraw> result;
+    for (std::size_t k = 0; k < cameras_.size(); ++k) result.push_back(photograph(job, stone, k));
+    return result;
 }
+
+}  // namespace
 
 std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
                                   const Photo& soft_picture, const Alignment& how,
@@ -106,9 +112,7 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
     const OtherWorlds worlds(
         model, {options.draws, options.null_draws, options.seed, options.start, options.view_sigma},
         common.notes);
-    std::vector<Photo> soft_pictures;  // as each camera's lens shows it
-    for (const CameraModel& camera : cameras)
-        soft_pictures.push_back(softened(model_picture, camera.psf_px));
+    const Draws draws(worlds, model_picture, renderer, options, cameras);
     const std::vector<WorldDraw>& jobs = worlds.draws();
     std::vector<std::vector<CalibrationDraw>> made(jobs.size());
 
@@ -118,12 +122,7 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
     while (done < jobs.size()) {
         const std::size_t end = std::min(jobs.size(), done + batch);
         arena.execute([&] {
-            tbb::parallel_for(done, end, [&](std::size_t i) {
-                const Photo stone = renderer.draw(worlds.scene_of(jobs[i]));
-                for (std::size_t k = 0; k < cameras.size(); ++k)
-                    made[i].push_back(photographed_draw(jobs[i], stone, model_picture,
-                                                        soft_pictures[k], cameras[k], options));
-            });
+            tbb::parallel_for(done, end, [&](std::size_t i) { made[i] = draws.draw(jobs[i]); });
         });
         done = end;
         if (progress && !progress(static_cast<double>(done) / static_cast<double>(jobs.size()))) {

@@ -128,12 +128,10 @@ void judge(CalibratedVerdict& verdict) {
         against = "too little was drawn to tell a match from chance (--budget allows more)";
     } else if (!beaten) {
         against = "some wrong light or pose would do as well";
-    } else if (std::exp(*error.rank) <= k_match_deg) {
+    } else if (*error.deg <= k_match_deg) {
         verdict.verdict = Verdict::match;
-    } else if (std::exp(*error.rank) <= k_partial_deg) {
-        verdict.verdict = Verdict::partial;
     } else if (*error.deg <= k_partial_deg) {
-        against = "its scores do not agree with each other as those of this stone would";
+        verdict.verdict = Verdict::partial;
     } else {
         against = "a stone with facets far from these would do as well";
     }
@@ -145,9 +143,7 @@ void judge(CalibratedVerdict& verdict) {
 const char* const k_calibrated_rule =
     "match: an equivalent facet error of 0.7 degrees at most, and for each null (a wrong light, a "
     "wrong pose, both) either smaller than that of every draw, or p of 0.1 at most with zncc 2 "
-    "standard deviations above; partial: the same up to 1.4 degrees; else no_evidence. Where "
-    "scores "
-    "disagree as no draw's do, the error counts larger by the root of their misfit.";
+    "standard deviations above; partial: the same up to 1.4 degrees; else no_evidence.";
 
 CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibration calibration,
                                      bool geometry_only) {

@@ -11,8 +11,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr auto number_or_null = json_number<Json>;
 
-}  // namespace
-
 Json equivalent_json(const EquivalentError& error) {
     return {{"deg", number_or_null(error.deg)},
             {"low_deg", error.deg ? number_or_null(error.low_deg) : Json(nullptr)},
@@ -20,6 +18,8 @@ Json equivalent_json(const EquivalentError& error) {
             {"at_least", error.at_least},
             {"at_most", error.at_most}};
 }
+
+}  // namespace
 
 Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
     const Calibration& calibration = verdict.calibration;

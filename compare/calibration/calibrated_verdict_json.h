@@ -7,7 +7,6 @@
 
 namespace culet {
 
-nlohmann::ordered_json equivalent_json(const EquivalentError& error);
 /// "meaning": headline, equivalent facet error, nulls, hypotheses.
 nlohmann::ordered_json calibrated_verdict_json(const CalibratedVerdict& verdict);
 /// "sensitivity": one row a facet error, with mean, spread and fitted curve of every score.

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "compare/calibration/calibration.h"
 #include "page/json_fields.h"
@@ -16,17 +14,12 @@ constexpr auto number = json_number<Json>;
 constexpr int k_schema = 3;  // 1: scored against a sharp render; 2: without the facets' tilts
 constexpr std::size_t k_most_draws = 100000;
 
-constexpr std::pair<World, const char*> k_worlds[] = {{World::facet_error, "facet_error"},
-                                                      {World::light, "light"},
-                                                      {World::pose, "pose"},
-                                                      {World::both, "both"},
-                                                      {World::catalogue, "catalogue"},
-                                                      {World::material, "material"},
-                                                      {World::wrong, "wrong"}};
+constexpr World k_worlds[] = {World::facet_error, World::light,    World::pose, World::both,
+                              World::catalogue,   World::material, World::wrong};
 
 std::optional<World> world_named(const std::string& name) {
-    for (const auto& [world, known] : k_worlds) {
-        if (name == known) return world;
+    for (const World world : k_worlds) {
+        if (name == name_of(world)) return world;
     }
     return std::nullopt;
 }
@@ -34,7 +27,23 @@ std::optional<World> world_named(const std::string& name) {
 }  // namespace
 
 const char* name_of(World world) {
-    return std::ranges::find(k_worlds, world, &std::pair<World, const char*>::first)->second;
+    switch (world) {
+        case World::facet_error:
+            return "facet_error";
+        case World::light:
+            return "light";
+        case World::pose:
+            return "pose";
+        case World::both:
+            return "both";
+        case World::catalogue:
+            return "catalogue";
+        case World::material:
+            return "material";
+        case World::wrong:
+            return "wrong";
+    }
+    return "wrong";
 }
 
 std::string calibration_json(const Calibration& calibration) {

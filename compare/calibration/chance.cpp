@@ -1,7 +1,6 @@
 #include "compare/calibration/chance.h"
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
 namespace culet {
@@ -28,7 +27,12 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint64_t group, std::uint64_t dra
 }
 
 glm::dmat3 rotation_about(const Vec3& axis, double angle) {
-    return glm::mat3_cast(glm::angleAxis(angle, axis));
+    // Rodrigues (1840). glm's matrices are lists of columns.
+    const double c = std::cos(angle), s = std::sin(angle), d = 1 - c;
+    const Vec3& a = axis;
+    return glm::dmat3(c + d * a.x * a.x, d * a.x * a.y + s * a.z, d * a.x * a.z - s * a.y,
+                      d * a.x * a.y - s * a.z, c + d * a.y * a.y, d * a.y * a.z + s * a.x,
+                      d * a.x * a.z + s * a.y, d * a.y * a.z - s * a.x, c + d * a.z * a.z);
 }
 
 }  // namespace culet

@@ -5,20 +5,32 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/pose/stone_view.h"
 #include "stone/errors.h"
 
 namespace culet {
 
 std::vector<std::array<double, 2>> projected_corners(const Solid& solid, const Camera& camera) {
-    const Projection seen(stone_view(camera, camera.look_at));
-    const Vec3 forward = camera.look_at - camera.position;
+    // The camera's own rays tell its frame: through the line of sight, one pixel to its right, and
+    // one pixel below.
+    const EyeRays rays(camera);
+    const auto middle = line_of_sight_in(camera);
+    const EyeRay ahead = rays.through(middle[0], middle[1]);
+    const EyeRay beside = rays.through(middle[0] + 1, middle[1]);
+    const EyeRay below = rays.through(middle[0], middle[1] + 1);
+    const Vec3 forward = ahead.direction;
+    const bool orthographic = camera.orthographic_width.has_value();
+    const auto step = [&](const EyeRay& ray) {
+        if (orthographic) return ray.origin - ahead.origin;
+        return ray.direction / glm::dot(ray.direction, forward) - forward;
+    };
+    const Vec3 right = step(beside), down = step(below);
     std::vector<std::array<double, 2>> points;
     for (const Vec3& corner : solid.vertices) {
-        const bool ahead = glm::dot(corner - camera.position, forward) > 0;
-        if (!ahead && !camera.orthographic_width) continue;
-        const PicturePoint at = seen(corner);
-        points.push_back({at.x, at.y});
+        const Vec3 from = corner - ahead.origin;
+        const double depth = orthographic ? 1 : glm::dot(from, forward);
+        if (!(depth > 0)) continue;
+        points.push_back({middle[0] + glm::dot(from, right) / glm::dot(right, right) / depth,
+                          middle[1] + glm::dot(from, down) / glm::dot(down, down) / depth});
     }
     return points;
 }

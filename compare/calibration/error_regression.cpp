@@ -30,7 +30,8 @@ ErrorRegression::ErrorRegression(std::vector<double> log_errors,
     if (scores_.empty()) return;
     std::vector<std::size_t> all(scores_.front().size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    complete_ = fit(all).value_or(Fit{});
+    complete_ = fit(all);
+    if (complete_) left_out_ = complete_->left_out;
 }
 
 std::optional<ErrorRegression::Fit> ErrorRegression::fit(
@@ -83,11 +84,6 @@ std::optional<ErrorRegression::Fit> ErrorRegression::fit(
             .cwiseProduct(along);
     const Eigen::VectorXd weights = (parts.v * turned).cwiseQuotient(deviations.transpose());
     Fit result;
-    result.known = known;
-    const Eigen::VectorXd sizes_of_weights =
-        weights.cwiseProduct(deviations.transpose()).cwiseAbs();
-    const Eigen::VectorXd shares = sizes_of_weights / std::max(sizes_of_weights.sum(), k_constant);
-    result.shares.assign(shares.begin(), shares.end());
     result.weights.assign(weights.begin(), weights.end());
     result.constant = mean - means.dot(weights);
     result.left_out.assign(scores_.size(), std::numeric_limits<double>::quiet_NaN());
@@ -101,31 +97,15 @@ std::optional<ErrorRegression::Fit> ErrorRegression::fit(
     return result;
 }
 
-std::optional<ErrorRegression::Fit> ErrorRegression::fit_for(
-    const std::vector<double>& scores) const {
+std::optional<double> ErrorRegression::of(const std::vector<double>& scores) const {
     std::vector<std::size_t> known;
     for (std::size_t k = 0; k < scores.size(); ++k)
         if (!std::isnan(scores[k])) known.push_back(k);
-    if (!known.empty() && known == complete_.known) return complete_;
-    return fit(known);
-}
-
-std::optional<double> ErrorRegression::of(const std::vector<double>& scores) const {
-    const auto fitted = fit_for(scores);
+    const std::optional<Fit> fitted = known.size() == scores.size() ? complete_ : fit(known);
     if (!fitted) return std::nullopt;
     double answer = fitted->constant;
-    for (std::size_t k = 0; k < fitted->known.size(); ++k)
-        answer += fitted->weights[k] * scores[fitted->known[k]];
+    for (std::size_t k = 0; k < known.size(); ++k) answer += fitted->weights[k] * scores[known[k]];
     return answer;
-}
-
-std::vector<double> ErrorRegression::shares(const std::vector<double>& scores) const {
-    std::vector<double> result(scores.size(), 0.0);
-    if (const auto fitted = fit_for(scores)) {
-        for (std::size_t k = 0; k < fitted->known.size(); ++k)
-            result[fitted->known[k]] = fitted->shares[k];
-    }
-    return result;
 }
 
 }  // namespace culet

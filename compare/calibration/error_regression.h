@@ -22,27 +22,22 @@ public:
     /// Nothing when all scores are missing, or fewer than three draws have those that are not.
     std::optional<double> of(const std::vector<double>& scores) const;
 
-    /// What part of the answer each score has, by the size of its weight when scores are
-    /// standardised; 0 for a missing one.
-    std::vector<double> shares(const std::vector<double>& scores) const;
-
     /// By how much each draw's answer is off when the draw itself is left out of the fit (Cook and
     /// Weisberg 1982, 2.2: residual over one less its leverage); NaN for one that lacks a score.
-    const std::vector<double>& left_out() const { return complete_.left_out; }
+    const std::vector<double>& left_out() const { return left_out_; }
 
 private:
     struct Fit {
-        std::vector<std::size_t> known;  // scores
-        std::vector<double> weights, shares;
+        std::vector<double> weights;
         double constant = 0;
         std::vector<double> left_out;
     };
     std::optional<Fit> fit(const std::vector<std::size_t>& known) const;
-    std::optional<Fit> fit_for(const std::vector<double>& scores) const;
 
     std::vector<double> log_errors_;
     std::vector<std::vector<double>> scores_;
-    Fit complete_;  // of all scores; without weights where there is none
+    std::optional<Fit> complete_;
+    std::vector<double> left_out_;
 };
 
 }  // namespace culet

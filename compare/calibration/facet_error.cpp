@@ -30,25 +30,28 @@ Plane mapped(const Plane& plane, const glm::dmat3& map) {
     return {map * plane.normal, plane.offset};
 }
 
-// Facet f goes near to the facet of the f-th entry.
-std::optional<std::vector<std::size_t>> pairing(const std::vector<Plane>& planes,
-                                                const glm::dmat3& map, double size) {
-    std::vector<std::size_t> result;
+struct Pairing {
+    std::vector<int> to;  // facet f goes near to facet to[f]
+};
+
+std::optional<Pairing> pairing(const std::vector<Plane>& planes, const glm::dmat3& map,
+                               double size) {
+    Pairing result;
     std::vector<bool> taken(planes.size(), false);
     for (const Plane& plane : planes) {
         const Plane there = mapped(plane, map);
-        std::size_t nearest = planes.size();
+        int nearest = -1;
         double best = k_near_normal;
         for (std::size_t j = 0; j < planes.size(); ++j) {
             const double along = glm::dot(there.normal, planes[j].normal);
             if (taken[j] || along < best) continue;
             if (std::abs(there.offset - planes[j].offset) > k_near_offset * size) continue;
             best = along;
-            nearest = j;
+            nearest = static_cast<int>(j);
         }
-        if (nearest == planes.size()) return std::nullopt;
-        taken[nearest] = true;
-        result.push_back(nearest);
+        if (nearest < 0) return std::nullopt;
+        taken[static_cast<std::size_t>(nearest)] = true;
+        result.to.push_back(nearest);
     }
     return result;
 }
@@ -69,6 +72,10 @@ Centred centred(const Solid& solid) {
             {facet.plane.normal, facet.plane.offset - glm::dot(facet.plane.normal, result.middle)});
     }
     return result;
+}
+
+glm::dmat3 mirror_across(const Vec3& normal) {
+    return glm::dmat3(1) - 2.0 * glm::outerProduct(normal, normal);
 }
 
 // The facet's plane turned about an axis through the mean of its corners; `turn` says which axis,
@@ -133,8 +140,7 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
     for (const Plane& plane : stone.planes) {
         const Vec3 across = plane.normal - glm::dot(plane.normal, up) * up;
         if (glm::length(across) < 0.05) continue;
-        const Vec3 normal = glm::normalize(glm::cross(up, across));
-        const glm::dmat3 mirror = glm::dmat3(1) - 2.0 * glm::outerProduct(normal, normal);
+        const glm::dmat3 mirror = mirror_across(glm::normalize(glm::cross(up, across)));
         if (!pairing(stone.planes, mirror, stone.size)) continue;
         const std::size_t turns = group.size();
         for (std::size_t k = 0; k < turns; ++k) group.push_back(group[k] * mirror);
@@ -149,7 +155,7 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
         const auto pairs = pairing(stone.planes, map, stone.size);
         if (!pairs) continue;
         for (std::size_t f = 0; f < stone.planes.size(); ++f) {
-            const std::size_t j = (*pairs)[f];
+            const auto j = static_cast<std::size_t>(pairs->to[f]);
             const Plane there = mapped(stone.planes[f], map);
             sums[j].normal += there.normal;
             sums[j].offset += there.offset;

@@ -26,7 +26,7 @@ double inverse_of_falling(const std::vector<double>& x, const std::vector<double
     return x[first - 1] + part * (x[first] - x[first - 1]);
 }
 
-std::vector<double> falling(const std::vector<double>& values) {
+std::vector<double> monotone(const std::vector<double>& values) {
     struct Block {
         double sum = 0;
         std::size_t count = 0;
@@ -35,7 +35,7 @@ std::vector<double> falling(const std::vector<double>& values) {
     std::vector<Block> blocks;
     for (const double value : values) {
         blocks.push_back({value, 1});
-        while (blocks.size() > 1 && blocks[blocks.size() - 2].mean() < blocks.back().mean()) {
+        while (blocks.size() > 1 && blocks[blocks.size() - 2].mean() > blocks.back().mean()) {
             const Block last = blocks.back();
             blocks.pop_back();
             blocks.back().sum += last.sum;
@@ -47,13 +47,23 @@ std::vector<double> falling(const std::vector<double>& values) {
     return result;
 }
 
+std::vector<double> falling(std::vector<double> values) {
+    for (double& v : values) v = -v;
+    values = monotone(values);
+    for (double& v : values) v = -v;
+    return values;
+}
+
 std::vector<double> smoothed(const std::vector<double>& values) {
     std::vector<double> result;
     for (std::size_t i = 0; i < values.size(); ++i) {
         double sum = 2 * values[i], weight = 2;
-        for (const std::size_t k : {i - 1, i + 1}) {
-            if (k >= values.size()) continue;  // i - 1 of 0 too
-            sum += values[k];
+        if (i > 0) {
+            sum += values[i - 1];
+            ++weight;
+        }
+        if (i + 1 < values.size()) {
+            sum += values[i + 1];
             ++weight;
         }
         result.push_back(sum / weight);

@@ -22,50 +22,40 @@ constexpr double k_least_turn_deg = 15, k_most_turn_deg = 180;  // of the wrong 
 constexpr double k_least_tilt_deg = 3, k_most_tilt_deg = 20;    // of the wrong pose
 constexpr int k_neighbours = 2;
 
-bool absorbs(const Scene& scene) {
-    const auto& spectra = scene.stone.material.absorption_per_mm;
-    return std::any_of(spectra.begin(), spectra.end(),
+enum Wrong {
+    higher_index,
+    lower_index,
+    flat_index,
+    more_absorption,
+    turned_light,
+    tilted_stone,
+    k_wrongs
+};
+
+const char* name_of(Wrong wrong) {
+    switch (wrong) {
+        case higher_index:
+            return "index 0.02 higher";
+        case lower_index:
+            return "index 0.02 lower";
+        case flat_index:
+            return "no dispersion";
+        case more_absorption:
+            return "absorption 1.3 times";
+        case turned_light:
+            return "light turned by 5 degrees";
+        case tilted_stone:
+            return "stone tilted by 0.5 degrees";
+        case k_wrongs:
+            break;
+    }
+    return "";
+}
+
+bool absorbs(const Material& material) {
+    return std::any_of(material.absorption_per_mm.begin(), material.absorption_per_mm.end(),
                        [](const Spectrum& s) { return s.max() > 0; });
 }
-
-bool has_wrong_lights(const Scene& scene) {
-    return !same_light_from_everywhere(scene.lights);
-}
-
-bool always(const Scene&) {
-    return true;
-}
-
-/// One thing a little wrong; what turns does so about `axis` through the stone's middle.
-struct Wrong {
-    const char* name;
-    bool (*applies)(const Scene& model);
-    void (*make)(Scene& scene, const Vec3& axis, const Vec3& middle);
-};
-constexpr Wrong k_wrongs[] = {
-    {"index 0.02 higher", always,
-     [](Scene& scene, const Vec3&, const Vec3&) {
-         scene.stone.material = with_index_changed(scene.stone.material, 0.02);
-     }},
-    {"index 0.02 lower", always,
-     [](Scene& scene, const Vec3&, const Vec3&) {
-         scene.stone.material = with_index_changed(scene.stone.material, -0.02);
-     }},
-    {"no dispersion", always,
-     [](Scene& scene, const Vec3&, const Vec3&) {
-         scene.stone.material = without_dispersion(scene.stone.material);
-     }},
-    {"absorption 1.3 times", absorbs,
-     [](Scene& scene, const Vec3&, const Vec3&) {
-         scene.stone.material = with_absorption_times(scene.stone.material, 1.3);
-     }},
-    {"light turned by 5 degrees", has_wrong_lights,
-     [](Scene& scene, const Vec3& axis, const Vec3& middle) {
-         scene.lights = turned_lights(scene.lights, rotation_about(axis, radians(5.0)), middle);
-     }},
-    {"stone tilted by 0.5 degrees", always, [](Scene& scene, const Vec3& axis, const Vec3& middle) {
-         scene.stone = turned_stone(scene.stone, rotation_about(axis, radians(0.5)), middle);
-     }}};
 
 glm::dmat3 wrong_light(Chance& chance) {
     const Vec3 axis = chance.direction();
@@ -94,8 +84,8 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
             "the stone is not convex: its facets cannot be tilted one by one, and there is no "
             "sensitivity curve");
     }
-    const bool wrong_lights = has_wrong_lights(model_);
-    if (!wrong_lights) {
+    const bool one_light = same_light_from_everywhere(model_.lights);
+    if (one_light) {
         notes.push_back(
             "the light is the same from everywhere: there is no wrong light to compare with");
     }
@@ -112,9 +102,9 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
         const int from = asked.null_draws * round / rounds;
         const int to = asked.null_draws * (round + 1) / rounds;
         for (int k = from; k < to; ++k) {
-            if (wrong_lights) add(World::light, "", 0, 0, k);
+            if (!one_light) add(World::light, "", 0, 0, k);
             add(World::pose, "", 0, 0, k);
-            if (wrong_lights) add(World::both, "", 0, 0, k);
+            if (!one_light) add(World::both, "", 0, 0, k);
         }
         // After the second round: a budget that ends early ends these first.
         if (round != std::min(1, rounds - 1)) continue;
@@ -125,8 +115,11 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
         for (std::size_t m = 0; m < neighbours_.size(); ++m) {
             add(World::material, neighbours_[m].id, 0, static_cast<int>(m), 0);
         }
-        for (int w = 0; w < std::ssize(k_wrongs); ++w)
-            if (k_wrongs[w].applies(model_)) add(World::wrong, k_wrongs[w].name, 0, w, 0);
+        for (int w = 0; w < k_wrongs; ++w) {
+            if (w == turned_light && one_light) continue;
+            if (w == more_absorption && !absorbs(stone.material)) continue;
+            add(World::wrong, name_of(static_cast<Wrong>(w)), 0, w, 0);
+        }
     }
 }
 
@@ -152,9 +145,36 @@ glm::dmat3 OtherWorlds::unsure_view(Chance& chance) const {
     return rotation_by(a * u + b * v);
 }
 
-Vec3 OtherWorlds::wrong_axis(Chance& chance) const {
-    const Vec3& up = model_.stone.up;
-    return glm::normalize(glm::cross(up, chance.direction() - 0.1 * up) + Vec3(1e-9, 0, 0));
+void OtherWorlds::make_wrong(Scene& scene, int which, Chance& chance) const {
+    Stone& stone = scene.stone;
+
+    const Material& material = model_.stone.material;
+    const Vec3 across = chance.direction();
+    const Vec3 axis = glm::normalize(glm::cross(model_.stone.up, across - 0.1 * model_.stone.up) +
+                                     Vec3(1e-9, 0, 0));
+    switch (static_cast<Wrong>(which)) {
+        case higher_index:
+            stone.material = with_index_changed(material, 0.02);
+            break;
+        case lower_index:
+            stone.material = with_index_changed(material, -0.02);
+            break;
+        case flat_index:
+            stone.material = without_dispersion(material);
+            break;
+        case more_absorption:
+            stone.material = with_absorption_times(material, 1.3);
+            break;
+        case turned_light:
+            scene.lights =
+                turned_lights(model_.lights, rotation_about(axis, radians(5.0)), middle_);
+            break;
+        case tilted_stone:
+            stone = turned_stone(model_.stone, rotation_about(axis, radians(0.5)), middle_);
+            break;
+        case k_wrongs:
+            break;
+    }
 }
 
 Scene OtherWorlds::scene_of(const WorldDraw& job) const {
@@ -187,7 +207,7 @@ Scene OtherWorlds::scene_of(const WorldDraw& job) const {
             stone.material = neighbours_[static_cast<std::size_t>(job.which)];
             break;
         case World::wrong:
-            k_wrongs[job.which].make(scene, wrong_axis(chance), middle_);
+            make_wrong(scene, job.which, chance);
             break;
     }
     if (view_sigma_ > 0 && job.world != World::pose && job.world != World::both) {

@@ -43,7 +43,7 @@ public:
 
 private:
     glm::dmat3 wrong_pose(Chance& chance) const;
-    Vec3 wrong_axis(Chance& chance) const;
+    void make_wrong(Scene& scene, int which, Chance& chance) const;
     glm::dmat3 unsure_view(Chance& chance) const;
 
     const Scene& model_;

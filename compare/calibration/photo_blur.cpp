@@ -16,7 +16,8 @@ constexpr double k_most = 4, k_step = 0.25;
 // Mean square of the detail between one and two pixels. Roots make noise alike everywhere; two
 // pixels average what is left of it away.
 double detail(const cv::Mat& light, double white, const cv::Mat& mask) {
-    const cv::Mat root = root_of(light, white);
+    cv::Mat root = cv::min(cv::max(light / white, 0), 1);
+    cv::sqrt(root, root);
     const cv::Mat band = softened(root, 1) - softened(root, 2);
     return cv::mean(band.mul(band), mask)[0];
 }
@@ -43,12 +44,6 @@ double photo_blur_px(const MatchedPictures& pictures) {
         before = now;
     }
     return k_most;
-}
-
-cv::Mat root_of(const cv::Mat& light, double white) {
-    cv::Mat root;
-    cv::sqrt(cv::min(cv::max(light / white, 0), 1), root);
-    return root;
 }
 
 cv::Mat softened(const cv::Mat& picture, double psf_px) {

@@ -13,9 +13,6 @@ namespace culet {
 /// pixels and more.
 double photo_blur_px(const MatchedPictures& pictures);
 
-/// The root of light, clipped at white: shot noise is alike everywhere in it (Anscombe 1948).
-cv::Mat root_of(const cv::Mat& light, double white);
-
 /// The picture as a lens would show it whose point spread is a Gaussian of that standard deviation.
 /// A photo's coverage stays as it is.
 cv::Mat softened(const cv::Mat& picture, double psf_px);

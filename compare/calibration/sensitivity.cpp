@@ -8,27 +8,30 @@
 
 #include "compare/calibration/level_curve.h"
 #include "compare/scores/score_list.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
 namespace {
 
+struct Moments {
+    int count = 0;
+    double mean = 0, sd = 0;
+};
+
+Moments moments(const std::vector<double>& values) {
+    Moments m;
+    m.count = static_cast<int>(values.size());
+    if (values.empty()) return m;
+    m.mean = std::accumulate(values.begin(), values.end(), 0.0) / m.count;
+    double squares = 0;
+    for (const double v : values) squares += (v - m.mean) * (v - m.mean);
+    m.sd = m.count > 1 ? std::sqrt(squares / (m.count - 1)) : 0;
+    return m;
+}
+
 // Two scores may agree by chance on eight draws: none is believed to better than 10 %.
 constexpr double k_least_variance = 0.1 * 0.1;
-
-using DrawsByLevel = std::map<double, std::vector<const CalibrationDraw*>>;
-
-double mean_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double deviation_of(const std::vector<double>& values) {
-    if (values.size() < 2) return 0;
-    const double mean = mean_of(values);
-    double squares = 0;
-    for (const double v : values) squares += (v - mean) * (v - mean);
-    return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
 
 }  // namespace
 
@@ -38,74 +41,90 @@ std::vector<double> facet_errors_deg() {
 
 FacetErrorScale::FacetErrorScale(const Calibration& calibration,
                                  const std::vector<std::string>& keys) {
-    DrawsByLevel by_level;
+    std::map<double, std::vector<const CalibrationDraw*>> by_level;
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.world == World::facet_error) by_level[draw.facet_error_deg].push_back(&draw);
     }
-    for (const auto& [deg, draws] : by_level)
+    for (const auto& [deg, draws] : by_level) {
+        levels_deg_.push_back(deg);
         levels_.push_back(std::log(std::max(deg, k_least_deg)));
+    }
     if (levels_.size() < 3) return;
 
     for (std::size_t k = 0; k < calibration.keys.size(); ++k) {
+        if (std::find(keys.begin(), keys.end(), calibration.keys[k]) == keys.end()) continue;
         Curve curve;
         curve.key = k;
         curve.kind = score_kind(calibration.keys[k]);
-        if (curve.kind == nullptr ||
-            std::find(keys.begin(), keys.end(), calibration.keys[k]) == keys.end())
-            continue;
-        const double sign = curve.kind->higher_is_better() ? 1 : -1;
-        std::vector<double> better;
+        if (curve.kind == nullptr) continue;
+        bool everywhere = true;
+        std::vector<double> stretched;
         for (const auto& [deg, draws] : by_level) {
-            std::vector<double> values, stretched;
+            std::vector<double> values, on_scale;
             for (const CalibrationDraw* draw : draws) {
                 if (!draw->scores[k]) continue;
                 values.push_back(*draw->scores[k]);
-                stretched.push_back(stretch(values.back(), curve.kind->scale));
+                on_scale.push_back(stretch(values.back(), curve.kind->scale));
             }
-            if (values.empty()) break;
-            better.push_back(sign * mean_of(values));
-            curve.stretched.push_back(mean_of(stretched));
-            curve.levels.push_back(
-                {deg, static_cast<int>(values.size()), mean_of(values), deviation_of(values)});
+            everywhere = everywhere && !values.empty();
+            const Moments plain = moments(values);
+            curve.mean.push_back(plain.mean);
+            curve.sd.push_back(plain.sd);
+            curve.draws.push_back(plain.count);
+            stretched.push_back(moments(on_scale).mean);
         }
-        if (better.size() < levels_.size()) continue;  // a level without any
-        curve.stretched = falling(curve.stretched);
+        if (!everywhere) continue;
+        curve.stretched = falling(stretched);
         if (!(curve.stretched.front() > curve.stretched.back())) continue;
-        better = falling(better);
-        for (std::size_t l = 0; l < levels_.size(); ++l) curve.levels[l].fitted = sign * better[l];
+        const double sign = curve.kind->higher_is_better() ? 1 : -1;
+        std::vector<double> better = curve.mean;
+        for (double& v : better) v *= sign;
+        curve.fitted = falling(better);
+        for (double& v : curve.fitted) v *= sign;
+        // How far this score's own answers scatter about the truth.
+        std::size_t level = 0;
+        for (const auto& [deg, draws] : by_level) {
+            double squares = 0, count = 0;
+            for (const CalibrationDraw* draw : draws) {
+                if (!draw->scores[k]) continue;
+                const double off = logarithm(curve, *draw->scores[k]) - levels_[level];
+                squares += off * off;
+                ++count;
+            }
+            curve.variance.push_back(count > 0 ? squares / count : 1);
+            ++level;
+        }
+        curve.variance = smoothed(curve.variance);
         curves_.push_back(std::move(curve));
     }
     if (curves_.empty()) return;
 
-    std::vector<KnownScores> draws;
-    for (const auto& [deg, of_level] : by_level) {
-        const auto level =
-            static_cast<std::size_t>(std::distance(by_level.begin(), by_level.find(deg)));
-        for (const CalibrationDraw* draw : of_level)
-            draws.push_back({level, stretched(draw->scores)});
+    std::vector<double> means;
+    for (const auto& [deg, draws] : by_level) {
+        std::vector<double> answers;
+        for (const CalibrationDraw* draw : draws) {
+            if (const auto answer = averaged(draw->scores)) answers.push_back(*answer);
+        }
+        means.push_back(moments(answers).mean);
     }
-    tell_spread(draws);
-    std::vector<std::vector<double>> curves;
-    for (const Curve& curve : curves_) curves.push_back(curve.stretched);
-    misfit_ = ScoreMisfit(levels_, std::move(curves), draws);
-    double largest = 0;
-    for (const KnownScores& draw : draws) {
-        if (const auto error = log_error(draw.scores))
-            largest = std::max(largest, misfit_.at(*error, draw.scores).value_or(0));
-    }
-    if (largest > 0) largest_misfit_ = largest;
+    average_ = monotone(means);
+    const JointDraws draws = joint_draws(calibration);
+    joint_ = JointScores(draws);
+    fit_regression(draws);
 }
 
-void FacetErrorScale::tell_spread(const std::vector<KnownScores>& draws) {
+void FacetErrorScale::fit_regression(const JointDraws& draws) {
+    // The ceiling has no logarithm.
     std::vector<double> errors;
     std::vector<std::vector<double>> scores;
     std::vector<std::size_t> level_of;
-    for (const KnownScores& draw : draws) {
-        // The ceiling has no logarithm.
-        if (!(curves_.front().levels[draw.level].facet_error_deg > 0)) continue;
-        errors.push_back(levels_[draw.level]);
-        scores.push_back(draw.scores);
-        level_of.push_back(draw.level);
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        if (!(levels_deg_[l] > 0)) continue;
+        for (const auto& draw : draws.draws[l]) {
+            errors.push_back(levels_[l]);
+            scores.push_back(draw);
+            level_of.push_back(l);
+        }
     }
     regression_ = ErrorRegression(std::move(errors), std::move(scores));
     std::vector<double> squares(levels_.size(), 0), counts(levels_.size(), 0);
@@ -123,8 +142,24 @@ void FacetErrorScale::tell_spread(const std::vector<KnownScores>& draws) {
         else if (l + 1 < levels_.size())
             variances[l] = variances[l + 1];
     }
-    for (const double v : smoothed(variances))
+    spread_.clear();
+    for (const double v : smoothed(variances)) {
         spread_.push_back(std::sqrt(std::max(v, k_least_variance)));
+    }
+}
+
+JointDraws FacetErrorScale::joint_draws(const Calibration& calibration) const {
+    JointDraws joint;
+    joint.levels = levels_;
+    joint.draws.resize(levels_.size());
+    for (const Curve& curve : curves_) joint.curves.push_back(curve.stretched);
+    for (const CalibrationDraw& draw : calibration.draws) {
+        if (draw.world != World::facet_error) continue;
+        const auto level = std::find(levels_deg_.begin(), levels_deg_.end(), draw.facet_error_deg);
+        joint.draws[static_cast<std::size_t>(level - levels_deg_.begin())].push_back(
+            stretched(draw.scores));
+    }
+    return joint;
 }
 
 std::vector<double> FacetErrorScale::stretched(
@@ -138,26 +173,67 @@ std::vector<double> FacetErrorScale::stretched(
     return result;
 }
 
-std::optional<double> FacetErrorScale::log_error(const std::vector<double>& scores) const {
-    const auto found = regression_.of(scores);
-    if (!found) return std::nullopt;
-    return std::clamp(*found, levels_.front(), levels_.back());
+std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
+    const std::vector<std::optional<double>>& scores) const {
+    const auto average = averaged(scores);
+    const auto joint = joint_.of(stretched(scores));
+    if (!average || !joint) return std::nullopt;
+    if (joint->misfit <= 1) {
+        const auto found = regression_.of(stretched(scores));
+        if (found)
+            return Explained{std::clamp(*found, levels_.front(), levels_.back()), joint->misfit};
+    }
+    // `average_` rises with the levels.
+    std::vector<double> negative = average_;
+    for (double& v : negative) v = -v;
+    return Explained{inverse_of_falling(levels_, negative, -*average), joint->misfit};
+}
+
+double FacetErrorScale::logarithm(const Curve& curve, double score) const {
+    return inverse_of_falling(levels_, curve.stretched, stretch(score, curve.kind->scale));
+}
+
+double FacetErrorScale::weight(const Curve& curve, double log_deg) const {
+    return 1 / std::max(k_least_variance, interpolated(levels_, curve.variance, log_deg));
+}
+
+std::optional<double> FacetErrorScale::averaged(
+    const std::vector<std::optional<double>>& scores) const {
+    std::vector<double> answers;
+    std::vector<const Curve*> of;
+    for (const Curve& curve : curves_) {
+        if (!scores[curve.key]) continue;
+        answers.push_back(logarithm(curve, *scores[curve.key]));
+        of.push_back(&curve);
+    }
+    if (answers.empty()) return std::nullopt;
+    // The weights depend on the answer: from the median on, a few rounds settle it.
+    double answer = upper_median(answers);
+    for (int round = 0; round < 8; ++round) {
+        double sum = 0, weights = 0;
+        for (std::size_t i = 0; i < answers.size(); ++i) {
+            const double w = weight(*of[i], answer);
+            sum += w * answers[i];
+            weights += w;
+        }
+        answer = sum / weights;
+    }
+    return answer;
 }
 
 EquivalentError FacetErrorScale::of(const std::vector<std::optional<double>>& scores) const {
     EquivalentError result;
     if (!usable()) return result;
-    const std::vector<double> on_scale = stretched(scores);
-    const auto found = log_error(on_scale);
+    const auto found = explained(scores);
     if (!found) return result;
-    const double misfit = misfit_.at(*found, on_scale).value_or(0) / largest_misfit_;
-    const double spread = 1.96 * interpolated(levels_, spread_, *found);
-    result.deg = std::exp(*found);
-    result.rank = *found + 0.5 * std::log(std::max(1.0, misfit));
-    result.low_deg = std::exp(*found - spread);
-    result.high_deg = std::exp(*found + spread);
-    result.at_least = *found >= levels_.back() - 1e-9;
-    result.at_most = *found <= levels_[1] + 1e-9;
+    const double log_deg = found->log_deg;
+    const double spread = 1.96 * interpolated(levels_, spread_, log_deg);
+    result.deg = std::exp(log_deg);
+    result.rank = log_deg + 0.5 * std::log(std::max(1.0, found->misfit));
+    result.low_deg = std::exp(log_deg - spread);
+    result.high_deg = std::exp(log_deg + spread);
+    result.at_least = log_deg >= levels_.back() - 1e-9;
+    result.at_most = log_deg <= std::log(levels_deg_[1]) + 1e-9;
     if (result.at_most) {
         result.deg = std::exp(levels_[1]);
         result.low_deg = 0;
@@ -169,22 +245,25 @@ std::vector<SensitivityCurve> FacetErrorScale::curves(
     const std::vector<std::optional<double>>& scores) const {
     std::vector<SensitivityCurve> result;
     if (!usable()) return result;
-    const std::vector<double> on_scale = stretched(scores);
-    const std::vector<double> shares = regression_.shares(on_scale);
-    for (std::size_t i = 0; i < curves_.size(); ++i) {
-        const Curve& curve = curves_[i];
+    const double at = averaged(scores).value_or(levels_.back());
+    double weights = 0;
+    for (const Curve& curve : curves_) {
         SensitivityCurve shown;
         shown.key = curve.kind->key;
-        shown.levels = curve.levels;
         shown.higher_is_better = curve.kind->higher_is_better();
+        for (std::size_t i = 0; i < levels_.size(); ++i) {
+            shown.levels.push_back(
+                {levels_deg_[i], curve.draws[i], curve.mean[i], curve.sd[i], curve.fitted[i]});
+        }
         shown.value = scores[curve.key];
         if (shown.value) {
-            shown.equivalent_deg =
-                std::exp(inverse_of_falling(levels_, curve.stretched, on_scale[i]));
-            shown.weight = shares[i];
+            shown.equivalent_deg = std::exp(logarithm(curve, *shown.value));
+            shown.weight = weight(curve, at);
+            weights += shown.weight;
         }
         result.push_back(std::move(shown));
     }
+    for (SensitivityCurve& curve : result) curve.weight /= weights > 0 ? weights : 1;
     return result;
 }
 

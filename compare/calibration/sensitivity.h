@@ -7,7 +7,7 @@
 
 #include "compare/calibration/calibration.h"
 #include "compare/calibration/error_regression.h"
-#include "compare/calibration/score_misfit.h"
+#include "compare/calibration/joint_scores.h"
 
 namespace culet {
 
@@ -29,7 +29,7 @@ struct SensitivityCurve {
     bool higher_is_better = true;
     std::optional<double> value;           ///< the photograph's
     std::optional<double> equivalent_deg;  ///< where the curve has it; ends: see EquivalentError
-    double weight = 0;  ///< share of the regression's weights, scores standardised
+    double weight = 0;                     ///< share in the combined answer
 };
 
 /// Degrees; the curve ends at 2, and below `k_least_deg` nothing is told apart.
@@ -38,14 +38,17 @@ struct EquivalentError {
     double low_deg = 0,
            high_deg = 0;  ///< 95 % of right stones are within, by draws left out one by one
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
-    /// For verdict and ranking: the logarithm of the error, larger by half the logarithm of what
-    /// the scores' misfit is over the largest of right stones (as errors are scaled whose residuals
-    /// are too large: Birge 1932).
+    /// For ranking: the logarithm of the error, larger by half the logarithm of what the scores'
+    /// misfit is over the largest of right stones (as errors are scaled whose residuals are too
+    /// large: Birge 1932).
     std::optional<double> rank;
 };
 
 /// Equivalent facet errors by several scores together: by regression on all draws with facet errors
-/// (error_regression.h), and how well the scores agree with each other there (score_misfit.h).
+/// (error_regression.h). Where the scores disagree as no right stone's do (joint_scores.h), each
+/// score's curve is made monotone and inverted in the logarithm of the error; the scores' answers
+/// are averaged with weights that are the inverse of the variance that each shows for right stones
+/// of about that error; and the average's own curve is inverted in turn, which takes its bias away.
 class FacetErrorScale {
 public:
     /// Of the calibration's draws with facet errors; `keys`: the scores that take part.
@@ -66,18 +69,28 @@ private:
     struct Curve {
         std::size_t key = 0;
         const ScoreKind* kind = nullptr;
-        std::vector<SensitivityCurve::Level> levels;
-        std::vector<double> stretched;  // monotone, on the scale of `stretch`; a level each
+        std::vector<double> mean, sd, fitted;  // a level each
+        std::vector<int> draws;
+        std::vector<double> stretched;  // fitted, on the scale of `stretch`
+        std::vector<double> variance;   // of the log of its own equivalent error, a level each
     };
+    double logarithm(const Curve& curve, double score) const;
+    double weight(const Curve& curve, double log_deg) const;
     std::vector<double> stretched(const std::vector<std::optional<double>>& scores) const;
-    std::optional<double> log_error(const std::vector<double>& stretched) const;
-    void tell_spread(const std::vector<KnownScores>& draws);
+    JointDraws joint_draws(const Calibration& calibration) const;
+    void fit_regression(const JointDraws& draws);
+    struct Explained {
+        double log_deg = 0, misfit = 0;
+    };
+    std::optional<Explained> explained(const std::vector<std::optional<double>>& scores) const;
+    std::optional<double> averaged(const std::vector<std::optional<double>>& scores) const;
 
-    std::vector<double> levels_;  // log degrees
+    std::vector<double> levels_;      // log degrees
+    std::vector<double> levels_deg_;  // 0 for the ceiling
     std::vector<Curve> curves_;
+    std::vector<double> average_;  // the average's own monotone curve, a level each
+    JointScores joint_;
     ErrorRegression regression_;
-    ScoreMisfit misfit_;
-    double largest_misfit_ = 1;   // of the draws
     std::vector<double> spread_;  // root mean square of what answers are off, a level each
 };
 

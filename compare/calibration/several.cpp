@@ -7,7 +7,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "compare/calibration/calibrated_verdict_json.h"
 #include "page/html.h"
 #include "page/json_fields.h"
 
@@ -45,6 +44,12 @@ EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     result.low_deg = std::exp(mean - spread);
     result.high_deg = std::exp(mean + spread);
     return result;
+}
+
+Json equivalent_json(const EquivalentError& error) {
+    return {{"deg", number(error.deg)},
+            {"low_deg", error.deg ? number(error.low_deg) : Json(nullptr)},
+            {"high_deg", error.deg ? number(error.high_deg) : Json(nullptr)}};
 }
 
 }  // namespace

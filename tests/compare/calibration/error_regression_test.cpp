@@ -60,19 +60,6 @@ TEST(ErrorRegression, WithoutAScoreAsksTheOthers) {
     EXPECT_FALSE(regression.of({k_missing, k_missing, k_missing}));
 }
 
-// Of two independent scores with noises of 0.5 and 0.25 the second weighs four times as much. With
-// the errors' own deviation of 1.29 theirs are 1.38 and 1.31: 0.79 of the standardised weights.
-TEST(ErrorRegression, TellsWhatPartOfTheAnswerAScoreHas) {
-    std::mt19937_64 random(9);
-    const ErrorRegression regression = drawn(720, random);
-    const std::vector<double> shares = regression.shares({k_missing, 2, 2});
-    ASSERT_EQ(shares.size(), 3u);
-    EXPECT_EQ(shares[0], 0);
-    EXPECT_NEAR(shares[1] + shares[2], 1, 1e-12);
-    EXPECT_NEAR(shares[2], 0.79, 0.05);
-    EXPECT_EQ(regression.shares({k_missing, k_missing, k_missing}), (std::vector<double>{0, 0, 0}));
-}
-
 TEST(ErrorRegression, OfTooFewDrawsHasNoAnswer) {
     EXPECT_FALSE(ErrorRegression().of({1}));
     EXPECT_FALSE(ErrorRegression({0, 1}, {{0}, {1}}).of({1}));

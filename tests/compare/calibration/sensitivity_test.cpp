@@ -53,17 +53,11 @@ std::vector<Score> scores_of(const std::vector<std::optional<double>>& values) {
     return scores;
 }
 
-// Barlow et al. (1972), by hand: 2 and 3 pool to 2.5, then 4, 5 and 6 to 5.
-TEST(Falling, PoolsWhatRunsTheWrongWay) {
-    EXPECT_EQ(falling({9, 4, 5, 6, 2, 3, 1}), (std::vector<double>{9, 5, 5, 5, 2.5, 2.5, 1}));
-    EXPECT_EQ(falling({1, 2, 3}), (std::vector<double>{2, 2, 2}));
-    EXPECT_TRUE(falling({}).empty());
-}
-
-// Half a weight to each neighbour, as many as there are.
-TEST(Smoothed, SharesWithTheNeighbours) {
-    EXPECT_EQ(smoothed({4, 0, 8}), (std::vector<double>{8.0 / 3, 3, 16.0 / 3}));
-    EXPECT_EQ(smoothed({5}), (std::vector<double>{5}));
+// Barlow et al. (1972), by hand: 3 and 2 pool to 2.5, then 6, 5 and 4 to 5.
+TEST(Monotone, PoolsWhatRunsTheWrongWay) {
+    EXPECT_EQ(monotone({1, 3, 2, 6, 5, 4, 9}), (std::vector<double>{1, 2.5, 2.5, 5, 5, 5, 9}));
+    EXPECT_EQ(monotone({3, 2, 1}), (std::vector<double>{2, 2, 2}));
+    EXPECT_TRUE(monotone({}).empty());
 }
 
 // The scores scatter by 10 % of the error; curves of 8 draws are off by 4 % more.
