@@ -14,7 +14,9 @@ void assess(const System& system, const Finished& finished, const Diagnosis& dia
             FitResult& result) {
     const auto reading = [&](int r) -> const Reading& { return system.readings()[std::size_t(r)]; };
     for (const Suspicion& s : diagnosis.suspicions) {
-        Proposal proposal = proposal_for(reading(s.reading), s.estimate, s.sigma);
+        // The others are not sure of each other: a slip must leave little of what it explains.
+        constexpr double k_part_missed = 0.25;
+        Proposal proposal = proposal_for(reading(s.reading), s.estimate, s.sigma, k_part_missed);
         for (const int other : s.alternatives) proposal.alternatives.push_back(reading(other).id);
         result.findings.proposals.push_back(std::move(proposal));
     }

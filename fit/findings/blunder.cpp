@@ -17,18 +17,15 @@ namespace {
 
 // Reading and estimate are trusted for so many of their sigmas.
 constexpr double k_trust = 3.5;
-// What a slip may miss by, of what it explains.
-constexpr double k_part_missed = 0.25;
 
 }  // namespace
 
-Proposal proposal_for(const Reading& reading, double estimate, double sigma) {
+Proposal proposal_for(const Reading& reading, double estimate, double sigma, double part_missed) {
     Proposal proposal{reading.id, is_angle(reading.kind), estimate, sigma, {}, 0, {}};
     // Slips are made in the unit of files.
     const double unit = file_unit(reading.kind);
     const double both = std::hypot(sigma, reading.sigma), within = k_trust * both;
-    if (is_relation(reading.kind) ||
-        !(within < k_part_missed * std::abs(reading.value - estimate))) {
+    if (is_relation(reading.kind) || !(within < part_missed * std::abs(reading.value - estimate))) {
         return proposal;
     }
     if (const auto slip =

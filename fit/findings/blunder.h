@@ -9,8 +9,9 @@
 namespace culet {
 
 /// What a reading should have been, and the slip that would turn that into what was written, where
-/// one does and reaches little further than what it explains.
-Proposal proposal_for(const Reading& reading, double estimate, double sigma);
+/// one does to within the sigmas, and these are no more than `part_missed` of what it explains.
+Proposal proposal_for(const Reading& reading, double estimate, double sigma,
+                      double part_missed = 1);
 
 /// A reading that takes no part and should have been what the proposal says.
 FittedReading left_out(const Reading& reading, const Proposal& proposal, const char* why);

@@ -90,7 +90,8 @@ double rise_at_second_sigmas(const Problem& given, const std::vector<Doubt>& dou
     double most = 0;
     for (const Doubt& d : doubts) {
         const Reading& r = given.readings[d.reading];
-        if (is_plain_inclination(r)) most = std::max(most, std::pow(denied_by(r, again), 2));
+        if (d.of_tier && is_plain_inclination(r))
+            most = std::max(most, std::pow(denied_by(r, again), 2));
     }
     return most;
 }

@@ -165,6 +165,23 @@ std::vector<WrittenReading> rows_as_drawn(const Stone& stone, const std::string&
     return rows;
 }
 
+// An oval's crown mains are three tiers of their own angles. All of them with the value of the
+// stars: each would hide the others, were they held against one another.
+TEST_F(FirstCheck, SeveralTiersWithTheValueOfAnotherAreNamed) {
+    const Stone oval = an_oval();
+    std::vector<WrittenReading> rows = rows_as_drawn(oval, "CPS");
+    const auto star = std::find_if(rows.begin(), rows.end(),
+                                   [](const WrittenReading& r) { return r.of[0] == "S1"; });
+    ASSERT_NE(star, rows.end());
+    for (WrittenReading& r : rows) {
+        if (r.of[0][0] == 'C') r.value = star->value;
+    }
+    const std::vector<Reading> readings = bind_readings(rows, oval);
+    const std::vector<Doubt> doubts = first_check(oval, readings, true);
+    ASSERT_EQ(doubts.size(), 8u);
+    for (const Doubt& d : doubts) EXPECT_EQ(readings[d.reading].of[0][0], 'C') << d.what;
+}
+
 TEST_F(FirstCheck, ATierWhoseFacetsDifferByDesignIsNoSlip) {
     const Stone oval = an_oval();
     EXPECT_TRUE(first_check(oval, bind_readings(rows_as_drawn(oval, "C"), oval), true).empty());
