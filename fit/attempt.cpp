@@ -10,7 +10,8 @@
 #include "fit/findings/judge.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/mesh/notes.h"
-#include "fit/model/system.h"
+#include "fit/model/enclosed.h"
+#include "fit/model/fit_model.h"
 #include "fit/starts/multistart.h"
 #include "fit/starts/refit.h"
 #include "fit/starts/robust.h"
@@ -25,25 +26,25 @@ namespace culet {
 namespace {
 
 // From an earlier result, where it leads to an end; else from the starts.
-Multistart search(const System& system, const FitOptions& options, const Progress& progress) {
-    if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
+Multistart search(const FitModel& model, const FitOptions& options, const Progress& progress) {
+    if (const auto shape = options.start ? shape_of(model, *options.start) : std::nullopt) {
         Multistart again;
-        again.best = refit_from(system, *shape, options.iterations);
+        again.best = refit_from(model, *shape, options.iterations);
         // Outlines have led to the stone already: other starts would lead to none.
-        if (again.best.is_an_end() || system.has_outlines()) return again;
+        if (again.best.is_an_end() || model.has_outlines()) return again;
     }
-    return fit_from_starts(system, options, progress);
+    return fit_from_starts(model, options, progress);
 }
 
-void fill_in_search(const System& system, const Multistart& multistart, FitResult& result) {
+void fill_in_search(const FitModel& model, const Multistart& multistart, FitResult& result) {
     const Candidate& best = multistart.best;
     result.log.starts = multistart.starts;
     result.log.start = best.start;
     result.log.iterations = best.finished.iterations;
-    result.findings.vanishing_edges = edges_kept_open(system, best.held);
+    result.findings.vanishing_edges = edges_kept_open(model, best.held);
     result.findings.vanishing_chi2 = best.cost_of_holding;
     const bool has_size = result.log.options.mesh_has_size;
-    for (std::string note : {other_turn(system), has_size ? other_size(system) : std::string()}) {
+    for (std::string note : {other_turn(model), has_size ? other_size(model) : std::string()}) {
         if (!note.empty()) result.log.notes.push_back(std::move(note));
     }
 }
@@ -60,21 +61,21 @@ void fill_in_statistics(const Diagnosis& diagnosis, FitResult& result) {
     result.statistics.rank_defect = diagnosis.rank_defect;
 }
 
-bool asks_for_evidence(const System& system, const FitOptions& options) {
+bool asks_for_evidence(const FitModel& model, const FitOptions& options) {
     return !options.meets_named && options.meets == MeetTreatment::exact &&
            options.prior.source != Prior::Source::none && options.loss == Loss::none &&
-           !options.free_corners && !system.has_outlines();
+           !options.free_corners && !model.has_outlines();
 }
 
 // Beside a prior nothing else would contradict exact meets: they would pull planes off good
-// readings. The system and the stone that the readings make likelier.
-void decide_meets(const Problem& problem, FitOptions& options, std::optional<System>& system,
+// readings. The model and the stone that the readings make likelier.
+void decide_meets(const Problem& problem, FitOptions& options, std::optional<FitModel>& model,
                   Candidate& best) {
-    if (!best.is_an_end() || !asks_for_evidence(*system, options)) return;
+    if (!best.is_an_end() || !asks_for_evidence(*model, options)) return;
     FitOptions other = options;
     other.meets = MeetTreatment::soft;
-    std::optional<System> changed(std::in_place, problem.stone, problem.readings, other);
-    if (!changed->has_common_meets()) return;  // three planes always meet
+    std::optional<FitModel> changed(std::in_place, problem.stone, problem.readings, other);
+    if (!changed->meets().has_common()) return;  // three planes always meet
     std::optional<MeetEvidence> evidence = weigh_meets(*changed, best.finished, other);
     if (!evidence) return;
     Candidate candidate = best;
@@ -89,12 +90,12 @@ void decide_meets(const Problem& problem, FitOptions& options, std::optional<Sys
         candidate.held.clear();
         candidate.cost_of_holding = 0;
         candidate.binding = 0;
-        const System::Enclosed enclosed = changed->enclosed(candidate.finished.shape);
+        const Enclosed enclosed = enclosed_by(*changed, candidate.finished.shape);
         candidate.sound = enclosed.closed && enclosed.missing.empty();
     }
     if (!candidate.is_an_end()) return;
     options = other;
-    system.emplace(std::move(*changed));
+    model.emplace(std::move(*changed));
     best = std::move(candidate);
 }
 
@@ -110,35 +111,35 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     FitOptions& options = result.log.options = problem.options;
     if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
     result.unit = problem.stone.unit;
-    std::optional<System> taken(std::in_place, problem.stone, problem.readings, options);
-    made.mesh_turn = taken->mesh_turn();
+    std::optional<FitModel> taken(std::in_place, problem.stone, problem.readings, options);
+    made.mesh_turn = taken->frame().mesh_turn();
 
     Multistart multistart = search(*taken, options, progress);
     made.work = multistart.work;
     Candidate& best = multistart.best;
     decide_meets(problem, options, taken, best);
-    System& system = *taken;
+    FitModel& model = *taken;
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
-                                   : reweight(system, best, options.loss, options.iterations);
-    fill_in_search(system, multistart, result);
+                                   : reweight(model, best, options.loss, options.iterations);
+    fill_in_search(model, multistart, result);
     tell(progress, 0.7);
-    if (system.has_estimated_groups() && problem.options.meets != MeetTreatment::exact) {
+    if (model.meets().has_estimated_groups() && problem.options.meets != MeetTreatment::exact) {
         result.statistics.meets.ends =
-            estimate_meet_sigmas(system, best.finished, options, progress);
+            estimate_meet_sigmas(model, best.finished, options, progress);
     }
     tell(progress, 0.95);
 
     const Finished& finished = best.finished;
     const Diagnosis diagnosis =
-        diagnose(system, finished.shape, finished.outline,
+        diagnose(model, finished.shape, finished.outline,
                  {.significance = options.significance, .binding = best.binding});
-    const System::Pose pose = system.pose_of(finished.shape);
+    const Frame::Pose pose = model.frame().pose_of(finished.shape);
     fill_in_statistics(diagnosis, result);
-    fill_in(system, problem.readings, finished.shape, diagnosis, pose, weights, result);
-    assess(system, finished, diagnosis, result);
-    describe_findings(system, finished, best.held, diagnosis, pose, result);
-    judge(system, finished, diagnosis, result);
+    fill_in(model, problem.readings, finished.shape, diagnosis, pose, weights, result);
+    assess(model, finished, diagnosis, result);
+    describe_findings(model, finished, best.held, diagnosis, pose, result);
+    judge(model, finished, diagnosis, result);
     return made;
 }
 

@@ -10,9 +10,9 @@
 
 namespace culet {
 
-void assess(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+void assess(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
             FitResult& result) {
-    const auto reading = [&](int r) -> const Reading& { return system.readings()[std::size_t(r)]; };
+    const auto reading = [&](int r) -> const Reading& { return model.readings()[std::size_t(r)]; };
     for (const Suspicion& s : diagnosis.suspicions) {
         // The others are not sure of each other: a slip must leave little of what it explains.
         constexpr double k_part_missed = 0.25;
@@ -26,15 +26,15 @@ void assess(const System& system, const Finished& finished, const Diagnosis& dia
     if (!diagnosis.covariance || !finished.outline) return;
     const Covariance& covariance = *diagnosis.covariance;
     const RowWriter writer(finished.shape);
-    for (const CutQuantity& q : cut_quantities(system, finished.shape, finished.outline)) {
+    for (const CutQuantity& q : cut_quantities(model, finished.shape, finished.outline)) {
         const FunctionRow row = writer.function(q.quantity);
         result.findings.proportions.push_back(
             {q.name, q.unit, q.factor * q.quantity.value,
              q.factor * std::sqrt(covariance.total_variance(row))});
     }
     result.findings.undetermined_words =
-        describe_open_freedoms(system, finished.shape, covariance, diagnosis.undetermined);
-    result.findings.help = next_readings(system, finished.shape, finished.outline, covariance);
+        describe_open_freedoms(model, finished.shape, covariance, diagnosis.undetermined);
+    result.findings.help = next_readings(model, finished.shape, finished.outline, covariance);
 }
 
 }  // namespace culet

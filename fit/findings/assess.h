@@ -7,7 +7,7 @@
 
 namespace culet {
 
-void assess(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+void assess(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
             FitResult& result);
 
 }  // namespace culet

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fit/findings/assessment.h"
+#include "fit/model/fit_model.h"
 #include "fit/model/linear.h"
-#include "fit/model/system.h"
 
 namespace culet {
 
@@ -23,7 +23,7 @@ struct CandidateReading {
 /// Every inclination and azimuth, edge lengths, widths all around, depth, table widths and weight
 /// (or volume), as far as the tools are at hand; each with the median sigma of the readings like
 /// it.
-std::vector<CandidateReading> candidate_readings(const System& system, const Shape& shape,
+std::vector<CandidateReading> candidate_readings(const FitModel& model, const Shape& shape,
                                                  const std::shared_ptr<const Outline>& outline);
 
 }  // namespace culet

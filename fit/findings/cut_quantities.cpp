@@ -18,9 +18,9 @@ constexpr double k_round = 1.05;
 
 class Cut {
 public:
-    Cut(const System& system, const Shape& shape, const Outline& outline)
-        : system_(system), shape_(shape), outline_(outline), plan(shape, outline) {
-        const int up = table_facet(system.stone().solid, system.stone().up);
+    Cut(const FitModel& model, const Shape& shape, const Outline& outline)
+        : model_(model), shape_(shape), outline_(outline), plan(shape, outline) {
+        const int up = table_facet(model.stone().solid, model.stone().up);
         if (up >= 0) table = outline.loops[std::size_t(up)];
     }
 
@@ -53,9 +53,9 @@ public:
         for (std::size_t f = 0; f < outline_.loops.size(); ++f) {
             const std::vector<int>& loop = outline_.loops[f];
             const bool is_above = (shape_.normals[f].z > 0) == crown;
-            (system_.is_girdle(int(f)) ? girdle
-             : is_above                ? side
-                                       : other)
+            (model_.frame().is_girdle(int(f)) ? girdle
+             : is_above                       ? side
+                                              : other)
                 .insert(loop.begin(), loop.end());
         }
         const std::set<int>& against = girdle.empty() ? other : girdle;
@@ -72,7 +72,7 @@ public:
     }
 
 private:
-    const System& system_;
+    const FitModel& model_;
     const Shape& shape_;
     const Outline& outline_;
 
@@ -109,15 +109,15 @@ std::vector<std::vector<int>> mains_drawn_alike(const Stone& stone, bool crown) 
 
 }  // namespace
 
-std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape,
+std::vector<CutQuantity> cut_quantities(const FitModel& model, const Shape& shape,
                                         const std::shared_ptr<const Outline>& outline) {
-    const Stone& stone = system.stone();
-    const Cut cut(system, shape, *outline);
+    const Stone& stone = model.stone();
+    const Cut cut(model, shape, *outline);
     const PlanView& plan = cut.plan;
     if (plan.hull().size() < 3) return {};
     std::vector<CutQuantity> all;
     const auto length_in_unit = [&](const char* name, const Quantity& q) {
-        all.push_back({name, std::string(name_of(stone.unit)), q, system.scale()});
+        all.push_back({name, std::string(name_of(stone.unit)), q, model.frame().scale()});
     };
     const auto per_cent = [&](const char* name, const Quantity& q) {
         all.push_back({name, "%", q, 100});
@@ -161,7 +161,7 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
         }
     }
     const Quantity inside = enclosed_volume(outline)(shape);
-    const double mm3 = std::pow(system.scale() * mm_per(stone.unit), 3);
+    const double mm3 = std::pow(model.frame().scale() * mm_per(stone.unit), 3);
     all.push_back({"volume", "mm3", inside, mm3});
     if (const auto density = stone.material.density_g_cm3) {
         all.push_back({"weight", "ct", inside, carat(mm3, *density)});

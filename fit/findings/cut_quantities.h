@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
@@ -25,7 +25,7 @@ struct CutQuantity {
 /// opposite corner and averaged, of others along the width. Heights are above and below the mean
 /// heights of the girdle's upper and lower edges' corners, so that crown, girdle and pavilion add
 /// up to the depth. Crown and pavilion angles are means over the mains (`main_facets`).
-std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape,
+std::vector<CutQuantity> cut_quantities(const FitModel& model, const Shape& shape,
                                         const std::shared_ptr<const Outline>& outline);
 
 }  // namespace culet

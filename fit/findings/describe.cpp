@@ -13,6 +13,7 @@
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/symmetry_tests.h"
 #include "fit/findings/words.h"
+#include "fit/model/equations.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {
@@ -34,10 +35,10 @@ std::pair<double, double> mean_and_spread(const FitResult& result, const Tier& t
     return {sum / double(tier.facets.size()), most - least};
 }
 
-void describe_axis(const System& system, const Shape& shape, const System::Pose& pose,
+void describe_axis(const FitModel& model, const Shape& shape, const Frame::Pose& pose,
                    const Covariance* covariance, FitResult& result) {
-    std::vector<Tier> tiers = tiers_of(system, shape, form_group(system, shape));
-    OwnAxis axis = own_axis(system, shape, tiers, covariance).axis;
+    std::vector<Tier> tiers = tiers_of(model, shape, form_group(model, shape));
+    OwnAxis axis = own_axis(model, shape, tiers, covariance).axis;
     for (std::size_t f = 0; f < result.facets.size(); ++f) {
         result.facets[f].inclination_own_axis =
             axis.known ? inclination(shape.normals[f], axis.direction) : k_none;
@@ -58,7 +59,7 @@ void describe_axis(const System& system, const Shape& shape, const System::Pose&
     if (axis.known) {
         const Vec3 inside = axis.direction;
         // Directions go outside as normals of planes do.
-        axis.direction = system.outside_plane({inside, 0}, pose).normal;
+        axis.direction = model.frame().outside_plane({inside, 0}, pose).normal;
         const double leans = std::hypot(inside.x, inside.y), c = std::cos(pose.turn),
                      s = std::sin(pose.turn);
         axis.azimuth =
@@ -84,14 +85,13 @@ double explained_by_readings(const FitResult& result) {
     return are_few ? largest : 0;
 }
 
-void describe_meets(const System& system, const Shape& shape, const Covariance& covariance,
+void describe_meets(const FitModel& model, const Shape& shape, const Covariance& covariance,
                     FitResult& result) {
-    result.findings.meets =
-        test_meets(system, shape, covariance,
-                   {result.log.options.significance, explained_by_readings(result)});
+    result.findings.meets = test_meets(
+        model, shape, covariance, {result.log.options.significance, explained_by_readings(result)});
     for (MeetFinding& meet : result.findings.meets) {
-        meet.miss *= system.scale();
-        meet.sigma *= system.scale();
+        meet.miss *= model.frame().scale();
+        meet.sigma *= model.frame().scale();
         const bool may_meet = meet.how == "released" && meet.tested > 0 && meet.p > 0.05;
         if (!meet.contradicted && !may_meet) continue;
         meet.advice =
@@ -105,13 +105,13 @@ void describe_meets(const System& system, const Shape& shape, const Covariance& 
 
 // Held corners as exact equations, as they lie; of an edge that is held at both ends one, since the
 // other says the same.
-std::vector<Equation> conditions_of(const System& system, const Shape& shape,
+std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
                                     const std::vector<ActiveCorner>& held) {
     std::vector<Equation> conditions;
     for (auto at = held.begin(); at != held.end(); ++at) {
         const ActiveCorner& corner = *at;
         const bool is_said = std::any_of(held.begin(), at, [&](const ActiveCorner& other) {
-            return are_ends_of_one_edge(system, other, corner);
+            return are_ends_of_one_edge(model, other, corner);
         });
         if (is_said) continue;
         Equation e;
@@ -126,31 +126,31 @@ std::vector<Equation> conditions_of(const System& system, const Shape& shape,
 
 }  // namespace
 
-void describe_findings(const System& system, const Finished& finished,
+void describe_findings(const FitModel& model, const Finished& finished,
                        const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,
-                       const System::Pose& pose, FitResult& result) {
+                       const Frame::Pose& pose, FitResult& result) {
     if (!result.log.options.findings || !finished.outline) return;
     std::shared_ptr<const Covariance> covariance = diagnosis.covariance;
     if (covariance && !held.empty()) {
         covariance = std::make_shared<const Covariance>(linearise(
-            system, finished.shape, finished.outline, conditions_of(system, finished.shape, held)));
+            model, finished.shape, finished.outline, conditions_of(model, finished.shape, held)));
     }
     if (covariance && !covariance->usable()) covariance = nullptr;
-    describe_axis(system, finished.shape, pose, covariance.get(), result);
+    describe_axis(model, finished.shape, pose, covariance.get(), result);
     if (!covariance) return;
-    describe_meets(system, finished.shape, *covariance, result);
+    describe_meets(model, finished.shape, *covariance, result);
     FitFindings& findings = result.findings;
-    findings.shapes = find_open_shape(system, finished, held, diagnosis, *covariance, result);
+    findings.shapes = find_open_shape(model, finished, held, diagnosis, *covariance, result);
     findings.vanishing_edges.clear();
     for (const ShapeFinding& finding : findings.shapes) {
         if (finding.kind != ShapeFinding::Kind::edge_vanishes) continue;
         findings.vanishing_edges.push_back(finding.facets[0] + "/" + finding.facets[1]);
     }
     const bool declared =
-        std::any_of(system.readings().begin(), system.readings().end(), declares_whole_symmetry);
+        std::any_of(model.readings().begin(), model.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
     if (result.log.options.find_symmetry && !declared) {
-        findings.symmetry = symmetry_of(system, finished.shape, *covariance, result.log.options);
+        findings.symmetry = symmetry_of(model, finished.shape, *covariance, result.log.options);
     }
 }
 

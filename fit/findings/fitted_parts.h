@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/findings/result.h"
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/uncertainty/diagnostics.h"
 
 namespace culet {
@@ -13,8 +13,8 @@ namespace culet {
 /// The solid that is written (corners from the fit, or what the planes enclose), its faults, every
 /// facet and every reading (`as_read`: with the sigmas that were given). `weights` of the readings
 /// under a robust loss, or none.
-void fill_in(const System& system, const std::vector<Reading>& as_read, const Shape& shape,
-             const Diagnosis& diagnosis, const System::Pose& pose,
+void fill_in(const FitModel& model, const std::vector<Reading>& as_read, const Shape& shape,
+             const Diagnosis& diagnosis, const Frame::Pose& pose,
              const std::vector<double>& weights, FitResult& result);
 
 /// A reading as it was taken; what the fit makes of it is still open.

@@ -33,7 +33,7 @@ MaybeVerdict no_stone(std::string why) {
 }
 
 struct Fit {
-    const System& system;
+    const FitModel& model;
     const Finished& finished;
     const Diagnosis& diagnosis;
     const FitResult& result;
@@ -42,7 +42,7 @@ struct Fit {
 
 std::string told_all(const Fit& fit, const std::vector<std::string>& ids) {
     std::vector<std::string> words;
-    for (const std::string& id : ids) words.push_back(told_reading(fit.system.readings(), id));
+    for (const std::string& id : ids) words.push_back(told_reading(fit.model.readings(), id));
     return name_list(words);
 }
 
@@ -64,9 +64,9 @@ std::string who_is_to_blame(const Fit& fit) {
 
 MaybeVerdict exact_contradiction(const Fit& fit) {
     std::vector<std::string> broken;
-    for (std::size_t r = 0; r < fit.system.readings().size(); ++r) {
-        const Reading& reading = fit.system.readings()[r];
-        const double limit = k_hard_limit * fit.system.unit_of(reading);
+    for (std::size_t r = 0; r < fit.model.readings().size(); ++r) {
+        const Reading& reading = fit.model.readings()[r];
+        const double limit = k_hard_limit * fit.model.frame().unit_of(reading);
         if (reading.exact && std::abs(fit.diagnosis.readings[r].residual) > limit) {
             broken.push_back(reading.id);
         }
@@ -119,7 +119,7 @@ MaybeVerdict denied_topology(const Fit& fit) {
 }
 
 MaybeVerdict unsound_solid(const Fit& fit) {
-    const bool must_be_convex = fit.system.stone().convex;
+    const bool must_be_convex = fit.model.stone().convex;
     const SolidChecks& checks = fit.result.checks;
     const std::string unsound = !checks.closed                     ? "closed"
                                 : must_be_convex && !checks.convex ? "convex"
@@ -145,20 +145,20 @@ std::string shortest_edge(const Fit& fit) {
     const Shape& shape = fit.finished.shape;
     const Edge* shortest = nullptr;
     double least = k_no_length;
-    for (const Edge& edge : fit.system.edges().edges) {
+    for (const Edge& edge : fit.model.edges().edges) {
         const double length =
             glm::length(shape.points[std::size_t(edge.from)] - shape.points[std::size_t(edge.to)]);
         if (!(length < least)) continue;
         least = length;
         shortest = &edge;
     }
-    if (shortest == nullptr || fit.system.splits()) return {};
-    const std::vector<std::string> names = names_of(fit.system, *shortest);
+    if (shortest == nullptr || fit.model.meets().splits) return {};
+    const std::vector<std::string> names = names_of(fit.model, *shortest);
     return fmt::format(
         "edge {}|{} (between {}) has come down to {:.2g} {}, where steps creep; draw its ends as "
         "one corner, or allow the topology to change",
-        names[0], names[1], name_list({names.begin() + 2, names.end()}), least * fit.system.scale(),
-        name_of(fit.result.unit));
+        names[0], names[1], name_list({names.begin() + 2, names.end()}),
+        least * fit.model.frame().scale(), name_of(fit.result.unit));
 }
 
 MaybeVerdict unsettled(const Fit& fit) {
@@ -238,9 +238,9 @@ Verdict verdict_on(const Fit& fit) {
 
 }  // namespace
 
-void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+void judge(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
            FitResult& result) {
-    const Fit fit{system, finished, diagnosis, result};
+    const Fit fit{model, finished, diagnosis, result};
     const Verdict verdict = verdict_on(fit);
     const bool stands = verdict.status != FitStatus::not_converged;
     const std::string note = stands ? too_good(fit) : "";

@@ -8,7 +8,7 @@
 namespace culet {
 
 /// Sets `status` and `message` of a result that holds all else.
-void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+void judge(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
            FitResult& result);
 
 }  // namespace culet

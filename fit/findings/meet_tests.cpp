@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/model/equations.h"
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/dense_algebra.h"
@@ -44,8 +45,8 @@ void find_ways_apart(const Shape& shape, Meet& meet) {
 
 // Of a meet whose images under an exact symmetry hold, nothing is left to test: its planes are
 // images of theirs.
-std::vector<bool> held_by_images(const System& system) {
-    const Parameters parameters = system.parameters();
+std::vector<bool> held_by_images(const FitModel& model) {
+    const Parameters parameters = model.parameters();
     std::vector<bool> held;
     for (const OrbitMember& m : parameters.orbits().points) {
         held.push_back(parameters.images_of_point(m.first) > 1);
@@ -53,9 +54,10 @@ std::vector<bool> held_by_images(const System& system) {
     return held;
 }
 
-std::vector<Meet> meets_of(const System& system, const Shape& shape, const Covariance& covariance) {
+std::vector<Meet> meets_of(const FitModel& model, const Shape& shape,
+                           const Covariance& covariance) {
     std::vector<Meet> meets(shape.points.size());
-    const std::vector<Incidence>& incidences = system.incidences();
+    const std::vector<Incidence>& incidences = model.meets().incidences;
     for (const Incidence& incidence : incidences) {
         Meet& meet = meets[std::size_t(incidence.point)];
         meet.point = incidence.point;
@@ -75,7 +77,7 @@ std::vector<Meet> meets_of(const System& system, const Shape& shape, const Covar
         // Partly exact: tested by what came out, like a soft one.
         if (meet.how == MeetTreatment::exact) meet.how = MeetTreatment::soft;
     }
-    const std::vector<bool> held = held_by_images(system);
+    const std::vector<bool> held = held_by_images(model);
     Eigen::Index columns = 0;
     for (Meet& meet : meets) {
         meet.has_score =
@@ -213,21 +215,22 @@ std::vector<Quantity> heights_of(const Shape& shape, const Meet& meet) {
     return heights;
 }
 
-Eigen::VectorXd sigmas_of(const System& system, const Meet& meet) {
+Eigen::VectorXd sigmas_of(const FitModel& model, const Meet& meet) {
     Eigen::VectorXd sigma(Eigen::Index(meet.facets.size()));
     for (std::size_t i = 0; i < meet.facets.size(); ++i) {
-        for (const Incidence& incidence : system.incidences()) {
+        for (const Incidence& incidence : model.meets().incidences) {
             if (incidence.point != meet.point || incidence.facet != meet.facets[i]) continue;
-            sigma(Eigen::Index(i)) = incidence.sigma > 0
-                                         ? incidence.sigma
-                                         : system.group_sigmas()[system.is_girdle(meet.facets[i])];
+            sigma(Eigen::Index(i)) =
+                incidence.sigma > 0
+                    ? incidence.sigma
+                    : model.meets().group_sigmas[model.frame().is_girdle(meet.facets[i])];
         }
     }
     return sigma;
 }
 
 // A soft or released meet, by the misses that came out.
-void test_misses(const System& system, const Shape& shape, const Covariance& all, const Meet& meet,
+void test_misses(const FitModel& model, const Shape& shape, const Covariance& all, const Meet& meet,
                  double level, MeetFinding& finding) {
     const std::vector<Quantity> heights = heights_of(shape, meet);
     Eigen::VectorXd offsets(Eigen::Index(heights.size()));
@@ -244,7 +247,7 @@ void test_misses(const System& system, const Shape& shape, const Covariance& all
     if (meet.how != MeetTreatment::soft) return;
     // A soft meet is contradicted when its misses are too large for the sigma that it was given:
     // residuals against their own covariance, sigma^2 - what the fit knows.
-    const Eigen::VectorXd sigma = sigmas_of(system, meet);
+    const Eigen::VectorXd sigma = sigmas_of(model, meet);
     const Eigen::MatrixXd left =
         transpose_times(u, sigma.cwiseAbs2().asDiagonal() * u) - covariance;
     const double size = sigma.squaredNorm() / double(sigma.size());
@@ -256,10 +259,10 @@ void test_misses(const System& system, const Shape& shape, const Covariance& all
     }
 }
 
-MeetFinding untested(const System& system, const Meet& meet) {
+MeetFinding untested(const FitModel& model, const Meet& meet) {
     MeetFinding finding;
     for (const int f : meet.facets) {
-        finding.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
+        finding.facets.push_back(model.stone().solid.facets[std::size_t(f)].name);
     }
     finding.how = name_of(meet.how);
     finding.conditions = static_cast<int>(meet.apart.cols());
@@ -268,20 +271,20 @@ MeetFinding untested(const System& system, const Meet& meet) {
 
 }  // namespace
 
-std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
+std::vector<MeetFinding> test_meets(const FitModel& model, const Shape& shape,
                                     const Covariance& covariance, const MeetTestOptions& options) {
-    const std::vector<Meet> meets = meets_of(system, shape, covariance);
+    const std::vector<Meet> meets = meets_of(model, shape, covariance);
     Eigen::Index conditions = 0;
     for (const Meet& meet : meets) conditions += meet.apart.cols();
     if (conditions > k_most_tested) return {};
     const double level = options.significance / std::max<double>(1, double(meets.size()));
     std::vector<MeetFinding> findings;
-    for (const Meet& meet : meets) findings.push_back(untested(system, meet));
+    for (const Meet& meet : meets) findings.push_back(untested(model, meet));
     test_exact_meets(meets, exact_meets(meets, covariance.linear()), level, options.least_chi2,
                      findings);
     for (std::size_t m = 0; m < meets.size(); ++m) {
         if (meets[m].how == MeetTreatment::exact) continue;
-        test_misses(system, shape, covariance, meets[m], level, findings[m]);
+        test_misses(model, shape, covariance, meets[m], level, findings[m]);
     }
     return findings;
 }

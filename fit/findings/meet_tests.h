@@ -26,7 +26,7 @@ struct MeetTestOptions {
 /// Meets of more than three facets, in the order of the mesh's vertices, then those that readings
 /// ask for beyond the mesh. Lengths in the scale of the fit. Empty when there are too many
 /// (more than `k_most_tested` conditions).
-std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
+std::vector<MeetFinding> test_meets(const FitModel& model, const Shape& shape,
                                     const Covariance& covariance, const MeetTestOptions& options);
 
 inline constexpr int k_most_tested = 1500;

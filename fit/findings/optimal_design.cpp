@@ -53,7 +53,7 @@ double drop_of(const Shape& shape, const Vec3& middle, const CandidateReading& t
 
 }  // namespace
 
-std::vector<NextReading> next_readings(const System& system, const Shape& shape,
+std::vector<NextReading> next_readings(const FitModel& model, const Shape& shape,
                                        const std::shared_ptr<const Outline>& outline,
                                        const Covariance& covariance) {
     const Layout layout = layout_of(shape);
@@ -68,7 +68,7 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
         total += covariance.total_variance(facet_functions(shape, f, layout, middle)[2]);
     }
     if (!(total > 0) || !std::isfinite(total)) return {};
-    std::vector<CandidateReading> all = candidate_readings(system, shape, outline);
+    std::vector<CandidateReading> all = candidate_readings(model, shape, outline);
     for (CandidateReading& c : all) {
         c.variance = covariance.total_variance(c.function);
         c.promise = promise_of(c);

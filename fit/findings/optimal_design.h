@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/findings/assessment.h"
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {
@@ -14,7 +14,7 @@ namespace culet {
 /// takes |C c|^2 / (s^2 + c'Cc) off the total variance of all facets' tilts (radians) and offsets
 /// (half diameters), where C holds the mesh's own trust for what is open. The
 /// candidates: candidate_readings.h.
-std::vector<NextReading> next_readings(const System& system, const Shape& shape,
+std::vector<NextReading> next_readings(const FitModel& model, const Shape& shape,
                                        const std::shared_ptr<const Outline>& outline,
                                        const Covariance& covariance);
 

@@ -136,15 +136,15 @@ Quantity component_of(const WeightedAxis& axis, const Shape& shape,
 
 }  // namespace
 
-AxisGroup form_group(const System& system, const Shape& shape) {
-    const std::vector<Automorphism> all = automorphisms(system.stone().solid);
+AxisGroup form_group(const FitModel& model, const Shape& shape) {
+    const std::vector<Automorphism> all = automorphisms(model.stone().solid);
     // Corners where their planes come nearest to each other: points of meets that were let go may
     // lie anywhere.
     std::vector<Vec3> points;
-    for (std::size_t v = 0; v < system.stone().solid.vertices.size(); ++v) {
+    for (std::size_t v = 0; v < model.stone().solid.vertices.size(); ++v) {
         glm::dmat3 normals(0.0);
         Vec3 right(0);
-        for (int f : system.edges().facets_of_vertex[v]) {
+        for (int f : model.edges().facets_of_vertex[v]) {
             const Vec3& n = shape.normals[std::size_t(f)];
             normals += glm::outerProduct(n, n);
             right += shape.offsets[std::size_t(f)] * n;
@@ -155,9 +155,9 @@ AxisGroup form_group(const System& system, const Shape& shape) {
     return largest_group(motions_about_z(all, points), k_near_form);
 }
 
-std::vector<Tier> tiers_of(const System& system, const Shape& shape, const AxisGroup& group) {
-    const Solid& solid = system.stone().solid;
-    const std::vector<FacetTier> drawn = culet::tiers_of(solid, system.stone().up);
+std::vector<Tier> tiers_of(const FitModel& model, const Shape& shape, const AxisGroup& group) {
+    const Solid& solid = model.stone().solid;
+    const std::vector<FacetTier> drawn = culet::tiers_of(solid, model.stone().up);
     std::vector<Tier> tiers;
     for (const FacetOrbit& orbit : orbits_of(group, shape.normals.size())) {
         if (orbit.facets.size() < 2) continue;
@@ -170,7 +170,7 @@ std::vector<Tier> tiers_of(const System& system, const Shape& shape, const AxisG
     return tiers;
 }
 
-AxisEstimate own_axis(const System& system, const Shape& shape, const std::vector<Tier>& tiers,
+AxisEstimate own_axis(const FitModel& model, const Shape& shape, const std::vector<Tier>& tiers,
                       const Covariance* covariance) {
     AxisEstimate estimate;
     OwnAxis& axis = estimate.axis;
@@ -181,7 +181,7 @@ AxisEstimate own_axis(const System& system, const Shape& shape, const std::vecto
     if (parts.empty() || !has_axis(parts)) {
         std::vector<int> girdle;
         for (std::size_t f = 0; f < shape.normals.size(); ++f) {
-            if (system.is_girdle(int(f))) girdle.push_back(int(f));
+            if (model.frame().is_girdle(int(f))) girdle.push_back(int(f));
         }
         parts = {Scatter(shape, girdle, false)};
         axis.basis = "girdle";

@@ -13,10 +13,10 @@ namespace culet {
 
 /// Orbits of two facets and more of the form's symmetry, as far as the shape comes near to it
 /// (within 5 % of the half diameter), the girdle's included.
-std::vector<Tier> tiers_of(const System& system, const Shape& shape, const AxisGroup& group);
+std::vector<Tier> tiers_of(const FitModel& model, const Shape& shape, const AxisGroup& group);
 
 /// The symmetry of the form that the shape comes near to.
-AxisGroup form_group(const System& system, const Shape& shape);
+AxisGroup form_group(const FitModel& model, const Shape& shape);
 
 /// In the frame and scale of the fit. The direction a that minimises
 ///     sum over tiers w_t / sin^2(i_t) sum over facets (n_k . a - mean of n . a)^2,
@@ -29,7 +29,7 @@ struct AxisEstimate {
     std::vector<Quantity> across;  ///< its components along two directions normal to it
     std::array<Vec3, 2> directions{};
 };
-AxisEstimate own_axis(const System& system, const Shape& shape, const std::vector<Tier>& tiers,
+AxisEstimate own_axis(const FitModel& model, const Shape& shape, const std::vector<Tier>& tiers,
                       const Covariance* covariance);
 
 }  // namespace culet

@@ -18,9 +18,9 @@ double wrapped(double angle) {
 
 }  // namespace
 
-PolarCoordinates polar_coordinates(const System& system, const Shape& shape,
+PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
                                    const RowWriter& writer, const std::vector<Tier>& tiers) {
-    const AxisEstimate estimate = own_axis(system, shape, tiers, nullptr);
+    const AxisEstimate estimate = own_axis(model, shape, tiers, nullptr);
     const Vec3 axis = estimate.axis.known ? estimate.axis.direction : Vec3{0, 0, 1};
     // Azimuths about the axis begin where those about up do.
     const Vec3 east = glm::normalize(Vec3{1, 0, 0} - axis.x * axis);

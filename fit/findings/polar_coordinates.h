@@ -22,7 +22,7 @@ struct PolarCoordinates {
     Eigen::MatrixXd rows;       ///< of small steps of the unknowns, 3 for each facet
     Eigen::MatrixXd placement;  ///< by tilts of the axis and shifts of the middle (4 columns)
 };
-PolarCoordinates polar_coordinates(const System& system, const Shape& shape,
+PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
                                    const RowWriter& writer, const std::vector<Tier>& tiers);
 
 /// deviations = what the coordinates are beyond the nearest stone of that group at a first guess;

@@ -50,24 +50,24 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<std::string> describe_open_freedoms(const System& system, const Shape& shape,
+std::vector<std::string> describe_open_freedoms(const FitModel& model, const Shape& shape,
                                                 const Covariance& covariance,
                                                 const std::vector<Undetermined>& undetermined) {
     std::vector<std::string> sentences;
     if (undetermined.empty()) return sentences;
-    const Solid& mesh = system.stone().solid;
+    const Solid& mesh = model.stone().solid;
     std::map<std::string, int> facet_of;
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         facet_of.emplace(mesh.facets[f].name, int(f));
     }
     // By the form: numbers of facets say nothing of tiers.
-    const std::vector<FacetTier> tiers = tiers_of(mesh, system.stone().up);
+    const std::vector<FacetTier> tiers = tiers_of(mesh, model.stone().up);
     const std::vector<int> tier_of = tier_of_each(tiers, mesh.facets.size());
     const auto role = [&](int f, bool several) -> std::string {
         const Vec3& n = shape.normals[std::size_t(f)];
         const std::string s = several ? "s" : "";
-        if (f == system.up_facet()) return "table";
-        if (system.is_girdle(f)) return "girdle facet" + s;
+        if (f == model.frame().up_facet()) return "table";
+        if (model.frame().is_girdle(f)) return "girdle facet" + s;
         return (n.z > 0 ? "crown facet" : "pavilion facet") + s;
     };
     const Vec3 middle = middle_of(shape);

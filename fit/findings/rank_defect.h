@@ -12,7 +12,7 @@ namespace culet {
 /// One sentence a tier and kind of freedom: `nothing measured fixes the azimuth of crown facet S3`.
 /// Tiers are facets whose names differ only in their number. Where a tier's open parameters are
 /// fewer than its facets, the sentence says whether they move together or against each other.
-std::vector<std::string> describe_open_freedoms(const System& system, const Shape& shape,
+std::vector<std::string> describe_open_freedoms(const FitModel& model, const Shape& shape,
                                                 const Covariance& covariance,
                                                 const std::vector<Undetermined>& undetermined);
 

@@ -18,11 +18,11 @@ const char* name_of(ShapeFinding::Kind kind) {
     return k_names[static_cast<std::size_t>(kind)];
 }
 
-std::vector<std::string> names_of(const System& system, const Edge& edge) {
-    const auto name = [&](int f) { return system.stone().solid.facets[std::size_t(f)].name; };
+std::vector<std::string> names_of(const FitModel& model, const Edge& edge) {
+    const auto name = [&](int f) { return model.stone().solid.facets[std::size_t(f)].name; };
     std::vector<std::string> names{name(edge.left), name(edge.right)};
     for (const int end : {edge.from, edge.to}) {
-        for (const int f : system.edges().facets_of_vertex[std::size_t(end)]) {
+        for (const int f : model.edges().facets_of_vertex[std::size_t(end)]) {
             if (f != edge.left && f != edge.right) names.push_back(name(f));
         }
     }
@@ -40,19 +40,19 @@ constexpr double k_short_edge = 0.05, k_unknown_length = 0.5, k_unknown_area = 0
 constexpr double k_shut = 1e-5;
 
 // Whether holding a corner below a facet keeps this edge, which ends at both, from turning over.
-bool keeps_open(const System& system, const Edge& edge, const ActiveCorner& corner) {
+bool keeps_open(const FitModel& model, const Edge& edge, const ActiveCorner& corner) {
     const auto& [facet, point] = corner;
     if (edge.from != point && edge.to != point) return false;
     if (edge.left == facet || edge.right == facet) return false;
     const int far_end = edge.from == point ? edge.to : edge.from;
-    const std::vector<int>& there = system.edges().facets_of_vertex[std::size_t(far_end)];
+    const std::vector<int>& there = model.edges().facets_of_vertex[std::size_t(far_end)];
     return std::find(there.begin(), there.end(), facet) != there.end();
 }
 
 class OpenShape {
 public:
-    OpenShape(const System& system, const Finished& finished, const FitResult& result)
-        : system_(system), shape_(finished.shape), outline_(*finished.outline), result_(result) {}
+    OpenShape(const FitModel& model, const Finished& finished, const FitResult& result)
+        : model_(model), shape_(finished.shape), outline_(*finished.outline), result_(result) {}
 
     void add_vanishing_edges(const std::vector<ActiveCorner>& held, const Covariance& let_go);
     void add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis);
@@ -67,7 +67,7 @@ private:
     std::vector<Corner> corners_of(std::size_t facet) const;
     bool is_held(std::size_t facet, const std::vector<ActiveCorner>& held) const;
 
-    const System& system_;
+    const FitModel& model_;
     const Shape& shape_;
     const Outline& outline_;
     const FitResult& result_;
@@ -110,14 +110,14 @@ void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
     // Of an edge both ends may be held, which is one condition said twice: they are let go
     // together. A corner of an edge of length l lies l times the slope below the far facet.
     std::vector<std::pair<const Edge*, Eigen::VectorXd>> edges;
-    for (const Edge& edge : system_.edges().edges) {
+    for (const Edge& edge : model_.edges().edges) {
         const Vec3 across = glm::cross(shape_.normals[std::size_t(edge.left)],
                                        shape_.normals[std::size_t(edge.right)]);
         // Facets of one plane have no edge that could vanish.
         if (!(glm::dot(across, across) > 0)) continue;
         Eigen::VectorXd slopes = Eigen::VectorXd::Zero(Eigen::Index(held.size()));
         for (std::size_t k = 0; k < held.size(); ++k) {
-            if (!keeps_open(system_, edge, held[k])) continue;
+            if (!keeps_open(model_, edge, held[k])) continue;
             slopes(Eigen::Index(k)) = std::abs(
                 glm::dot(glm::normalize(across), shape_.normals[std::size_t(held[k].facet)]));
         }
@@ -137,8 +137,9 @@ void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
         if (!std::isfinite(pull) || !std::isfinite(information)) continue;
         if (!(pull > 0) || !(information > 4)) continue;
         // One-sided: only a wish for less than nothing counts.
-        add(Shapes::edge_vanishes, names_of(system_, *edge), system_.scale(), -pull / information,
-            1 / std::sqrt(information), 0.5 * std::erfc(pull / std::sqrt(2 * information)));
+        add(Shapes::edge_vanishes, names_of(model_, *edge), model_.frame().scale(),
+            -pull / information, 1 / std::sqrt(information),
+            0.5 * std::erfc(pull / std::sqrt(2 * information)));
     }
 }
 
@@ -160,7 +161,7 @@ bool OpenShape::is_held(std::size_t facet, const std::vector<ActiveCorner>& held
 // A facet whose outline is shut by the held corners has vanished, unless it is shut at no loss: it
 // may as well be there. One that is as small without being held is as small as the readings say.
 void OpenShape::add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis) {
-    const double unit = system_.scale() * system_.scale();
+    const double unit = model_.frame().scale() * model_.frame().scale();
     const bool at_a_loss = result_.findings.vanishing_edges.empty() || are_edges_denied(result_);
     for (std::size_t f = 0; f < outline_.loops.size(); ++f) {
         const std::vector<Corner> corners = corners_of(f);
@@ -172,7 +173,7 @@ void OpenShape::add_facets(const std::vector<ActiveCorner>& held, const Diagnosi
         }
         const double value = corners.size() < 3 ? 0 : enclosed_area(corners)(shape_).value;
         const double sigma = diagnosis.facets[f].area;
-        const std::string& name = system_.stone().solid.facets[f].name;
+        const std::string& name = model_.stone().solid.facets[f].name;
         if (corners.size() < 3 || !(value > (is_held(f, held) ? k_shut * width : 0))) {
             add(at_a_loss ? Shapes::facet_vanishes : Shapes::facet_open, {name}, unit, 0,
                 at_a_loss ? 0 : sigma);
@@ -183,31 +184,31 @@ void OpenShape::add_facets(const std::vector<ActiveCorner>& held, const Diagnosi
 }
 
 void OpenShape::add_open_edges(const Covariance& holding) {
-    if (system_.splits()) return;
-    for (const Edge& edge : system_.edges().edges) {
+    if (model_.meets().splits) return;
+    for (const Edge& edge : model_.edges().edges) {
         const Quantity length = corner_distance(Corner{edge.from}, Corner{edge.to})(shape_);
         if (!(length.value < k_short_edge) || !(length.value > 1e-9)) continue;
         const double sigma =
             std::sqrt(holding.total_variance(holding.linear().writer.function(length)));
         if (!(length.value < 2 * sigma) || !(sigma < k_unknown_length)) continue;
-        const std::vector<std::string> names = names_of(system_, edge);
+        const std::vector<std::string> names = names_of(model_, edge);
         const bool known = std::any_of(found_.begin(), found_.end(), [&](const auto& other) {
             return other.facets.size() > 1 && other.facets[0] == names[0] &&
                    other.facets[1] == names[1];
         });
-        if (!known) add(Shapes::edge_open, names, system_.scale(), length.value, sigma);
+        if (!known) add(Shapes::edge_open, names, model_.frame().scale(), length.value, sigma);
     }
 }
 
 }  // namespace
 
-std::vector<std::string> edges_kept_open(const System& system,
+std::vector<std::string> edges_kept_open(const FitModel& model,
                                          const std::vector<ActiveCorner>& held) {
     std::vector<std::string> edges;
     for (const ActiveCorner& h : held) {
-        for (const Edge& edge : system.edges().edges) {
-            if (!keeps_open(system, edge, h)) continue;
-            const std::vector<std::string> names = names_of(system, edge);
+        for (const Edge& edge : model.edges().edges) {
+            if (!keeps_open(model, edge, h)) continue;
+            const std::vector<std::string> names = names_of(model, edge);
             std::string both = names[0] + "/" + names[1];
             if (std::find(edges.begin(), edges.end(), both) == edges.end()) {
                 edges.push_back(std::move(both));
@@ -224,11 +225,11 @@ bool are_edges_denied(const FitResult& result) {
                result.log.options.significance;
 }
 
-std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
+std::vector<ShapeFinding> find_open_shape(const FitModel& model, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
                                           const Diagnosis& diagnosis, const Covariance& holding,
                                           const FitResult& result) {
-    OpenShape shape(system, finished, result);
+    OpenShape shape(model, finished, result);
     if (!held.empty()) shape.add_vanishing_edges(held, *diagnosis.covariance);
     shape.add_facets(held, diagnosis);
     shape.add_open_edges(holding);

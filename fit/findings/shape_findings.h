@@ -16,16 +16,16 @@ namespace culet {
 /// a neighbour facet, by the force with which the readings pull at them (as in `meet_tests.h`);
 /// open ones from lengths and areas less than twice their standard uncertainty. `result` holds what
 /// keeping the edges costs.
-std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
+std::vector<ShapeFinding> find_open_shape(const FitModel& model, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
                                           const Diagnosis& diagnosis, const Covariance& holding,
                                           const FitResult& result);
 
 /// An edge's two sides, then the facets beyond its ends.
-std::vector<std::string> names_of(const System& system, const Edge& edge);
+std::vector<std::string> names_of(const FitModel& model, const Edge& edge);
 
 /// The edges, as `A/B`, that corners held below a facet keep from turning over.
-std::vector<std::string> edges_kept_open(const System& system,
+std::vector<std::string> edges_kept_open(const FitModel& model,
                                          const std::vector<ActiveCorner>& held);
 
 /// The readings deny that the edges that are kept have a length at all: chi-square, with one

@@ -30,17 +30,17 @@ constexpr double k_exact = 1e-18;
 constexpr double k_enough = 0.5;
 
 // How many conditions symmetry puts on a shape whose meets are exact: edges less their orbits.
-int edge_conditions(const System& system, const AxisGroup& group) {
+int edge_conditions(const FitModel& model, const AxisGroup& group) {
     std::set<std::pair<int, int>> seen;
     int orbits = 0;
-    for (const Edge& e : system.edges().edges) {
+    for (const Edge& e : model.edges().edges) {
         if (seen.count(std::minmax(e.left, e.right)) > 0) continue;
         ++orbits;
         for (const AxisGroup::Element& g : group.elements) {
             seen.insert(std::minmax(g.facets[std::size_t(e.left)], g.facets[std::size_t(e.right)]));
         }
     }
-    return static_cast<int>(system.edges().edges.size()) - orbits;
+    return static_cast<int>(model.edges().edges.size()) - orbits;
 }
 
 // Orthonormal columns for the range of a matrix: at most `most`, none below `least`.
@@ -71,16 +71,16 @@ struct Space {
 // Changes of shape that keep a group's symmetry and all meets. A symmetric mean of what the meets
 // leave open is open itself, but for as much as the shape is not symmetric: the number of such
 // changes is known (edges less conditions), which tells them from that.
-Eigen::MatrixXd symmetric_changes(const System& system, const Space& space,
+Eigen::MatrixXd symmetric_changes(const FitModel& model, const Space& space,
                                   const Eigen::MatrixXd& columns, int edge_conditions) {
     const Eigen::MatrixXd symmetric = range_of(space.without_placement(columns), 1e-9);
     const Eigen::Index most =
-        system.splits() ? symmetric.cols() : space.open.cols() - Eigen::Index(edge_conditions);
+        model.meets().splits ? symmetric.cols() : space.open.cols() - Eigen::Index(edge_conditions);
     return product(symmetric, range_of(transpose_times(symmetric, space.open), 1e-6,
                                        std::max<Eigen::Index>(0, most)));
 }
 
-Space space_of(const System& system, const AxisGroup& form, const PolarCoordinates& coordinates,
+Space space_of(const FitModel& model, const AxisGroup& form, const PolarCoordinates& coordinates,
                const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& reach) {
     Space space;
     space.placement = range_of(coordinates.placement, 1e-9);
@@ -89,15 +89,15 @@ Space space_of(const System& system, const AxisGroup& form, const PolarCoordinat
     // fitted shape itself would show as more.
     space.open =
         range_of(space.without_placement(seen.transpose()), 1e-6,
-                 system.splits() ? reach.rows() : Eigen::Index(system.edges().edges.size()));
-    const SymmetricModel model = symmetric_model(coordinates, form);
-    const Eigen::MatrixXd symmetric =
-        symmetric_changes(system, space, model.columns, edge_conditions(system, form));
-    space.form_freedoms = symmetric.cols();
+                 model.meets().splits ? reach.rows() : Eigen::Index(model.edges().edges.size()));
+    const SymmetricModel symmetric = symmetric_model(coordinates, form);
+    const Eigen::MatrixXd changes =
+        symmetric_changes(model, space, symmetric.columns, edge_conditions(model, form));
+    space.form_freedoms = changes.cols();
     // Across all that is symmetric, reachable or not.
-    const Eigen::MatrixXd columns = range_of(space.without_placement(model.columns), 1e-9);
+    const Eigen::MatrixXd columns = range_of(space.without_placement(symmetric.columns), 1e-9);
     const Eigen::MatrixXd ways =
-        range_of(without_span(space.open, columns), 1e-6, space.open.cols() - symmetric.cols());
+        range_of(without_span(space.open, columns), 1e-6, space.open.cols() - changes.cols());
     if (ways.cols() == 0) return space;
     const SymmetricEigen eigen = symmetric_eigen(seen_through(ways, covariance));
     std::vector<Eigen::Index> told;
@@ -106,14 +106,14 @@ Space space_of(const System& system, const AxisGroup& form, const PolarCoordinat
         if (variance >= k_exact && variance <= k_told_variance) told.push_back(i);
     }
     space.told = product(ways, eigen.vectors(Eigen::all, told));
-    space.values = space.told.transpose() * model.deviations;
+    space.values = space.told.transpose() * symmetric.deviations;
     space.variance = eigen.values(told);
     return space;
 }
 
 // Chi-square of the stone nearest to this one that has the group's symmetry: what a part of the
 // form's group leaves free beyond the form's own parameters is fitted by weighted least squares.
-GroupTest test_group(const System& system, const AxisGroup& group,
+GroupTest test_group(const FitModel& model, const AxisGroup& group,
                      const PolarCoordinates& coordinates, const Space& space, double level) {
     GroupTest test;
     test.group = group.name();
@@ -121,7 +121,7 @@ GroupTest test_group(const System& system, const AxisGroup& group,
     test.mirrors = group.mirrors;
     test.mirror_azimuth = std::remainder(group.plane + 0.5 * std::numbers::pi, std::numbers::pi);
     const Eigen::MatrixXd changes = symmetric_changes(
-        system, space, symmetric_model(coordinates, group).columns, edge_conditions(system, group));
+        model, space, symmetric_model(coordinates, group).columns, edge_conditions(model, group));
     test.conditions = static_cast<int>(space.open.cols() - changes.cols());
     if (space.told.cols() == 0) return test;
     // Where readings tell nothing of a freedom it is next to nothing here.
@@ -146,14 +146,15 @@ struct Directions {
     Eigen::VectorXd deviations;
     Eigen::MatrixXd columns, covariance;
 };
-Directions directions_of(const std::vector<int>& facets, const SymmetricModel& model,
+Directions directions_of(const std::vector<int>& facets, const SymmetricModel& symmetric,
                          const Eigen::MatrixXd& covariance) {
     std::vector<Eigen::Index> rows;
     for (int f : facets) {
         rows.push_back(Eigen::Index(3 * f));
         rows.push_back(Eigen::Index(3 * f + 1));
     }
-    return {model.deviations(rows), model.columns(rows, Eigen::all), covariance(rows, rows)};
+    return {symmetric.deviations(rows), symmetric.columns(rows, Eigen::all),
+            covariance(rows, rows)};
 }
 
 // But for those that are zero because the frame or exact conditions make them so (the table's, from
@@ -176,17 +177,18 @@ VarianceComponent spread_of(const Contrasts& free) {
     return free.values.empty() ? VarianceComponent() : variance_component(free);
 }
 
-TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const SymmetricModel& model,
-                       const Eigen::MatrixXd& covariance, const std::vector<Tier>& tiers) {
+TierSymmetry test_tier(const FitModel& model, const FacetOrbit& orbit,
+                       const SymmetricModel& symmetric, const Eigen::MatrixXd& covariance,
+                       const std::vector<Tier>& tiers) {
     TierSymmetry tier;
     for (int f : orbit.facets) {
-        tier.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
+        tier.facets.push_back(model.stone().solid.facets[std::size_t(f)].name);
     }
     const auto named = std::find_if(tiers.begin(), tiers.end(), [&](const Tier& t) {
         return std::find(t.facets.begin(), t.facets.end(), orbit.facets.front()) != t.facets.end();
     });
     tier.tier = named != tiers.end() ? named->name : tier.facets.front();
-    const Directions directions = directions_of(orbit.facets, model, covariance);
+    const Directions directions = directions_of(orbit.facets, symmetric, covariance);
     const Eigen::VectorXd off =
         directions.deviations -
         directions.columns * shortest_solution(directions.columns, directions.deviations).col(0);
@@ -228,18 +230,18 @@ std::string cannot_be_tested(const Shape& shape, const Covariance& all) {
 
 }  // namespace
 
-SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covariance& all,
+SymmetryReport symmetry_of(const FitModel& model, const Shape& shape, const Covariance& all,
                            const FitOptions& options) {
     SymmetryReport report;
-    const AxisGroup form = form_group(system, shape);
+    const AxisGroup form = form_group(model, shape);
     report.form = form.name();
     report.proposed = form.is_trivial() ? report.form : "C1";
     report.message =
         form.is_trivial() ? "the stone's form has no symmetry" : cannot_be_tested(shape, all);
     if (!report.message.empty()) return report;
-    const std::vector<Tier> tiers = tiers_of(system, shape, form);
+    const std::vector<Tier> tiers = tiers_of(model, shape, form);
     const PolarCoordinates coordinates =
-        polar_coordinates(system, shape, all.linear().writer, tiers);
+        polar_coordinates(model, shape, all.linear().writer, tiers);
     const FunctionRows rows = coordinates.rows.sparseView();
     const Eigen::MatrixXd covariance = all.joint(rows);
     const Eigen::MatrixXd reach = reach_of(all.linear(), rows);
@@ -247,25 +249,24 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covar
         report.message = "the meets could not be analysed";
         return report;
     }
-    const Space space = space_of(system, form, coordinates, covariance, reach);
+    const Space space = space_of(model, form, coordinates, covariance, reach);
     for (const AxisGroup& group : subgroups_of(form)) {
-        report.groups.push_back(
-            test_group(system, group, coordinates, space, options.significance));
+        report.groups.push_back(test_group(model, group, coordinates, space, options.significance));
     }
-    SymmetricModel model = symmetric_model(coordinates, form);
+    SymmetricModel symmetric = symmetric_model(coordinates, form);
     std::vector<int> alike;
     for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
         // A single facet is unlike nothing, unless turns must leave it level.
         if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
-        report.tiers.push_back(test_tier(system, orbit, model, covariance, tiers));
+        report.tiers.push_back(test_tier(model, orbit, symmetric, covariance, tiers));
         alike.insert(alike.end(), orbit.facets.begin(), orbit.facets.end());
     }
     // Together: a tier alone may be symmetric about an axis of its own.
     const Eigen::Index placed = coordinates.placement.cols();
-    model.columns.conservativeResize(Eigen::NoChange, model.columns.cols() + placed);
-    model.columns.rightCols(placed) = coordinates.placement;
+    symmetric.columns.conservativeResize(Eigen::NoChange, symmetric.columns.cols() + placed);
+    symmetric.columns.rightCols(placed) = coordinates.placement;
     const VarianceComponent whole =
-        spread_of(free_contrasts(directions_of(alike, model, covariance)));
+        spread_of(free_contrasts(directions_of(alike, symmetric, covariance)));
     report.sigma = whole.sigma;
     report.sigma_sigma = whole.sigma_sigma;
     conclude(report, options.significance / double(report.tiers.size() + 1));

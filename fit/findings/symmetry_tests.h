@@ -12,8 +12,8 @@
 // information leaves it.
 
 #include "fit/findings/findings.h"
+#include "fit/model/fit_model.h"
 #include "fit/model/options.h"
-#include "fit/model/system.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {
@@ -23,9 +23,9 @@ namespace culet {
 /// reading.
 bool declares_whole_symmetry(const Reading& reading);
 
-/// `system` must hold no reading that declares its symmetry (`declares_whole_symmetry`): that would
+/// `model` must hold no reading that declares its symmetry (`declares_whole_symmetry`): that would
 /// be found again.
-SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covariance& all,
+SymmetryReport symmetry_of(const FitModel& model, const Shape& shape, const Covariance& all,
                            const FitOptions& options);
 
 }  // namespace culet

@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
 /// Azimuths are said to count from the mesh, and count from elsewhere; empty where they do not.
-std::string other_turn(const System& system);
+std::string other_turn(const FitModel& model);
 
 /// The mesh was drawn in another unit, most likely; empty where it was not.
-std::string other_size(const System& system);
+std::string other_size(const FitModel& model);
 
 }  // namespace culet

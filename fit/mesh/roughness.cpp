@@ -6,12 +6,12 @@
 
 namespace culet {
 
-std::optional<MeshRoughness> MeshRoughness::of(const System& system) {
-    const Shape& mesh = system.mesh_shape();
+std::optional<MeshRoughness> MeshRoughness::of(const FitModel& model) {
+    const Shape& mesh = model.mesh_shape();
     // Of k corners k - 3 show how far they lie off a plane.
     double squares = 0, redundancy = 0;
     for (std::size_t f = 0; f < mesh.normals.size(); ++f) {
-        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        const std::vector<int>& loop = model.mesh_outline()->loops[f];
         for (int corner : loop) {
             const double off =
                 glm::dot(mesh.normals[f], mesh.points[std::size_t(corner)]) - mesh.offsets[f];
@@ -20,11 +20,11 @@ std::optional<MeshRoughness> MeshRoughness::of(const System& system) {
         redundancy += double(loop.size()) - 3;
     }
     if (!(redundancy > 0)) return std::nullopt;
-    return MeshRoughness(system, std::sqrt(squares / redundancy));
+    return MeshRoughness(model, std::sqrt(squares / redundancy));
 }
 
 double MeshRoughness::tilt(int facet) const {
-    const Vec3& n = system_->mesh_shape().normals[std::size_t(facet)];
+    const Vec3& n = model_->mesh_shape().normals[std::size_t(facet)];
     // A level facet has no way down: any will do.
     const Vec3 across =
         std::hypot(n.x, n.y) > 0 ? glm::normalize(Vec3{-n.y, n.x, 0}) : Vec3{1, 0, 0};
@@ -43,10 +43,10 @@ double MeshRoughness::tilt(int facet) const {
 }
 
 std::vector<Vec3> MeshRoughness::from_middle(int facet) const {
-    const std::vector<Vec3>& points = system_->mesh_shape().points;
+    const std::vector<Vec3>& points = model_->mesh_shape().points;
     std::vector<Vec3> corners;
     Vec3 middle(0);
-    for (const int corner : system_->mesh_outline()->loops[std::size_t(facet)]) {
+    for (const int corner : model_->mesh_outline()->loops[std::size_t(facet)]) {
         corners.push_back(points[std::size_t(corner)]);
         middle += corners.back();
     }

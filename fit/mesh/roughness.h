@@ -5,14 +5,14 @@
 #include <optional>
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
 class MeshRoughness {
 public:
     /// Nothing when no facet has more than three corners: none of them shows that it is off.
-    static std::optional<MeshRoughness> of(const System& system);
+    static std::optional<MeshRoughness> of(const FitModel& model);
 
     /// Of a corner, across its facet: the root of the mean square over all corners beyond three of
     /// each facet.
@@ -23,9 +23,9 @@ public:
     double tilt(int facet) const;
 
 private:
-    MeshRoughness(const System& system, double corner) : system_(&system), corner_(corner) {}
+    MeshRoughness(const FitModel& model, double corner) : model_(&model), corner_(corner) {}
     std::vector<Vec3> from_middle(int facet) const;
-    const System* system_;
+    const FitModel* model_;
     double corner_;
 };
 

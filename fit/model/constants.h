@@ -5,7 +5,7 @@
 
 namespace culet {
 
-/// How the mesh stands (system.h, azimuth_turn.h).
+/// How the mesh stands (model.h, azimuth_turn.h).
 struct FrameConstants {
     /// A stone is drawn standing on an axis of its file; within this of one, the tilt is a slip of
     /// hand.
@@ -20,7 +20,7 @@ struct FrameConstants {
 };
 inline constexpr FrameConstants k_frame;
 
-/// Shapes and formulas (system.h, residuals.h, parameters.h).
+/// Shapes and formulas (model.h, residuals.h, parameters.h).
 struct ShapeConstants {
     /// Held less than twice as tightly by the readings as by the mesh: not determined. In
     /// information.

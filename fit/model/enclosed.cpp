@@ -1,11 +1,10 @@
-// The solid that a shape's planes enclose, and its corners in terms of the unknowns.
+#include "fit/model/enclosed.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "fit/model/constants.h"
-#include "fit/model/system.h"
 
 namespace culet {
 
@@ -33,10 +32,12 @@ std::array<int, 3> squarest(const Shape& shape, const std::vector<int>& planes) 
 
 }  // namespace
 
-System::Enclosed System::enclosed(const Shape& shape) const {
+Enclosed enclosed_by(const FitModel& model, const Shape& shape) {
+    const std::vector<Facet>& facets = model.frame().solid().facets;
+    const HalfEdges& edges = model.edges();
     std::vector<NamedPlane> planes;
     for (std::size_t f = 0; f < shape.normals.size(); ++f) {
-        planes.push_back({solid_.facets[f].name, {shape.normals[f], shape.offsets[f]}});
+        planes.push_back({facets[f].name, {shape.normals[f], shape.offsets[f]}});
     }
     Enclosed result;
     HalfSpaceSolid cut = intersect_half_spaces(planes);
@@ -57,7 +58,7 @@ System::Enclosed System::enclosed(const Shape& shape) const {
     for (std::size_t i = 0; i < result.solid.facets.size(); ++i) {
         const Facet& facet = result.solid.facets[i];
         int f = 0;
-        while (solid_.facets[f].name != facet.name) ++f;
+        while (facets[f].name != facet.name) ++f;
         facet_of[i] = f;
         present[f] = true;
         outline->loops[f] = facet.corners;
@@ -69,12 +70,12 @@ System::Enclosed System::enclosed(const Shape& shape) const {
 
     // Points whose every incidence is exact stand for themselves.
     std::vector<bool> exact(shape.points.size(), true);
-    for (const Incidence& incidence : incidences_) {
+    for (const Incidence& incidence : model.meets().incidences) {
         if (incidence.how != MeetTreatment::exact) exact[incidence.point] = false;
     }
     for (std::size_t v = 0; v < planes_of.size(); ++v) {
         Corner corner;
-        for (std::size_t p = 0; p < edges_.facets_of_vertex.size() && corner.point < 0; ++p) {
+        for (std::size_t p = 0; p < edges.facets_of_vertex.size() && corner.point < 0; ++p) {
             if (!exact[p] || glm::length(shape.points[p] - result.solid.vertices[v]) >
                                  10 * k_shapes.rounding_edge) {
                 continue;
@@ -90,13 +91,34 @@ System::Enclosed System::enclosed(const Shape& shape) const {
     return result;
 }
 
-Solid System::met_solid(const Shape& shape) const {
-    Solid solid = solid_;
+Solid met_solid(const FitModel& model, const Shape& shape) {
+    Solid solid = model.frame().solid();
     for (std::size_t v = 0; v < solid.vertices.size(); ++v) solid.vertices[v] = shape.points[v];
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         solid.facets[f].plane = {shape.normals[f], shape.offsets[f]};
     }
     return solid;
+}
+
+std::vector<std::pair<int, int>> hinges_of(const FitModel& model) {
+    const std::vector<Facet>& facets = model.frame().solid().facets;
+    std::vector<std::pair<int, int>> all;
+    if (!model.stone().convex) return all;
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const std::vector<int>& own = facets[f].corners;
+        std::vector<int> near;
+        for (int corner : own) {
+            for (int g : model.edges().facets_of_vertex[corner]) {
+                for (int c : facets[g].corners) near.push_back(c);
+            }
+        }
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        for (int c : near) {
+            if (std::find(own.begin(), own.end(), c) == own.end()) all.emplace_back(int(f), c);
+        }
+    }
+    return all;
 }
 
 }  // namespace culet

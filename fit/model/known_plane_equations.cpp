@@ -5,8 +5,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "fit/model/orbits.h"
-#include "fit/model/system.h"
+#include "fit/model/equations.h"
+#include "fit/model/known_planes.h"
 #include "fit/silhouettes/silhouette_fit.h"
 #include "stone/errors.h"
 
@@ -84,46 +84,49 @@ Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
     };
 }
 
-}  // namespace
-
-std::shared_ptr<const KnownPlanes> System::inside(const PlaneKnowledge& told,
-                                                  const glm::dmat3& upright) const {
-    check(told.planes.size() == solid_.facets.size(), "planes of another mesh");
-    const glm::dmat3 turn = turn_about_z(turn_);
-    const auto inside = [&](const Vec3& direction) { return turn * (upright * direction); };
+std::shared_ptr<const KnownPlanes> inside(const Frame& frame, Frame::From from,
+                                          const PlaneKnowledge& told, bool turns) {
+    check(told.planes.size() == frame.solid().facets.size(), "planes of another mesh");
+    const glm::dmat3 turn = frame.turn_inside(from);
+    const Vec3& middle = frame.middle();
     auto known = std::make_shared<KnownPlanes>();
     for (const Plane& plane : told.planes) {
         known->planes.push_back(
-            {inside(plane.normal), (plane.offset - glm::dot(plane.normal, middle_)) / scale_});
+            {turn * plane.normal, (plane.offset - glm::dot(plane.normal, middle)) / frame.scale()});
     }
     for (const PlaneKnowledge::Row& row : told.rows) {
         PlaneKnowledge::Row& in = known->rows.emplace_back();
         in.value = row.value;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
             // The offset from the mesh's middle is smaller by normal . middle.
-            in.normal.push_back(inside(row.normal[f] + row.offset[f] * middle_));
-            in.offset.push_back(row.offset[f] * scale_);
+            in.normal.push_back(turn * (row.normal[f] + row.offset[f] * middle));
+            in.offset.push_back(row.offset[f] * frame.scale());
         }
     }
-    known->turns = !stone_.azimuth_from_mesh;
+    known->turns = turns;
     return known;
 }
 
-void System::list_known_planes() {
+}  // namespace
+
+std::vector<std::shared_ptr<const KnownPlanes>> list_known_planes(
+    const Frame& frame, const std::vector<Reading>& readings, bool turns) {
+    std::vector<std::shared_ptr<const KnownPlanes>> all;
     const OutlineKnowledge* outlines = nullptr;  // of all sets together
-    for (const Reading& r : readings_) {
+    for (const Reading& r : readings) {
         if (r.told) outlines = r.told.get();
-        // The stone as it was fitted, which stands straight.
-        if (r.photograph) known_planes_.push_back(inside(*r.photograph, outward_));
+        if (r.photograph) {
+            all.push_back(inside(frame, Frame::From::fitted, *r.photograph, turns));
+        }
     }
-    if (outlines == nullptr) return;
-    has_outlines_ = true;
-    known_planes_.push_back(inside(*outlines, upright_));
+    if (outlines) all.push_back(inside(frame, Frame::From::mesh, *outlines, turns));
+    return all;
 }
 
-std::vector<Equation> System::known_plane_equations() const {
+std::vector<Equation> known_plane_equations(
+    const std::vector<std::shared_ptr<const KnownPlanes>>& all_known) {
     std::vector<Equation> all;
-    for (const auto& known : known_planes_) {
+    for (const auto& known : all_known) {
         for (std::size_t k = 0; k < known->rows.size(); ++k) {
             Equation e;
             e.role = Equation::Role::known_planes;

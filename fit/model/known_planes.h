@@ -1,6 +1,10 @@
 #pragma once
-// What outlines or a photograph tell of the planes, in the scale and place of the fit.
+// What outlines or a photograph tell of the planes, in the frame of the fit.
 
+#include <memory>
+#include <vector>
+
+#include "fit/model/frame.h"
 #include "fit/planes/plane_knowledge.h"
 
 namespace culet {
@@ -9,5 +13,9 @@ namespace culet {
 struct KnownPlanes : PlaneKnowledge {
     bool turns = true;  ///< it is not known how the stone stands about up
 };
+
+/// Of all outlines together, and of each photograph.
+std::vector<std::shared_ptr<const KnownPlanes>> list_known_planes(
+    const Frame& frame, const std::vector<Reading>& readings, bool turns);
 
 }  // namespace culet

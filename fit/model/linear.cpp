@@ -1,5 +1,6 @@
 #include "fit/model/linear.h"
 #include "fit/model/constants.h"
+#include "fit/model/equations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ FunctionRows function_rows(const JacobianRows& rows, int unknowns) {
 }
 
 // The six rigid motions as steps of the unknowns.
-std::vector<Eigen::VectorXd> rigid_motions(const System& system, const Shape& shape) {
+std::vector<Eigen::VectorXd> rigid_motions(const FitModel& model, const Shape& shape) {
     const Layout layout = layout_of(shape);
     std::vector<Eigen::VectorXd> motions;
     for (int k = 0; k < 6; ++k) {
@@ -51,10 +52,10 @@ std::vector<Eigen::VectorXd> rigid_motions(const System& system, const Shape& sh
             const Vec3 d = turn ? glm::cross(axis, shape.points[p]) : axis;
             for (int i = 0; i < 3; ++i) g(layout.point(p) + i) = d[i];
         }
-        for (std::size_t r = 0; r < system.readings().size(); ++r) {
-            const int extra = system.first_extra(static_cast<int>(r));
+        for (std::size_t r = 0; r < model.readings().size(); ++r) {
+            const int extra = model.symmetries().first_extra(static_cast<int>(r));
             if (extra < 0) continue;
-            const Reading& reading = system.readings()[r];
+            const Reading& reading = model.readings()[r];
             if (reading.kind == ReadingKind::rotation) {
                 const Vec3 c{shape.extras[extra], shape.extras[extra + 1], 0};
                 const Vec3 d = turn ? glm::cross(axis, c) : axis;
@@ -129,20 +130,20 @@ FunctionRow function_row(const FunctionRows& rows, Eigen::Index i) {
     return row;
 }
 
-std::vector<bool> loose_points(const System& system) {
-    std::vector<bool> loose(system.mesh_shape().points.size(), true);
-    for (const Incidence& i : system.incidences()) {
+std::vector<bool> loose_points(const FitModel& model) {
+    std::vector<bool> loose(model.mesh_shape().points.size(), true);
+    for (const Incidence& i : model.meets().incidences) {
         if (i.how != MeetTreatment::released) loose[std::size_t(i.point)] = false;
     }
     return loose;
 }
 
-Linearised linearise(const System& system, const Shape& shape,
+Linearised linearise(const FitModel& model, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
-    linear.has_prior = system.has_prior() || system.has_outlines();
+    linear.has_prior = !model.prior().empty() || model.has_outlines();
     linear.writer = RowWriter(shape);
     Parameters::Row row = linear.writer.row();
     JacobianRows soft, hard;
@@ -157,7 +158,7 @@ Linearised linearise(const System& system, const Shape& shape,
             linear.soft.push_back(std::move(e));
         }
     };
-    for (Equation& e : system.equations(shape, outline)) put(std::move(e));
+    for (Equation& e : all_equations(model, shape, outline)) put(std::move(e));
     for (const Equation& e : held) put(Equation(e));
     const int unknowns = linear.layout.size();
     linear.soft_rows = function_rows(soft, unknowns);
@@ -166,12 +167,12 @@ Linearised linearise(const System& system, const Shape& shape,
     linear.hard_residuals = hard.residuals();
     linear.metric =
         Eigen::Map<const Eigen::VectorXd>(linear.writer.parameters().metric().data(), unknowns);
-    const std::vector<bool> loose = loose_points(system);
+    const std::vector<bool> loose = loose_points(model);
     for (int p = 0; p < linear.layout.points; ++p) {
         if (loose[std::size_t(p)])
             linear.metric.segment(linear.layout.point(p), 3) *= k_shapes.loose_point;
     }
-    std::vector<Eigen::VectorXd> motions = rigid_motions(system, shape);
+    std::vector<Eigen::VectorXd> motions = rigid_motions(model, shape);
     linear.turn = motions[5];
     for (Eigen::VectorXd& g : motions) {
         if (unseen(linear.soft_rows, g) && unseen(linear.hard_rows, g)) {

@@ -5,7 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/equations.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
@@ -54,10 +55,10 @@ struct Linearised {
 
 /// The point of a meet that was let go belongs to nothing: it follows its planes, and wherever it
 /// lies, nothing is open. In a metric it weighs `k_shapes.loose_point` of what others do.
-std::vector<bool> loose_points(const System& system);
+std::vector<bool> loose_points(const FitModel& model);
 
 /// `held` are further hard equations.
-Linearised linearise(const System& system, const Shape& shape,
+Linearised linearise(const FitModel& model, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held = {});
 

@@ -4,14 +4,18 @@
 #include <cmath>
 
 #include "fit/model/constants.h"
+#include "fit/model/equations.h"
 #include "fit/model/inclination_side.h"
-#include "fit/model/system.h"
 
 namespace culet {
 
-bool System::may_be_merged(const std::vector<int>& group, const Replicates& replicates,
-                           const Shape& shape) const {
-    const Reading& first = readings_[std::size_t(group.front())];
+namespace {
+
+// At this shape, what they say is but one thing: facets lean one way, azimuths are less than half a
+// turn off.
+bool may_be_merged(const std::vector<Reading>& readings, const std::vector<int>& group,
+                   const Replicates& replicates, const Shape& shape) {
+    const Reading& first = readings[std::size_t(group.front())];
     if (first.kind == ReadingKind::azimuth) {
         const int datum = first.datum.kind == Datum::Kind::facet ? first.datum.facet : -1;
         const double error = azimuth_error(first.facets[0], datum, replicates.value)(shape).value;
@@ -23,19 +27,22 @@ bool System::may_be_merged(const std::vector<int>& group, const Replicates& repl
     return std::all_of(group.begin(), group.end(), [&](int r) {
         return std::all_of(first.facets.begin(), first.facets.end(), [&](int f) {
             const Vec3& n = shape.normals[std::size_t(f)];
-            return side_of(n, readings_[std::size_t(r)].value) == side_of(n, replicates.value);
+            return side_of(n, readings[std::size_t(r)].value) == side_of(n, replicates.value);
         });
     });
 }
 
-System::MergedReadings System::merged_readings(const Shape& shape) const {
+}  // namespace
+
+MergedReadings merged_readings(const FitModel& model, const Shape& shape) {
+    const std::vector<Reading>& readings = model.readings();
     MergedReadings result;
-    result.replicates.resize(readings_.size());
-    result.is_merged.resize(readings_.size(), false);
-    for (const std::vector<int>& group : replicated_) {
+    result.replicates.resize(readings.size());
+    result.is_merged.resize(readings.size(), false);
+    for (const std::vector<int>& group : model.replicated()) {
         const std::size_t first = std::size_t(group.front());
-        Replicates own = merged(readings_, group, unit_of(readings_[first]));
-        if (!may_be_merged(group, own, shape)) continue;
+        Replicates own = merged(readings, group, model.frame().unit_of(readings[first]));
+        if (!may_be_merged(readings, group, own, shape)) continue;
         result.replicates[first] = std::move(own);
         for (std::size_t k = 1; k < group.size(); ++k) {
             result.is_merged[std::size_t(group[k])] = true;

@@ -1,6 +1,6 @@
 // Which facets a rotation or a mirror takes into which.
 
-#include "fit/model/system.h"
+#include "fit/model/symmetries.h"
 
 #include <fmt/format.h>
 
@@ -48,24 +48,11 @@ std::vector<int> all_facets(const Shape& shape) {
     return facets;
 }
 
-}  // namespace
-
-std::optional<std::vector<int>> System::exchanged(const Reading& reading,
-                                                  const std::vector<int>& facets) const {
-    const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())];
-    if (!exchange) return std::nullopt;
-    std::vector<int> images;
-    for (int f : facets) images.push_back(exchange->facets[f]);
-    return images;
-}
-
-std::vector<int> System::rotation_partners(const Reading& reading) const {
-    const std::vector<int> facets =
-        reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
-    if (const auto images = exchanged(reading, facets)) return *images;
+std::vector<int> rotation_partners(const Shape& shape, const Reading& reading,
+                                   const std::vector<int>& facets) {
     const double angle = 2 * std::numbers::pi / reading.order;
     const glm::dmat3 turn = turn_about_z(angle);
-    std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
+    std::vector<int> found = partners(shape, facets, [&](const Plane& plane) {
         return Plane{turn * plane.normal, plane.offset};
     });
     if (!found.empty()) return found;
@@ -75,8 +62,7 @@ std::vector<int> System::rotation_partners(const Reading& reading) const {
         std::vector<std::size_t> by_azimuth(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) by_azimuth[i] = i;
         std::sort(by_azimuth.begin(), by_azimuth.end(), [&](std::size_t a, std::size_t b) {
-            return azimuth(mesh_shape_.normals[facets[a]]) <
-                   azimuth(mesh_shape_.normals[facets[b]]);
+            return azimuth(shape.normals[facets[a]]) < azimuth(shape.normals[facets[b]]);
         });
         found.assign(facets.size(), -1);
         for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -92,12 +78,10 @@ std::vector<int> System::rotation_partners(const Reading& reading) const {
                     reading.id, reading.order));
 }
 
-std::vector<int> System::mirror_partners(const Reading& reading) const {
-    const std::vector<int> facets =
-        reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
-    if (const auto images = exchanged(reading, facets)) return *images;
+std::vector<int> mirror_partners(const Shape& shape, const Reading& reading,
+                                 const std::vector<int>& facets) {
     const Vec3 m{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
-    const std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
+    const std::vector<int> found = partners(shape, facets, [&](const Plane& plane) {
         return Plane{plane.normal - 2 * glm::dot(m, plane.normal) * m, plane.offset};
     });
     if (!found.empty()) return found;
@@ -108,24 +92,34 @@ std::vector<int> System::mirror_partners(const Reading& reading) const {
                     reading.id));
 }
 
-void System::pair_facets() {
-    pairs_.resize(readings_.size());
-    for (std::size_t r = 0; r < readings_.size(); ++r) {
-        const Reading& reading = readings_[r];
+}  // namespace
+
+void Symmetries::pair_facets(const std::vector<Reading>& readings, const Shape& shape) {
+    pairs_.resize(readings.size());
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+        const Reading& reading = readings[r];
         Pairs& pairs = pairs_[r];
-        const std::vector<int> facets =
-            reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
+        const std::vector<int> facets = reading.facets.empty() ? all_facets(shape) : reading.facets;
+        // Where the motion of a symmetry of all facets takes them, if it is known.
+        const auto images_of = [&](const std::vector<int>& of, auto otherwise) {
+            if (!exchanges_[r]) return otherwise();
+            std::vector<int> images;
+            for (int f : of) images.push_back(exchanges_[r]->facets[f]);
+            return images;
+        };
         if (reading.kind == ReadingKind::mirror && !reading.has_direction) {
             for (std::size_t i = 0; i + 1 < reading.facets.size(); i += 2) {
                 pairs.emplace_back(reading.facets[i], reading.facets[i + 1]);
             }
         } else if (reading.kind == ReadingKind::mirror) {
-            const std::vector<int> images = mirror_partners(reading);
+            const std::vector<int> images =
+                images_of(facets, [&] { return mirror_partners(shape, reading, facets); });
             for (std::size_t i = 0; i < facets.size(); ++i) {
                 if (facets[i] <= images[i]) pairs.emplace_back(facets[i], images[i]);
             }
         } else if (reading.kind == ReadingKind::rotation) {
-            const std::vector<int> images = rotation_partners(reading);
+            const std::vector<int> images =
+                images_of(facets, [&] { return rotation_partners(shape, reading, facets); });
             // The last turn of an orbit follows from the others.
             std::set<int> seen;
             for (std::size_t i = 0; i < facets.size(); ++i) {

@@ -20,7 +20,7 @@ struct Seen {
     double off = 0, variance = 0;
 };
 
-double mean_of(const std::vector<Seen>& tier) {
+double mean_seen(const std::vector<Seen>& tier) {
     double sum = 0;
     for (const Seen& seen : tier) sum += seen.off;
     return tier.empty() ? 0 : sum / double(tier.size());
@@ -115,7 +115,7 @@ void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readi
     double squares = k_prior.facets_count * std::pow(level(PriorLevel::facet_angle), 2);
     double freedom = k_prior.facets_count;
     for (const std::vector<Seen>& tier : tiers) {
-        const double mean = mean_of(tier);
+        const double mean = mean_seen(tier);
         for (const Seen& seen : tier) {
             squares += std::pow(seen.off - mean, 2) - seen.variance * (1 - 1 / double(tier.size()));
         }
@@ -130,7 +130,7 @@ void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readi
         if (tier.empty()) continue;
         double noise = 0;
         for (const Seen& seen : tier) noise += (of_facets + seen.variance) / double(tier.size());
-        squares += std::pow(mean_of(tier), 2) - noise / double(tier.size());
+        squares += std::pow(mean_seen(tier), 2) - noise / double(tier.size());
         ++freedom;
     }
     level(PriorLevel::tier_angle) = std::sqrt(std::max(

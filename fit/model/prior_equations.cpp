@@ -1,7 +1,7 @@
 // The facets' prior as equations: one for each facet's angle, azimuth and offset, and one for each
 // of the tiers' common parts.
 
-#include "fit/model/system.h"
+#include "fit/model/equations.h"
 
 namespace culet {
 
@@ -42,9 +42,9 @@ std::pair<Formula, double> formula_of(const PriorTerm& term) {
 
 }  // namespace
 
-std::vector<Equation> System::expected_equations() const {
+std::vector<Equation> prior_equations(const PriorModel& prior) {
     std::vector<Equation> all;
-    const auto sigma_of = [&](PriorLevel level) { return prior_.sigmas[std::size_t(level)]; };
+    const auto sigma_of = [&](PriorLevel level) { return prior.sigmas[std::size_t(level)]; };
     const auto put = [&](Formula formula, double value, double sigma) {
         Equation e;
         e.role = Equation::Role::expected;
@@ -53,10 +53,10 @@ std::vector<Equation> System::expected_equations() const {
         e.sigma = sigma;
         all.push_back(std::move(e));
     };
-    for (const PriorTerm& term : prior_.terms) {
+    for (const PriorTerm& term : prior.terms) {
         const PriorLevel tier = term.is_angle() ? PriorLevel::tier_angle : PriorLevel::tier_offset;
         const PriorLevel own = term.is_angle() ? PriorLevel::facet_angle : PriorLevel::facet_offset;
-        const double ratio = term.of == PriorTerm::Of::azimuth ? prior_.azimuth_ratio : 1;
+        const double ratio = term.of == PriorTerm::Of::azimuth ? prior.azimuth_ratio : 1;
         auto [formula, value] = formula_of(term);
         if (term.extra < 0) {
             // Of no tier: both errors at once.
@@ -69,9 +69,9 @@ std::vector<Equation> System::expected_equations() const {
     const auto put_common = [&](const std::vector<int>& extras, PriorLevel level, double ratio) {
         for (const int e : extras) put(unknown_extra(e), 0, ratio * sigma_of(level));
     };
-    put_common(prior_.angle_extras, PriorLevel::tier_angle, 1);
-    put_common(prior_.azimuth_extras, PriorLevel::tier_angle, prior_.azimuth_ratio);
-    put_common(prior_.offset_extras, PriorLevel::tier_offset, 1);
+    put_common(prior.angle_extras, PriorLevel::tier_angle, 1);
+    put_common(prior.azimuth_extras, PriorLevel::tier_angle, prior.azimuth_ratio);
+    put_common(prior.offset_extras, PriorLevel::tier_offset, 1);
     return all;
 }
 

@@ -46,7 +46,7 @@ std::vector<ActiveCorner> corners_to_hold(const Relaxation& relaxation, const Sh
     const std::vector<ActiveCorner> nearly = relaxation.above(shape, k_held.no_length);
     if (nearly.size() == above.size()) return above;
     const std::vector<ActiveCorner> drawn =
-        relaxation.above(relaxation.system().mesh_shape(), k_held.drawn);
+        relaxation.above(relaxation.model().mesh_shape(), k_held.drawn);
     for (const ActiveCorner& h : nearly) {
         if (!is_among(drawn, h) && !is_among(above, h)) above.push_back(h);
     }
@@ -60,7 +60,7 @@ bool hold_more(const Relaxation& relaxation, const std::vector<ActiveCorner>& ab
     const std::size_t before = held.size();
     for (const ActiveCorner& h : above) {
         const bool known = std::any_of(held.begin(), held.end(), [&](const ActiveCorner& other) {
-            return other == h || are_ends_of_one_edge(relaxation.system(), other, h);
+            return other == h || are_ends_of_one_edge(relaxation.model(), other, h);
         });
         if (!known) held.push_back(h);
     }
@@ -85,7 +85,7 @@ void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOpti
         const std::vector<ActiveCorner> above = corners_to_hold(relaxation, optimum.shape);
         if (!hold_more(relaxation, above, result.held)) break;
         // Planes have three parameters each.
-        if (result.held.size() > 3 * relaxation.system().stone().solid.facets.size()) {
+        if (result.held.size() > 3 * relaxation.model().stone().solid.facets.size()) {
             if (come_down) result.held.clear();
             result.is_no_stone = !come_down;
             break;
@@ -120,7 +120,7 @@ ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
     hold_corners(relaxation, solver, options, optimum, result);
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, optimum.chi2 - free_chi2);
     result.finished = std::move(optimum);
-    result.finished.outline = relaxation.system().mesh_outline();
+    result.finished.outline = relaxation.model().mesh_outline();
     result.finished.work = solver.work();
     return result;
 }

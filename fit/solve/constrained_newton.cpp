@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/model/enclosed.h"
 #include "fit/solve/constants.h"
 #include "fit/solve/second_order_correction.h"
 
@@ -182,7 +183,7 @@ Newton::Step Newton::step() {
     Shape next = std::move(corrected.shape);
     std::shared_ptr<const Outline> outline;
     if (outline_) {
-        outline = outline_of(relaxation_.system(), next);
+        outline = outline_of(relaxation_.model(), next);
         if (!outline) return made;
         choose(next, outline);
     }
@@ -229,8 +230,8 @@ LocalOptimum Newton::run() {
 
 }  // namespace
 
-std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape) {
-    System::Enclosed enclosed = system.enclosed(shape);
+std::shared_ptr<const Outline> outline_of(const FitModel& model, const Shape& shape) {
+    Enclosed enclosed = enclosed_by(model, shape);
     return enclosed.closed ? enclosed.outline : nullptr;
 }
 

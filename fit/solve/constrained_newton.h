@@ -29,7 +29,7 @@ struct NewtonOptions {
 };
 
 /// The corners that the shape's planes give; nothing where they enclose no solid.
-std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape);
+std::shared_ptr<const Outline> outline_of(const FitModel& model, const Shape& shape);
 
 /// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets
 /// misses by less than any reading could tell.

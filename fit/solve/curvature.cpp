@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/model/equations.h"
 #include "fit/solve/relaxation.h"
 
 namespace culet {
@@ -118,7 +119,7 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
         const Equation& e = equations_[i];
         const double force = forces(Eigen::Index(incidences_.size() + i));
         if (e.reading < 0) continue;  // of the prior
-        const Reading& reading = system_.readings()[std::size_t(e.reading)];
+        const Reading& reading = model_.readings()[std::size_t(e.reading)];
         if (reading.aggregate != Aggregate::single) continue;
         if (reading.kind == ReadingKind::inclination && reading.datum.kind == Datum::Kind::up) {
             const int f = reading.facets[0];

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/solve/constants.h"
 
 namespace culet {
@@ -21,6 +21,6 @@ struct Finished {
 };
 
 /// `iterations` bounds the steps. Directions that no reading holds stay where they were.
-Finished finish(const System& system, const Shape& start, int iterations);
+Finished finish(const FitModel& model, const Shape& start, int iterations);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Steps of the fit as one sparse symmetric system, private to the room:
+// Steps of the fit as one sparse symmetric model, private to the room:
 //
 //     [ P  J' ] [x]   [a]      P: what holds each unknown back (damping, priors), positive
 //     [ J  -C ] [y] = [b]      J: a row for each equation, C: its variance, 0 when it is exact

@@ -233,7 +233,7 @@ Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale
     for (auto term = terms.begin(); term != hinges; ++term) {
         add(term->formula, std::sqrt(term->variance), blocks, problem);
     }
-    const Shape& mesh = relaxation.system().mesh_shape();
+    const Shape& mesh = relaxation.model().mesh_shape();
     for (int i = 0; i < 3 * int(mesh.points.size()) && penalty.with_priors; ++i) {
         Vec3 axis(0);
         axis[i % 3] = 1;

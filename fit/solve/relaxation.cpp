@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "fit/model/constants.h"
+#include "fit/model/enclosed.h"
+#include "fit/model/equations.h"
 #include "fit/model/linear.h"
 #include "fit/solve/constants.h"
 #include "fit/solve/relaxation_terms.h"
@@ -50,20 +52,20 @@ private:
 
 }  // namespace
 
-Relaxation::Relaxation(const System& system, const Parameters& parameters)
-    : system_(system), parameters_(parameters) {
-    const std::size_t facets = system.stone().solid.facets.size(),
-                      points = system.mesh_shape().points.size();
+Relaxation::Relaxation(const FitModel& model, const Parameters& parameters)
+    : model_(model), parameters_(parameters) {
+    const std::size_t facets = model.stone().solid.facets.size(),
+                      points = model.mesh_shape().points.size();
     OrbitPairs incident(parameters, facets, points), hinged(parameters, facets, points);
-    for (std::size_t i = 0; i < system.incidences().size(); ++i) {
-        const auto& [point, facet, how, sigma, reading] = system.incidences()[i];
-        if (const int images = incident.take(facet, point))
-            incidences_.push_back({facet, point, double(images), int(i)});
+    for (std::size_t i = 0; i < model.meets().incidences.size(); ++i) {
+        const Incidence& at = model.meets().incidences[i];
+        if (const int images = incident.take(at.facet, at.point))
+            incidences_.push_back({at.facet, at.point, double(images), int(i)});
     }
     points_.resize(points);
     std::iota(points_.begin(), points_.end(), 0);
-    choose(system.mesh_shape(), false);
-    for (const auto& [f, p] : system.hinges()) {
+    choose(model.mesh_shape(), false);
+    for (const auto& [f, p] : hinges_of(model)) {
         if (const int images = hinged.take(f, p)) hinges_.push_back({f, p, double(images), -1});
     }
 }
@@ -71,8 +73,8 @@ Relaxation::Relaxation(const System& system, const Parameters& parameters)
 void Relaxation::choose(const Shape& shape, bool meets_hold,
                         std::shared_ptr<const Outline> outline) {
     std::vector<Equation> before = std::move(equations_);
-    equations_ = system_.reading_equations(shape, outline ? outline : system_.mesh_outline(), true,
-                                           meets_hold);
+    equations_ = reading_equations(model_, shape, outline ? outline : model_.mesh_outline(), true,
+                                   meets_hold);
     if (std::exchange(begins_, false) || before.size() != equations_.size()) return;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const Equation &was = before[i], &is = equations_[i];
@@ -93,9 +95,9 @@ void Relaxation::choose(const Shape& shape, bool meets_hold,
 }
 
 const std::vector<int>& Relaxation::corners_between_jaws(const Equation& caliper) const {
-    const Reading& reading = system_.readings()[std::size_t(caliper.reading)];
+    const Reading& reading = model_.readings()[std::size_t(caliper.reading)];
     return reading.kind == ReadingKind::table_width
-               ? system_.mesh_outline()->loops[std::size_t(system_.up_facet())]
+               ? model_.mesh_outline()->loops[std::size_t(model_.frame().up_facet())]
                : points_;
 }
 
@@ -147,7 +149,7 @@ double Relaxation::height(const Shape& shape, int facet, int point) const {
 Relaxation::Counts Relaxation::counts() const {
     Counts counts;
     for (const OrbitPair& i : incidences_) {
-        const MeetTreatment how = system_.incidences()[std::size_t(i.incidence)].how;
+        const MeetTreatment how = model_.meets().incidences[std::size_t(i.incidence)].how;
         counts.hard += how == MeetTreatment::exact;
         counts.soft += how == MeetTreatment::soft;
     }
@@ -163,7 +165,7 @@ double Relaxation::expected_misfit(const PenaltyScale& penalty) const {
         if (sigma > 0) sum += sigma * sigma / (sigma * sigma + soft * soft);
     };
     for (const OrbitPair& i : incidences_) {
-        add(system_.incidence_sigma(system_.incidences()[std::size_t(i.incidence)]),
+        add(model_.meets().sigma(model_.meets().incidences[std::size_t(i.incidence)]),
             penalty.incidence);
     }
     for (const Equation& e : equations_) add(e.exact ? 0 : e.sigma, penalty.readings);
@@ -173,9 +175,9 @@ double Relaxation::expected_misfit(const PenaltyScale& penalty) const {
 Eigen::VectorXd Relaxation::metric() const {
     const std::vector<double>& m = parameters_.metric();
     Eigen::VectorXd metric = Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
-    if (!system_.splits()) return metric;
-    const Parameters::TangentBasis basis = parameters_.tangent_basis(system_.mesh_shape());
-    const std::vector<bool> loose = loose_points(system_);
+    if (!model_.meets().splits) return metric;
+    const Parameters::TangentBasis basis = parameters_.tangent_basis(model_.mesh_shape());
+    const std::vector<bool> loose = loose_points(model_);
     for (std::size_t p = 0; p < loose.size(); ++p) {
         if (loose[p])
             metric.segment(basis.points[p].column, basis.points[p].count) *= k_shapes.loose_point;
@@ -187,10 +189,10 @@ bool Relaxation::binds(const Shape& shape, const ActiveCorner& held) const {
     return height(shape, held.facet, held.point) > -1.5 * k_held.below;
 }
 
-bool are_ends_of_one_edge(const System& system, const ActiveCorner& one,
+bool are_ends_of_one_edge(const FitModel& model, const ActiveCorner& one,
                           const ActiveCorner& other) {
     const auto is_corner = [&](int facet, int point) {
-        const std::vector<int>& loop = system.stone().solid.facets[std::size_t(facet)].corners;
+        const std::vector<int>& loop = model.stone().solid.facets[std::size_t(facet)].corners;
         return std::find(loop.begin(), loop.end(), point) != loop.end();
     };
     return is_corner(one.facet, other.point) && is_corner(other.facet, one.point);
@@ -201,7 +203,7 @@ int Relaxation::binding(const Shape& shape, const std::vector<ActiveCorner>& hel
     for (const ActiveCorner& h : held) {
         const bool is_known = std::any_of(
             found.begin(), found.end(),
-            [&](const ActiveCorner& other) { return are_ends_of_one_edge(system_, other, h); });
+            [&](const ActiveCorner& other) { return are_ends_of_one_edge(model_, other, h); });
         if (!is_known && binds(shape, h)) found.push_back(h);
     }
     return static_cast<int>(found.size());
@@ -221,7 +223,7 @@ std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double wi
     int row = static_cast<int>(incidences_.size());
     for (const Equation& e : equations_) {
         if (e.other_value && !e.exact) {
-            const int f = system_.readings()[std::size_t(e.reading)].facets[0];
+            const int f = model_.readings()[std::size_t(e.reading)].facets[0];
             if (std::abs(shape.normals[f].z) < within) {
                 const double shift = *e.other_value - e.value;
                 const auto [at, is_new] = known.try_emplace({f, shift > 0}, result.size());
@@ -238,12 +240,12 @@ std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const
     std::vector<Caliper> result;
     // Mirrors and rotations of the stone have a place of their own, which would turn with it.
     // The facets' prior tells the turn by itself.
-    if (!parameters_.orbits().empty() || !system_.mesh_shape().extras.empty() ||
-        system_.has_prior() || system_.has_known_planes()) {
+    if (!parameters_.orbits().empty() || !model_.mesh_shape().extras.empty() ||
+        !model_.prior().empty() || !model_.known_planes().empty()) {
         return result;
     }
     for (const Equation& e : equations_) {
-        const Reading& reading = system_.readings()[std::size_t(e.reading)];
+        const Reading& reading = model_.readings()[std::size_t(e.reading)];
         const bool is_level = std::hypot(e.caliper.x, e.caliper.y) > 0;
         if (reading.kind == ReadingKind::azimuth && reading.datum.kind == Datum::Kind::up) {
             return {};

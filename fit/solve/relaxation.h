@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "fit/model/equations.h"
+#include "fit/model/fit_model.h"
 #include "fit/model/jacobian_rows.h"
 #include "fit/model/parameters.h"
-#include "fit/model/system.h"
 
 namespace culet {
 
@@ -31,7 +32,8 @@ struct ActiveCorner {
 };
 
 /// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
-bool are_ends_of_one_edge(const System& system, const ActiveCorner& one, const ActiveCorner& other);
+bool are_ends_of_one_edge(const FitModel& model, const ActiveCorner& one,
+                          const ActiveCorner& other);
 
 /// Two corners that share a caliper's jaw, and are level along its direction.
 struct SharedContact {
@@ -42,7 +44,7 @@ struct SharedContact {
 
 /// All equations at one shape.
 struct StepLinearisation {
-    JacobianRows rows;  ///< incidences first, in the system's order
+    JacobianRows rows;  ///< incidences first, in the model's order
     Eigen::VectorXd prior_stiffness;
     double merit = 0;     ///< sum of squares of all that is soft, priors and hinges included
     double prior = 0;     ///< the priors' part of it
@@ -54,14 +56,14 @@ struct StepLinearisation {
 
 class Relaxation {
 public:
-    Relaxation(const System& system, const Parameters& parameters);
+    Relaxation(const FitModel& model, const Parameters& parameters);
 
-    const System& system() const { return system_; }
+    const FitModel& model() const { return model_; }
     const Parameters& parameters() const { return parameters_; }
 
     /// Chooses what the readings mean at this shape: which corners the caliper's jaws touch, which
     /// way upright facets lean. Later linearisations keep to it, so that they are smooth.
-    /// `meets_hold`: of `System::reading_equations`.
+    /// `meets_hold`: of `FitModel::reading_equations`.
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
     /// `outline`: of a stone whose meets come apart, the corners that its planes give; the mesh's
@@ -165,13 +167,13 @@ private:
     const OrbitPair* hinge_of(const ActiveCorner& corner) const;
     bool binds(const Shape& shape, const ActiveCorner& held) const;
 
-    const System& system_;
+    const FitModel& model_;
     const Parameters& parameters_;
     // One facet and point of each orbit, and how many go with it.
     struct OrbitPair {
         int facet = -1, point = -1;
         double images = 1;
-        int incidence = -1;  // index in the system's, or -1
+        int incidence = -1;  // index in the model's, or -1
     };
     std::vector<OrbitPair> incidences_, hinges_;
     std::vector<int> points_;          // all of them

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/model/equations.h"
 #include "fit/solve/constants.h"
 #include "fit/solve/relaxation.h"
 #include "fit/solve/relaxation_terms.h"
@@ -17,8 +18,8 @@ std::vector<Relaxation::Term> Relaxation::terms(const PenaltyScale& penalty,
     std::vector<Term> all;
     all.reserve(incidences_.size() + equations_.size() + held.size() + hinges.size());
     for (const OrbitPair& i : incidences_) {
-        const Incidence& incidence = system_.incidences()[std::size_t(i.incidence)];
-        const double own = system_.incidence_sigma(incidence);
+        const Incidence& incidence = model_.meets().incidences[std::size_t(i.incidence)];
+        const double own = model_.meets().sigma(incidence);
         const double variance = (own * own + penalty.incidence * penalty.incidence) / i.images;
         Term& term = all.emplace_back(Term{culet::height(i.facet, Corner{i.point}), variance});
         if (incidence.how == MeetTreatment::soft) term.chi2_weight = i.images / (own * own);
@@ -92,7 +93,7 @@ void Relaxation::add_priors(const Shape& shape, const PenaltyScale& penalty,
                             const Parameters::TangentBasis& basis, StepLinearisation& sum) const {
     sum.prior_stiffness = Eigen::VectorXd::Zero(parameters_.size());
     if (!penalty.with_priors) return;
-    const Shape& mesh = system_.mesh_shape();
+    const Shape& mesh = model_.mesh_shape();
     const double stiffness = 1 / (penalty.mesh_sigma * penalty.mesh_sigma);
     for (std::size_t p = 0; p < shape.points.size(); ++p) {
         const Parameters::Slots& slots = basis.points[p];

@@ -29,7 +29,7 @@ struct Way {
 
 class Closing {
 public:
-    Closing(const System& system, const std::vector<int>& known, double rough);
+    Closing(const FitModel& model, const std::vector<int>& known, double rough);
 
     bool has_turning() const { return !turning_.empty(); }
     void look();
@@ -72,13 +72,13 @@ private:
     std::vector<int> turning_;  // facets that may
 };
 
-std::vector<Sided> sided_normals(const System& system, const std::vector<int>& known,
+std::vector<Sided> sided_normals(const FitModel& model, const std::vector<int>& known,
                                  double rough) {
-    const Shape& mesh = system.mesh_shape();
+    const Shape& mesh = model.mesh_shape();
     const std::size_t count = mesh.normals.size();
     std::vector<std::optional<double>> tilt(count), turn(count);
     std::vector<double> sigmas(count, 0);
-    for (const Reading& r : system.readings()) {
+    for (const Reading& r : model.readings()) {
         if (r.aggregate != Aggregate::single || r.datum.kind != Datum::Kind::up) continue;
         if (r.kind != ReadingKind::inclination && r.kind != ReadingKind::azimuth) continue;
         const auto f = std::size_t(r.facets[0]);
@@ -89,7 +89,7 @@ std::vector<Sided> sided_normals(const System& system, const std::vector<int>& k
     std::vector<Sided> result(count);
     for (std::size_t f = 0; f < count; ++f) {
         Sided& s = result[f];
-        if (static_cast<int>(f) != system.up_facet() && tilt[f] && turn[f]) {
+        if (static_cast<int>(f) != model.frame().up_facet() && tilt[f] && turn[f]) {
             const Vec3 level{std::cos(*turn[f]), std::sin(*turn[f]), 0};
             const double z = std::cos(*tilt[f]), flat = std::sin(*tilt[f]);
             s.normal = {flat * level - Vec3{0, 0, z}, flat * level + Vec3{0, 0, z}};
@@ -97,7 +97,7 @@ std::vector<Sided> sided_normals(const System& system, const std::vector<int>& k
             s.has_two = known[f] == 0;
             continue;
         }
-        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        const std::vector<int>& loop = model.mesh_outline()->loops[f];
         Vec3 mean(0);
         for (const int corner : loop)
             mean += mesh.points[std::size_t(corner)] / double(loop.size());
@@ -107,16 +107,16 @@ std::vector<Sided> sided_normals(const System& system, const std::vector<int>& k
             spread += glm::dot(off, off);
         }
         s.normal = {mesh.normals[f], mesh.normals[f]};
-        s.sigma = static_cast<int>(f) == system.up_facet()
+        s.sigma = static_cast<int>(f) == model.frame().up_facet()
                       ? 0
                       : rough / std::sqrt(std::max(1e-12, spread / 2));
     }
     return result;
 }
 
-Closing::Closing(const System& system, const std::vector<int>& known, double rough) {
-    const std::vector<Sided> sided = sided_normals(system, known, rough);
-    const Shape& mesh = system.mesh_shape();
+Closing::Closing(const FitModel& model, const std::vector<int>& known, double rough) {
+    const std::vector<Sided> sided = sided_normals(model, known, rough);
+    const Shape& mesh = model.mesh_shape();
     const std::size_t count = sided.size();
     ways_.resize(count);
     near_.resize(count);
@@ -125,7 +125,7 @@ Closing::Closing(const System& system, const std::vector<int>& known, double rou
         // The mesh's corners round a facet say more of its normal than the plane nearest to them,
         // which a long thin facet turns by.
         Vec3 area(0);
-        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        const std::vector<int>& loop = model.mesh_outline()->loops[f];
         for (std::size_t k = 0; k < loop.size(); ++k) {
             area += glm::cross(mesh.points[std::size_t(loop[k])],
                                mesh.points[std::size_t(loop[(k + 1) % loop.size()])]);
@@ -136,12 +136,12 @@ Closing::Closing(const System& system, const std::vector<int>& known, double rou
         turning_.push_back(static_cast<int>(f));
     }
     std::vector<std::pair<std::pair<int, int>, const Reading*>> read;
-    for (const Reading& r : system.readings()) {
+    for (const Reading& r : model.readings()) {
         if (r.kind != ReadingKind::edge || r.aggregate != Aggregate::single) continue;
         read.push_back({std::minmax(r.facets[0], r.facets[1]), &r});
     }
     std::sort(read.begin(), read.end());
-    for (const Edge& e : system.edges().edges) {
+    for (const Edge& e : model.edges().edges) {
         const std::pair<int, int> pair = std::minmax(e.left, e.right);
         const auto at = std::lower_bound(
             read.begin(), read.end(), pair,
@@ -151,8 +151,8 @@ Closing::Closing(const System& system, const std::vector<int>& known, double rou
         double sigma = std::hypot(std::numbers::sqrt2 * rough, k_closing.drawn_length * length);
         if (at != read.end() && at->first == pair) {
             const Reading& r = *at->second;
-            length = r.value / system.unit_of(r);
-            sigma = std::hypot(r.sigma, r.rounding / std::sqrt(12.0)) / system.unit_of(r);
+            length = r.value / model.frame().unit_of(r);
+            sigma = std::hypot(r.sigma, r.rounding / std::sqrt(12.0)) / model.frame().unit_of(r);
         }
         for (const auto& [own, other] : {std::pair{e.left, e.right}, std::pair{e.right, e.left}}) {
             Way way;
@@ -247,8 +247,8 @@ std::vector<int> Closing::sides(std::vector<int> known) const {
 
 }  // namespace
 
-std::vector<int> closing_sides(const System& system, std::vector<int> known, double rough) {
-    Closing closing(system, known, rough);
+std::vector<int> closing_sides(const FitModel& model, std::vector<int> known, double rough) {
+    Closing closing(model, known, rough);
     if (!closing.has_turning()) return known;
     closing.look();
     return closing.sides(std::move(known));

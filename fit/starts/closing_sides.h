@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
@@ -23,6 +23,6 @@ namespace culet {
 /// Every facet has a misfit of its own in the sides of a few, capped since a reading may be wrong;
 /// the least sum is looked for by chains of turns (Kernighan & Lin 1970) from where the mesh has
 /// them.
-std::vector<int> closing_sides(const System& system, std::vector<int> known, double rough);
+std::vector<int> closing_sides(const FitModel& model, std::vector<int> known, double rough);
 
 }  // namespace culet

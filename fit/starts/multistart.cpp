@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "fit/model/enclosed.h"
 #include "fit/starts/penalty_continuation.h"
 #include "fit/starts/search_policy.h"
 #include "fit/uncertainty/diagnostics.h"
@@ -16,14 +17,14 @@ namespace {
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
-bool agrees(const System& system, const Candidate& candidate, int free, int counted,
+bool agrees(const FitModel& model, const Candidate& candidate, int free, int counted,
             double significance) {
-    if (system.has_estimated_groups()) return true;
+    if (model.meets().has_estimated_groups()) return true;
     const double chi2 = candidate.finished.chi2;
     const int least = counted - free + candidate.binding;
     if (chi2_tail(chi2, std::max(0, least)) > significance && counted > free) return true;
     if (!(chi2_tail(chi2, counted + candidate.binding) > significance)) return false;
-    const Diagnosis d = diagnose(system, candidate.finished.shape, candidate.finished.outline,
+    const Diagnosis d = diagnose(model, candidate.finished.shape, candidate.finished.outline,
                                  {.full = false, .binding = candidate.binding});
     // Readings that say less than one of them together contradict nobody.
     return chi2_tail(d.chi2, std::max(1.0, d.dof)) > significance;
@@ -41,8 +42,8 @@ auto rank(const Candidate& c, double handicap = 0) {
 // The starts as the first stages leave them.
 class Screening {
 public:
-    Screening(const System& system, Relaxation& relaxation)
-        : relaxation_(relaxation), starts_(system) {}
+    Screening(const FitModel& model, Relaxation& relaxation)
+        : relaxation_(relaxation), starts_(model) {}
 
     bool mesh_is_good() const { return starts_.mesh_is_good(); }
     /// The next start that may well lead home; when there is none, the best of those that have
@@ -74,36 +75,36 @@ private:
 
 }  // namespace
 
-Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
+Candidate finish_candidate(const FitModel& model, Relaxation& relaxation, const Shape& shape,
                            const ActiveSetOptions& options) {
     Candidate candidate;
-    if (system.splits()) {
-        candidate.finished = finish(system, shape, options.iterations);
-        const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
+    if (model.meets().splits) {
+        candidate.finished = finish(model, shape, options.iterations);
+        const Enclosed enclosed = enclosed_by(model, candidate.finished.shape);
         candidate.sound = enclosed.closed && enclosed.missing.empty();
         return candidate;
     }
     static_cast<ActiveSetFit&>(candidate) = fit_active_set(relaxation, shape, options);
     candidate.binding = relaxation.binding(candidate.finished.shape, candidate.held);
     candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
-                      volume(system.met_solid(candidate.finished.shape)) > 0;
+                      volume(met_solid(model, candidate.finished.shape)) > 0;
     return candidate;
 }
 
-Multistart fit_from_starts(const System& system, const FitOptions& options,
+Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
                            const Progress& progress) {
-    const Parameters parameters = system.parameters();
-    Relaxation relaxation(system, parameters);
+    const Parameters parameters = model.parameters();
+    Relaxation relaxation(model, parameters);
     const Relaxation::Counts counts = relaxation.counts();
     const int counted = counts.soft, free = counts.free;
 
     Multistart result;
-    Screening approaches(system, relaxation);
+    Screening approaches(model, relaxation);
     std::vector<double> ends;
     int fruitless = 0, without_stone = 0;
     double& work = result.work;
     // Each costs a large stone as much as all of them a small one.
-    const int facets = static_cast<int>(system.stone().solid.facets.size());
+    const int facets = static_cast<int>(model.stone().solid.facets.size());
     const int most =
         std::min(options.starts, std::max(k_search.least_starts, k_search.most_facets / facets));
     const auto may_go_on = [&] {
@@ -124,7 +125,7 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
         if (!rough) break;
         const Continued continued = continue_penalties(relaxation, *rough, part);
         Candidate candidate =
-            finish_candidate(system, relaxation, continued.shape,
+            finish_candidate(model, relaxation, continued.shape,
                              {.iterations = options.iterations,
                               .hopeless = result.best.sound ? result.best.finished.chi2 : 1e300});
         candidate.start = rough->start;
@@ -132,13 +133,13 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
         without_stone += candidate.is_no_stone;
         work += continued.work + candidate.finished.work;
         const bool good = candidate.is_an_end();
-        candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
+        candidate.agrees = good && agrees(model, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
         // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
         // lesser one: others get a chance.
         const bool accept =
             candidate.agrees && candidate.cost_of_holding < k_search.cheap_holding &&
-            (system.has_estimated_groups() ||
+            (model.meets().has_estimated_groups() ||
              chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_ends.agrees_well);
         // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
         // way.

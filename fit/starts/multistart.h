@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "fit/model/fit_model.h"
 #include "fit/model/options.h"
-#include "fit/model/system.h"
 #include "fit/solve/active_set.h"
 #include "fit/starts/search_policy.h"
 #include "stone/progress.h"
@@ -31,14 +31,14 @@ struct Multistart {
 };
 
 /// The last stage from a shape that is nearly right.
-Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
+Candidate finish_candidate(const FitModel& model, Relaxation& relaxation, const Shape& shape,
                            const ActiveSetOptions& options);
 
 /// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
 /// (then the readings contradict each other, and no start will help); gives up after several
 /// starts in a row that gave nothing better; else the best of `options.starts`. Throws Interrupted
 /// when progress says so.
-Multistart fit_from_starts(const System& system, const FitOptions& options,
+Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
                            const Progress& progress = {});
 
 }  // namespace culet

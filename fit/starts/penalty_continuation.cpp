@@ -69,7 +69,7 @@ Screened screen(Relaxation& relaxation, const Start& start, const Progress& prog
     const bool keep = start.keep_normals_at_first;
     if (!start.is_convex) run.once(result.shape, {0.03, 0.0}, {.keep = keep}, 0.05);
     result.shape = relaxation.parameters().symmetrised(
-        looking_as(relaxation.system(), std::move(result.shape), start.sides));
+        looking_as(relaxation.model(), std::move(result.shape), start.sides));
     if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
     const auto judge = [&] {
         const PenaltyScale penalty = penalty_of(k_search.stages[result.stages], true);

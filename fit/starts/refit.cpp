@@ -30,32 +30,32 @@ Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
 
 }  // namespace
 
-Candidate finish_from(const System& system, const Shape& shape, int iterations) {
-    const Parameters parameters = system.parameters();
-    Relaxation relaxation(system, parameters);
-    Candidate candidate = finish_candidate(system, relaxation, parameters.symmetrised(shape),
+Candidate finish_from(const FitModel& model, const Shape& shape, int iterations) {
+    const Parameters parameters = model.parameters();
+    Relaxation relaxation(model, parameters);
+    Candidate candidate = finish_candidate(model, relaxation, parameters.symmetrised(shape),
                                            {.iterations = iterations});
     candidate.start = "last result";
     return candidate;
 }
 
-Candidate refit_from(const System& system, const Shape& shape, int iterations) {
-    const Parameters parameters = system.parameters();
-    Relaxation relaxation(system, parameters);
+Candidate refit_from(const FitModel& model, const Shape& shape, int iterations) {
+    const Parameters parameters = model.parameters();
+    Relaxation relaxation(model, parameters);
     // The least redundancy that there can be, by counting.
     const Relaxation::Counts counts = relaxation.counts();
     const double agreeable =
         chi2_quantile(k_ends.agrees_well, std::max(1, counts.soft - counts.free));
     Candidate candidate = finish_candidate(
-        system, relaxation, turned_to_calipers(relaxation, parameters.symmetrised(shape)),
+        model, relaxation, turned_to_calipers(relaxation, parameters.symmetrised(shape)),
         {.iterations = iterations, .agreeable = agreeable});
     candidate.start = "earlier result";
     return candidate;
 }
 
-std::optional<Shape> shape_of(const System& system, const Solid& solid) {
-    Shape shape = system.mesh_shape();
-    const std::vector<Facet>& mesh = system.stone().solid.facets;
+std::optional<Shape> shape_of(const FitModel& model, const Solid& solid) {
+    Shape shape = model.mesh_shape();
+    const std::vector<Facet>& mesh = model.stone().solid.facets;
     std::vector<Plane> planes;
     for (const Facet& facet : mesh) {
         const int there = find_facet(solid, facet.name);
@@ -65,12 +65,12 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     Vec3 mean(0);
     for (const Vec3& v : solid.vertices) mean += v / double(solid.vertices.size());
     for (Plane& plane : planes) {
-        plane.offset = (plane.offset - glm::dot(plane.normal, mean)) / system.scale();
+        plane.offset = (plane.offset - glm::dot(plane.normal, mean)) / model.frame().scale();
     }
 
-    const int up = system.up_facet();
+    const int up = model.frame().up_facet();
     glm::dmat3 turn =
-        turn_upright(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(system.stone().up));
+        turn_upright(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(model.stone().up));
     // About up: as most facets of the mesh stand, then as the azimuths that were read say.
     double east = 0, north = 0;
     for (std::size_t f = 0; f < planes.size(); ++f) {
@@ -80,9 +80,9 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
         north += n.x * m.y - n.y * m.x;
     }
     if (east != 0 || north != 0) turn = turn_about_z(std::atan2(north, east)) * turn;
-    if (!system.stone().azimuth_from_mesh) {
+    if (!model.stone().azimuth_from_mesh) {
         turn = turn_about_z(azimuth_turn(
-                   system.readings(),
+                   model.readings(),
                    [&](int facet) { return turn * planes[std::size_t(facet)].normal; }, false)) *
                turn;
     }
@@ -93,7 +93,7 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     }
     if (up >= 0) shape.normals[std::size_t(up)] = Vec3{0, 0, 1};
     std::vector<std::vector<Plane>> of_point(shape.points.size());
-    for (const Incidence& incidence : system.incidences()) {
+    for (const Incidence& incidence : model.meets().incidences) {
         of_point[std::size_t(incidence.point)].push_back(planes[std::size_t(incidence.facet)]);
     }
     for (std::size_t p = 0; p < shape.points.size(); ++p) {

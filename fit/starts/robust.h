@@ -13,8 +13,8 @@ namespace culet {
 double robust_weight(Loss loss, double z);
 
 /// Fits again with each reading's variance divided by its weight, until no weight changes by more
-/// than 1 %. The readings' uncertainties in `system` are those of the last weights afterwards.
+/// than 1 %. The readings' uncertainties in `model` are those of the last weights afterwards.
 /// Returns the weights, one a reading. Exact readings and relations keep theirs.
-std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, int iterations);
+std::vector<double> reweight(FitModel& model, Candidate& candidate, Loss loss, int iterations);
 
 }  // namespace culet

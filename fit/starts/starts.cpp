@@ -11,6 +11,7 @@
 #include "fit/mesh/roughness.h"
 #include "fit/model/azimuth_turn.h"
 #include "fit/model/canonical.h"
+#include "fit/model/enclosed.h"
 #include "fit/model/orbits.h"
 #include "fit/starts/closing_sides.h"
 #include "fit/starts/search_policy.h"
@@ -66,17 +67,17 @@ Moments moments(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
 
 }  // namespace
 
-Starts::Starts(const System& system) : system_(system) {
-    const Shape& mesh = system.mesh_shape();
+Starts::Starts(const FitModel& model) : model_(model) {
+    const Shape& mesh = model.mesh_shape();
     double worst = 0;
-    for (const Incidence& i : system.incidences()) {
-        if (i.point >= static_cast<int>(system.stone().solid.vertices.size())) continue;
+    for (const Incidence& i : model.meets().incidences) {
+        if (i.point >= static_cast<int>(model.stone().solid.vertices.size())) continue;
         worst = std::max(worst, std::abs(glm::dot(mesh.normals[i.facet], mesh.points[i.point]) -
                                          mesh.offsets[i.facet]));
     }
     // Heights above small facets that were drawn a little askew are large: one of many says little.
     double squares = 0;
-    const std::vector<std::pair<int, int>> hinges = system.hinges();
+    const std::vector<std::pair<int, int>> hinges = hinges_of(model);
     for (const auto& [f, p] : hinges) {
         const double above =
             std::max(0.0, glm::dot(mesh.normals[f], mesh.points[p]) - mesh.offsets[f]);
@@ -91,7 +92,7 @@ Starts::Starts(const System& system) : system_(system) {
 void Starts::make_canonical() {
     if (canonical_made_) return;
     canonical_made_ = true;
-    canonical_ = canonical_polyhedron(system_.stone().solid, system_.edges());
+    canonical_ = canonical_polyhedron(model_.stone().solid, model_.edges());
 }
 
 std::optional<Start> Starts::next() {
@@ -138,17 +139,17 @@ std::optional<Start> Starts::next() {
 // What the mesh says of a facet counts when it tells the two meanings of the reading apart by six
 // times what its corners' errors tilt it by.
 void Starts::find_sides() {
-    const Shape& mesh = system_.mesh_shape();
+    const Shape& mesh = model_.mesh_shape();
     sides_.assign(mesh.normals.size(), 0);
-    for (const Reading& r : system_.readings()) {
+    for (const Reading& r : model_.readings()) {
         // Not where it may stand upright, to within its sigma.
         if (r.side != 0 && std::numbers::pi / 2 - r.value > 3 * r.sigma) {
             for (const int f : r.facets) sides_[std::size_t(f)] = r.side;
         }
     }
-    const std::optional<MeshRoughness> rough = MeshRoughness::of(system_);
+    const std::optional<MeshRoughness> rough = MeshRoughness::of(model_);
     if (!rough) return;
-    for (const Reading& r : system_.readings()) {
+    for (const Reading& r : model_.readings()) {
         if (r.kind != ReadingKind::inclination || r.datum.kind != Datum::Kind::up ||
             r.aggregate != Aggregate::single || r.side != 0) {
             continue;
@@ -163,17 +164,17 @@ void Starts::find_sides() {
     // Scanned girdles need it: without, 3 of 10 rough meshes of such were lost, and the others took
     // four times as long (bench/corpus_bench.cpp). Not where facets follow each other: those
     // that were not read have the sides of others.
-    if (system_.exact_motions().empty())
-        sides_ = closing_sides(system_, std::move(sides_), rough->corner());
+    if (model_.symmetries().exact_motions().empty())
+        sides_ = closing_sides(model_, std::move(sides_), rough->corner());
 }
 
-Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides) {
+Shape looking_as(const FitModel& model, Shape shape, const std::vector<int>& sides) {
     for (std::size_t f = 0; f < sides.size(); ++f) {
         Vec3& n = shape.normals[f];
-        if (static_cast<int>(f) == system.up_facet() || !(sides[f] * n.z < 0)) continue;
+        if (static_cast<int>(f) == model.frame().up_facet() || !(sides[f] * n.z < 0)) continue;
         n.z = -n.z;
         Vec3 mean(0);
-        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        const std::vector<int>& loop = model.mesh_outline()->loops[f];
         for (int corner : loop) mean += shape.points[corner] / double(loop.size());
         shape.offsets[f] = glm::dot(n, mean);
     }
@@ -181,18 +182,18 @@ Shape looking_as(const System& system, Shape shape, const std::vector<int>& side
 }
 
 Start Starts::mesh() const {
-    return {"mesh", system_.mesh_shape(), false, false, {}};
+    return {"mesh", model_.mesh_shape(), false, false, {}};
 }
 
 // Brings the up facet level, and azimuths to where they were read.
 Shape Starts::upright(Shape shape) const {
-    if (system_.up_facet() >= 0) {
-        const Vec3 n = shape.normals[system_.up_facet()];
+    if (model_.frame().up_facet() >= 0) {
+        const Vec3 n = shape.normals[model_.frame().up_facet()];
         shape = mapped(std::move(shape), turn_upright(n), Vec3(0));
-        shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
+        shape.normals[model_.frame().up_facet()] = Vec3{0, 0, 1};
     }
     const double angle = azimuth_turn(
-        system_.readings(), [&](int facet) { return shape.normals[facet]; }, false);
+        model_.readings(), [&](int facet) { return shape.normals[facet]; }, false);
     return turned_about_z(std::move(shape), angle);
 }
 
@@ -200,7 +201,7 @@ Shape Starts::upright(Shape shape) const {
 std::optional<Start> Starts::similar() {
     make_canonical();
     if (!canonical_) return std::nullopt;
-    const Shape& mesh = system_.mesh_shape();
+    const Shape& mesh = model_.mesh_shape();
     const Moments m = moments(canonical_->points, mesh.points);
     const SingularValues parts = singular_values(m.cross);
     const Eigen::Matrix3d u = parts.u, v = parts.v;
@@ -214,7 +215,7 @@ std::optional<Start> Starts::similar() {
 
 // A canonical polyhedron that was laid over the mesh; points that it has not are the mesh's.
 Start Starts::over_mesh(const std::string& name, Shape shape) const {
-    const Shape& mesh = system_.mesh_shape();
+    const Shape& mesh = model_.mesh_shape();
     Start start{name, std::move(shape), false, true, {}};
     start.shape.extras = mesh.extras;
     for (std::size_t p = start.shape.points.size(); p < mesh.points.size(); ++p) {
@@ -228,7 +229,7 @@ Start Starts::over_mesh(const std::string& name, Shape shape) const {
 std::optional<Start> Starts::affine() {
     make_canonical();
     if (!canonical_) return std::nullopt;
-    const Shape& mesh = system_.mesh_shape();
+    const Shape& mesh = model_.mesh_shape();
     const Moments m = moments(canonical_->points, mesh.points);
     const Eigen::Matrix3d map = m.cross * inverse3(m.own);
     const Eigen::VectorXd stretches = singular_values(map).values;
@@ -247,7 +248,7 @@ std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::s
     std::vector<double> tilt(facets, -1), turn(facets, 0);
     std::vector<bool> turned(facets, false);
     bool any = false;
-    for (const Reading& r : system_.readings()) {
+    for (const Reading& r : model_.readings()) {
         if (r.datum.kind != Datum::Kind::up || r.facets.empty()) continue;
         for (int f : r.facets) {
             if (r.kind == ReadingKind::inclination) {
@@ -264,7 +265,7 @@ std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::s
     if (!any) return std::nullopt;
     const Vec3 middle = mean_of(shape.points, shape.points.size());
     for (std::size_t f = 0; f < facets; ++f) {
-        if (static_cast<int>(f) == system_.up_facet()) continue;
+        if (static_cast<int>(f) == model_.frame().up_facet()) continue;
         Vec3& n = shape.normals[f];
         const double flat = std::hypot(n.x, n.y);
         const double inclination = tilt[f] >= 0 ? tilt[f] : std::atan2(flat, std::abs(n.z));
@@ -274,7 +275,7 @@ std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::s
         // Inclinations do not say whether a facet looks up or down; where it lies does, better than
         // the normal of a rough mesh.
         Vec3 mean(0);
-        const std::vector<int>& loop = system_.mesh_outline()->loops[f];
+        const std::vector<int>& loop = model_.mesh_outline()->loops[f];
         for (int corner : loop) mean += shape.points[corner] / double(loop.size());
         if (sides_[f] != 0) {
             n.z = std::copysign(n.z, sides_[f]);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
@@ -22,12 +22,12 @@ struct Start {
 };
 
 /// Turns facets that look the other way than `sides`.
-Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides);
+Shape looking_as(const FitModel& model, Shape shape, const std::vector<int>& sides);
 
 /// Makes starts one after another, each when it is asked for; always the same ones.
 class Starts {
 public:
-    explicit Starts(const System& system);
+    explicit Starts(const FitModel& model);
     /// Nothing when there are no more.
     std::optional<Start> next();
     /// Planar and convex but for a small part: then the first starts should do.
@@ -43,7 +43,7 @@ private:
     Shape upright(Shape shape) const;
     void find_sides();
 
-    const System& system_;
+    const FitModel& model_;
     bool mesh_is_good_ = false, canonical_made_ = false;
     std::optional<Shape> canonical_;
     std::vector<int> sides_;

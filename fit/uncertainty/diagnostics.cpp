@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "fit/model/equations.h"
 #include "fit/model/facet_functions.h"
 #include "fit/model/linear.h"
 #include "fit/solve/free_meets.h"
@@ -26,7 +27,7 @@ bool has_azimuth(const Shape& shape, int facet) {
     return std::hypot(n.x, n.y) > 1e-9;
 }
 
-void find_rank_defect(const System& system, const Shape& shape, const Covariance& covariance,
+void find_rank_defect(const FitModel& model, const Shape& shape, const Covariance& covariance,
                       const Vec3& middle, Diagnosis& diagnosis) {
     diagnosis.rank_defect = covariance.rank_defect();
     if (diagnosis.rank_defect == 0) return;
@@ -39,14 +40,14 @@ void find_rank_defect(const System& system, const Shape& shape, const Covariance
         for (std::size_t k = 0; k < 3; ++k) {
             if (k == 1 && !has_azimuth(shape, f)) continue;
             if (std::sqrt(covariance.open_variance(rows[k])) > 0.02) {
-                diagnosis.undetermined.push_back({system.stone().solid.facets[f].name, names[k]});
+                diagnosis.undetermined.push_back({model.stone().solid.facets[f].name, names[k]});
             }
         }
     }
 }
 
 // Without a covariance: what every reading came to, and nothing of how sure that is.
-void residuals_only(const System& system, const Linearised& linear,
+void residuals_only(const FitModel& model, const Linearised& linear,
                     const std::vector<Observation>& observations, Diagnosis& diagnosis) {
     diagnosis.analysed = false;
     constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
@@ -55,7 +56,8 @@ void residuals_only(const System& system, const Linearised& linear,
     const auto note = [&](int reading, double residual) {
         if (reading < 0) return;
         ReadingCheck& c = diagnosis.readings[std::size_t(reading)];
-        const double in_units = residual * system.unit_of(system.readings()[std::size_t(reading)]);
+        const double in_units =
+            residual * model.frame().unit_of(model.readings()[std::size_t(reading)]);
         if (std::abs(in_units) > std::abs(c.residual)) c.residual = in_units;
     };
     for (const Observation& o : observations) note(o.reading, o.residual(linear) * o.sigma);
@@ -98,7 +100,7 @@ void sum_up(const Linearised& linear, const std::vector<Observation>& observatio
 
 // Beside a prior, whose terms are no readings: of the readings alone. One value that was read for
 // several facets is one observation, whose share in each of them is alike.
-void count_readings_alone(const System& system, const Linearised& linear,
+void count_readings_alone(const FitModel& model, const Linearised& linear,
                           const std::vector<Observation>& observations,
                           const std::vector<double>& redundancy, int binding,
                           Diagnosis& diagnosis) {
@@ -108,7 +110,7 @@ void count_readings_alone(const System& system, const Linearised& linear,
     for (std::size_t i = 0; i < observations.size(); ++i) {
         const Observation& o = observations[i];
         if (o.reading < 0) continue;
-        const Reading& r = system.readings()[std::size_t(o.reading)];
+        const Reading& r = model.readings()[std::size_t(o.reading)];
         diagnosis.chi2 += std::pow(o.residual(linear), 2);
         if (r.line > 0 && !is_relation(r.kind)) {
             rows[{r.file.string(), r.line}].push_back(redundancy[i]);
@@ -122,15 +124,15 @@ void count_readings_alone(const System& system, const Linearised& linear,
 }
 
 // Every reading's equations together; the worst of them speaks for the reading.
-void check_readings(const System& system, const Linearised& linear,
+void check_readings(const FitModel& model, const Linearised& linear,
                     const std::vector<Observation>& observations,
                     const std::vector<double>& redundancy, Diagnosis& diagnosis) {
-    std::vector<int> terms(system.readings().size(), 0);
+    std::vector<int> terms(model.readings().size(), 0);
     const auto note = [&](int which, double sigma, double residual, double r, double w) {
         if (which < 0) return;
-        const Reading& reading = system.readings()[std::size_t(which)];
+        const Reading& reading = model.readings()[std::size_t(which)];
         ReadingCheck& c = diagnosis.readings[std::size_t(which)];
-        const double unit = system.unit_of(reading);
+        const double unit = model.frame().unit_of(reading);
         if (terms[std::size_t(which)]++ == 0 || std::abs(residual * unit) > std::abs(c.residual)) {
             c.residual = residual * unit;
         }
@@ -159,9 +161,9 @@ void check_readings(const System& system, const Linearised& linear,
 
 // Inclination, azimuth and offset of each facet as the result tells them: azimuths in its frame,
 // which turns to lie as the mesh does.
-std::vector<FunctionRow> facet_rows(const System& system, const Shape& shape, const Vec3& middle) {
+std::vector<FunctionRow> facet_rows(const FitModel& model, const Shape& shape, const Vec3& middle) {
     const Layout layout = layout_of(shape);
-    const FunctionRow turn = RowWriter(shape).function(system.turn_of(shape));
+    const FunctionRow turn = RowWriter(shape).function(model.frame().turn_of(shape));
     std::vector<FunctionRow> rows;
     for (int f = 0; f < layout.facets; ++f) {
         std::array<FunctionRow, 3> three = facet_functions(shape, f, layout, middle);
@@ -206,40 +208,40 @@ void find_facet_covariance(const Covariance& covariance, const std::vector<Funct
 
 }  // namespace
 
-Diagnosis diagnose(const System& system, const Shape& shape,
+Diagnosis diagnose(const FitModel& model, const Shape& shape,
                    const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options) {
     Diagnosis diagnosis;
-    const auto covariance = std::make_shared<const Covariance>(linearise(system, shape, outline));
+    const auto covariance = std::make_shared<const Covariance>(linearise(model, shape, outline));
     const Linearised& linear = covariance->linear();
     diagnosis.chi2 = linear.chi2();
-    diagnosis.readings.resize(system.readings().size());
+    diagnosis.readings.resize(model.readings().size());
     diagnosis.facets.resize(shape.normals.size());
     const std::vector<Observation> observations = observations_of(linear);
     if (!covariance->usable()) {
-        residuals_only(system, linear, observations, diagnosis);
+        residuals_only(model, linear, observations, diagnosis);
         return diagnosis;
     }
     const std::vector<double> redundancy = redundancies_of(observations, *covariance);
     sum_up(linear, observations, redundancy, options.binding, diagnosis);
     if (!options.full) return diagnosis;
-    if (system.has_prior()) {
-        count_readings_alone(system, linear, observations, redundancy, options.binding, diagnosis);
+    if (!model.prior().empty()) {
+        count_readings_alone(model, linear, observations, redundancy, options.binding, diagnosis);
     }
     diagnosis.covariance = covariance;
     diagnosis.suspect_limit = two_sided_normal_quantile(
         options.significance / std::max<double>(1, double(observations.size())));
-    check_readings(system, linear, observations, redundancy, diagnosis);
-    find_suspects(system, options.significance, diagnosis);
+    check_readings(model, linear, observations, redundancy, diagnosis);
+    find_suspects(model, options.significance, diagnosis);
     if (linear.worst_hard() > k_hard_limit) {
-        diagnosis.disagreeing = inconsistent_exact_readings(system, shape, outline);
+        diagnosis.disagreeing = inconsistent_exact_readings(model, shape, outline);
     }
     const Vec3 middle = middle_of(shape);
-    const std::vector<FunctionRow> rows = facet_rows(system, shape, middle);
+    const std::vector<FunctionRow> rows = facet_rows(model, shape, middle);
     find_facet_sigmas(shape, *outline, *covariance, rows, diagnosis);
     if (shape.normals.size() <= k_checks.most_facets_together)
         find_facet_covariance(*covariance, rows, diagnosis);
-    if (system.has_prior()) find_parts_read(shape, *covariance, middle, diagnosis);
-    find_rank_defect(system, shape, *covariance, middle, diagnosis);
+    if (!model.prior().empty()) find_parts_read(shape, *covariance, middle, diagnosis);
+    find_rank_defect(model, shape, *covariance, middle, diagnosis);
     return diagnosis;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/model/undetermined.h"
 #include "fit/solve/free_meets.h"
 
@@ -58,7 +58,7 @@ struct Diagnosis {
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;
     int rank_defect = 0;
-    /// Of each group of estimated uncertainty (`System::group_sigmas`): sum of squared residuals
+    /// Of each group of estimated uncertainty (`FitModel::group_sigmas`): sum of squared residuals
     /// and redundancy.
     std::array<double, 2> group_squares{}, group_redundancy{};
 };
@@ -71,7 +71,7 @@ struct DiagnosisOptions {
     int binding = 0;
 };
 
-Diagnosis diagnose(const System& system, const Shape& shape,
+Diagnosis diagnose(const FitModel& model, const Shape& shape,
                    const std::shared_ptr<const Outline>& outline,
                    const DiagnosisOptions& options = {});
 

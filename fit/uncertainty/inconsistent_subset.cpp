@@ -126,9 +126,9 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
     return left;
 }
 
-std::vector<int> inconsistent_exact_readings(const System& system, const Shape& shape,
+std::vector<int> inconsistent_exact_readings(const FitModel& model, const Shape& shape,
                                              const std::shared_ptr<const Outline>& outline) {
-    const Linearised linear = linearise(system, shape, outline);
+    const Linearised linear = linearise(model, shape, outline);
     if (!(linear.worst_hard() > k_hard_limit)) return {};
     const Eigen::Index unknowns = linear.layout.size();
     // Where nothing more can be done, the equations that miss are those that take part.
@@ -142,7 +142,7 @@ std::vector<int> inconsistent_exact_readings(const System& system, const Shape& 
         } else {
             equations[reading].push_back(i);
             // Symmetry is built into the unknowns and never misses itself.
-            if (is_relation(system.readings()[std::size_t(reading)].kind) ||
+            if (is_relation(model.readings()[std::size_t(reading)].kind) ||
                 std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
                 readings.insert(reading);
             }

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 
 namespace culet {
 
@@ -19,7 +19,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
 /// The same for exact readings, at a shape where they miss by least squares: an irreducible set of
 /// readings whose hard equations, together with the meets, have no common solution. Empty when they
 /// have one.
-std::vector<int> inconsistent_exact_readings(const System& system, const Shape& shape,
+std::vector<int> inconsistent_exact_readings(const FitModel& model, const Shape& shape,
                                              const std::shared_ptr<const Outline>& outline);
 
 }  // namespace culet

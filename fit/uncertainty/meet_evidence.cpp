@@ -16,8 +16,8 @@ namespace {
 // In parts of the usual miss; 0 where nothing can be said. The evidence is what the readings are
 // likely by: meets beside the prior have a likelihood even without them, which is no evidence, and
 // is the larger, the smaller the sigma.
-double allowed_part(const System& system, const Finished& at, double usual) {
-    MeetLikelihood read(system, at), unread(system, at, false);
+double allowed_part(const FitModel& model, const Finished& at, double usual) {
+    MeetLikelihood read(model, at), unread(model, at, false);
     double allowed = 0, least = std::numeric_limits<double>::infinity();
     for (double part = k_evidence.least_part; part < k_evidence.most_part;
          part *= k_evidence.ratio) {
@@ -32,14 +32,14 @@ double allowed_part(const System& system, const Finished& at, double usual) {
 
 }  // namespace
 
-std::optional<MeetEvidence> weigh_meets(System& system, const Finished& at,
+std::optional<MeetEvidence> weigh_meets(FitModel& model, const Finished& at,
                                         const FitOptions& options) {
-    const double usual = k_prior.meet_miss * 2 * system.half_width();
+    const double usual = k_prior.meet_miss * 2 * model.frame().half_width();
     MeetEvidence evidence;
     evidence.finished = at;
     double before = 0;
     for (int round = 0; round < k_evidence.rounds; ++round) {
-        const double part = allowed_part(system, evidence.finished, usual);
+        const double part = allowed_part(model, evidence.finished, usual);
         if (round == 0 && !(part > 0)) return std::nullopt;
         if (round == 0 && part <= k_evidence.exact_part) {
             evidence.exact = true;
@@ -48,10 +48,9 @@ std::optional<MeetEvidence> weigh_meets(System& system, const Finished& at,
         if (!(part > 0) || (before > 0 && std::abs(std::log(part / before)) < k_evidence.same))
             break;
         before = part;
-        system.set_group_sigma(0, part * usual);
-        system.set_group_sigma(1, part * usual);
+        model.set_group_sigmas({part * usual, part * usual});
         const int steps = evidence.finished.iterations;
-        evidence.finished = finish(system, evidence.finished.shape, options.iterations);
+        evidence.finished = finish(model, evidence.finished.shape, options.iterations);
         evidence.finished.iterations += steps;
         if (!evidence.finished.enclosed) break;
     }

@@ -1,4 +1,5 @@
 #include "fit/uncertainty/meet_likelihood.h"
+#include "fit/model/equations.h"
 #include "fit/uncertainty/constants.h"
 
 #include <cmath>
@@ -37,8 +38,8 @@ void leave_readings_out(Linearised& linear) {
 
 }  // namespace
 
-MeetLikelihood::MeetLikelihood(const System& system, const Finished& at, bool with_readings)
-    : linear_(linearise(system, at.shape, at.outline)),
+MeetLikelihood::MeetLikelihood(const FitModel& model, const Finished& at, bool with_readings)
+    : linear_(linearise(model, at.shape, at.outline)),
       stiffness_(linear_.metric / k_cov.unheld_variance) {
     if (!with_readings) leave_readings_out(linear_);
     for (const Equation& e : linear_.soft) {

@@ -3,14 +3,14 @@
 
 #include <array>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/solve/free_meets.h"
 #include "fit/solve/kkt_solver.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {
 
-/// Of polished facets and of the girdle's, in the scale of the fit: `System::group_sigmas`.
+/// Of polished facets and of the girdle's, in the scale of the fit: `FitModel::group_sigmas`.
 using MeetSigmas = std::array<double, 2>;
 
 /// Twice the negative logarithm of the restricted likelihood (Patterson & Thompson 1971), but for a
@@ -20,7 +20,7 @@ using MeetSigmas = std::array<double, 2>;
 class MeetLikelihood {
 public:
     /// Without readings: of the meets beside the prior, as if nothing had been read.
-    MeetLikelihood(const System& system, const Finished& at, bool with_readings = true);
+    MeetLikelihood(const FitModel& model, const Finished& at, bool with_readings = true);
 
     bool has(std::size_t group) const { return present_[group]; }
     /// Infinite where the equations cannot be factored.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/model/enclosed.h"
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/diagnostics.h"
 #include "fit/uncertainty/meet_likelihood.h"
@@ -16,33 +17,34 @@ using Sigmas = MeetSigmas;
 
 // Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
 // redundancy, repeated until it agrees with the one they were weighted by.
-void agree_with_residuals(System& system, Finished& finished, const FitOptions& options,
+void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions& options,
                           const Progress& progress) {
     for (int round = 0; round < 60; ++round) {
         if (progress && !progress(0.7 + 0.004 * round)) throw Interrupted();
-        const Diagnosis d = diagnose(system, finished.shape, finished.outline, {.full = false});
+        const Diagnosis d = diagnose(model, finished.shape, finished.outline, {.full = false});
         double largest = 0;
+        Sigmas sigmas = model.meets().group_sigmas;
         for (std::size_t g = 0; g < d.group_squares.size(); ++g) {
             if (!(d.group_redundancy[g] > 0.5)) continue;
-            const double before = system.group_sigmas()[g];
+            const double before = sigmas[g];
             const double change =
                 0.5 * std::log(std::max(1e-30, d.group_squares[g]) / d.group_redundancy[g]) -
                 std::log(before);
             largest = std::max(largest, std::abs(change));
-            system.set_group_sigma(static_cast<int>(g),
-                                   std::max(k_meet_size.least_sigma,
-                                            before * std::exp(std::clamp(change, -2.0, 2.0))));
+            sigmas[g] =
+                std::max(k_meet_size.least_sigma, before * std::exp(std::clamp(change, -2.0, 2.0)));
         }
+        model.set_group_sigmas(sigmas);
         // One per cent of an uncertainty is more than its estimate is worth. Before that, the
         // weights move again before the steps would end.
         const bool agrees = largest < 1e-2;
         const int steps = finished.iterations;
-        finished = finish(system, finished.shape, agrees ? options.iterations : 3);
+        finished = finish(model, finished.shape, agrees ? options.iterations : 3);
         finished.iterations += steps;
         if (agrees) return;
     }
     const int steps = finished.iterations;
-    finished = finish(system, finished.shape, options.iterations);
+    finished = finish(model, finished.shape, options.iterations);
     finished.iterations += steps;
 }
 
@@ -73,9 +75,9 @@ Sigmas best_of_scan(MeetLikelihood& likelihood, const Sigmas& from, double& leas
 }
 
 // An end where the planes leave no room for a facet is no stone of this mesh.
-bool has_all_facets(const System& system, const Finished& finished) {
+bool has_all_facets(const FitModel& model, const Finished& finished) {
     if (!finished.enclosed) return false;
-    const System::Enclosed enclosed = system.enclosed(finished.shape);
+    const Enclosed enclosed = enclosed_by(model, finished.shape);
     return enclosed.closed && enclosed.missing.empty();
 }
 
@@ -86,36 +88,33 @@ bool is_same(const Sigmas& a, const Sigmas& b) {
 
 }  // namespace
 
-int estimate_meet_sigmas(System& system, Finished& finished, const FitOptions& options,
+int estimate_meet_sigmas(FitModel& model, Finished& finished, const FitOptions& options,
                          const Progress& progress) {
-    agree_with_residuals(system, finished, options, progress);
+    agree_with_residuals(model, finished, options, progress);
     std::vector<End> ends;
-    ends.push_back({system.group_sigmas(), finished, 0});
+    ends.push_back({model.meets().group_sigmas, finished, 0});
     std::size_t best = 0;
     int steps = finished.iterations;
     for (std::size_t at = 0; at < ends.size() && int(ends.size()) < k_meet_size.most_ends; ++at) {
         if (!ends[at].finished.outline) break;
-        system.set_group_sigma(0, ends[at].sigmas[0]);
-        system.set_group_sigma(1, ends[at].sigmas[1]);
-        MeetLikelihood likelihood(system, ends[at].finished);
+        model.set_group_sigmas(ends[at].sigmas);
+        MeetLikelihood likelihood(model, ends[at].finished);
         ends[at].likelihood = likelihood(ends[at].sigmas);
         if (ends[at].likelihood < ends[best].likelihood) best = at;
         double least = ends[at].likelihood - 2 * k_meet_size.another;
         const Sigmas there = best_of_scan(likelihood, ends[at].sigmas, least);
         if (is_same(there, ends[at].sigmas)) continue;
-        system.set_group_sigma(0, there[0]);
-        system.set_group_sigma(1, there[1]);
-        End end{there, finish(system, ends[at].finished.shape, options.iterations), 0};
-        agree_with_residuals(system, end.finished, options, progress);
+        model.set_group_sigmas(there);
+        End end{there, finish(model, ends[at].finished.shape, options.iterations), 0};
+        agree_with_residuals(model, end.finished, options, progress);
         steps += end.finished.iterations;
-        end.sigmas = system.group_sigmas();
+        end.sigmas = model.meets().group_sigmas;
         const bool known = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
             return is_same(other.sigmas, end.sigmas);
         });
-        if (!known && has_all_facets(system, end.finished)) ends.push_back(std::move(end));
+        if (!known && has_all_facets(model, end.finished)) ends.push_back(std::move(end));
     }
-    system.set_group_sigma(0, ends[best].sigmas[0]);
-    system.set_group_sigma(1, ends[best].sigmas[1]);
+    model.set_group_sigmas(ends[best].sigmas);
     finished = std::move(ends[best].finished);
     finished.iterations = steps;
     return static_cast<int>(ends.size());

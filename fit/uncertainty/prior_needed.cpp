@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/solve/relaxation.h"
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/covariance.h"
@@ -15,17 +15,17 @@ bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
     for (const Reading& r : readings) {
         if (r.told) return true;
     }
-    const System system(stone, readings, options);
+    const FitModel model(stone, readings, options);
     // Symmetry within a sigma makes more equations than it tells anything.
     const auto values = std::count_if(readings.begin(), readings.end(), [](const Reading& r) {
         return !is_relation(r.kind) && !r.exact;
     });
-    const Parameters parameters = system.parameters();
-    const Relaxation::Counts counts = Relaxation(system, parameters).counts();
-    const int free = std::min(counts.free, int(system.edges().edges.size()) + k_needed.shape);
+    const Parameters parameters = model.parameters();
+    const Relaxation::Counts counts = Relaxation(model, parameters).counts();
+    const int free = std::min(counts.free, int(model.edges().edges.size()) + k_needed.shape);
     if (double(values) >= k_needed.part_read * free) return true;
     if (stone.solid.facets.size() > k_needed.many_facets) return false;
-    const Covariance covariance(linearise(system, system.mesh_shape(), system.mesh_outline()));
+    const Covariance covariance(linearise(model, model.mesh_shape(), model.mesh_outline()));
     return covariance.usable() && covariance.rank_defect() <= k_needed.few_open;
 }
 

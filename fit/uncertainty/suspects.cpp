@@ -42,7 +42,7 @@ Residuals residuals_of(const std::vector<Observation>& observations, const Covar
     return residuals;
 }
 
-void name_suspects(const System& system, const std::vector<Observation>& observations,
+void name_suspects(const FitModel& model, const std::vector<Observation>& observations,
                    const std::vector<Outlier>& outliers, Diagnosis& diagnosis) {
     const auto reading_of = [&](Eigen::Index i) { return observations[std::size_t(i)].reading; };
     for (const Outlier& outlier : outliers) {
@@ -50,9 +50,9 @@ void name_suspects(const System& system, const std::vector<Observation>& observa
         if (reading < 0 || diagnosis.readings[std::size_t(reading)].suspect) continue;
         diagnosis.readings[std::size_t(reading)].suspect = true;
         diagnosis.suspects.push_back(reading);
-        const Reading& named = system.readings()[std::size_t(reading)];
+        const Reading& named = model.readings()[std::size_t(reading)];
         const double unit =
-            observations[std::size_t(outlier.equation)].sigma * system.unit_of(named);
+            observations[std::size_t(outlier.equation)].sigma * model.frame().unit_of(named);
         Suspicion suspicion{
             reading, named.value - outlier.error * unit, outlier.error_sigma * unit, {}};
         for (const Eigen::Index other : outlier.alternatives) {
@@ -67,7 +67,7 @@ void name_suspects(const System& system, const std::vector<Observation>& observa
 
 }  // namespace
 
-void find_suspects(const System& system, double significance, Diagnosis& diagnosis) {
+void find_suspects(const FitModel& model, double significance, Diagnosis& diagnosis) {
     const Covariance& covariance = *diagnosis.covariance;
     const std::vector<Observation> observations = observations_of(covariance.linear());
     const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
@@ -76,7 +76,7 @@ void find_suspects(const System& system, double significance, Diagnosis& diagnos
     const std::vector<Outlier> outliers =
         find_outliers(residuals, diagnosis.suspect_limit, chi2_quantile(significance / pairs, 2),
                       std::max<std::size_t>(3, observations.size() / 10));
-    name_suspects(system, observations, outliers, diagnosis);
+    name_suspects(model, observations, outliers, diagnosis);
     if (!(chi2_tail(diagnosis.chi2, diagnosis.dof) < significance) ||
         count > k_snooping.most_equations) {
         return;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/findings/cut_quantities.h"
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/readings/rounding.h"
 #include "fit/readings/slips.h"
 #include "stone/errors.h"
@@ -83,10 +83,10 @@ TEST(Proportions, SlopesMatchDifferences) {
                                 {"Q", {glm::normalize(Vec3{-0.3, 0.2, -1}), 1}}});
     for (const Solid& solid : {box, shaken(brilliant(), 0.01, 5)}) {
         const Stone stone = stone_of(solid);
-        const System system(stone, {}, {});
-        const Shape& shape = system.mesh_shape();
-        const auto outline = system.mesh_outline();
-        const std::vector<CutQuantity> all = cut_quantities(system, shape, outline);
+        const FitModel model(stone, {}, {});
+        const Shape& shape = model.mesh_shape();
+        const auto outline = model.mesh_outline();
+        const std::vector<CutQuantity> all = cut_quantities(model, shape, outline);
         EXPECT_GE(all.size(), 8u);
         for (std::size_t q = 0; q < all.size(); ++q) {
             std::vector<Vec3> slope(shape.points.size(), Vec3(0));
@@ -99,8 +99,8 @@ TEST(Proportions, SlopesMatchDifferences) {
                     Shape high = shape, low = shape;
                     high.points[p][k] += h;
                     low.points[p][k] -= h;
-                    const double there = cut_quantities(system, high, outline)[q].quantity.value,
-                                 here = cut_quantities(system, low, outline)[q].quantity.value;
+                    const double there = cut_quantities(model, high, outline)[q].quantity.value,
+                                 here = cut_quantities(model, low, outline)[q].quantity.value;
                     EXPECT_NEAR(slope[p][k], (there - here) / (2 * h), 1e-6)
                         << all[q].name << " point " << p << " " << k;
                 }

@@ -28,10 +28,11 @@ struct Found {
 Found sides_found(const Truth& truth, const Stone& mesh, double noise,
                   const std::vector<WrittenReading>& written) {
     const std::vector<Reading> readings = bind_readings(written, mesh);
-    const System system(mesh, readings, {});
-    const double rough = noise * diameter(truth.stone.solid) / std::sqrt(3.0) / system.scale();
+    const FitModel model(mesh, readings, {});
+    const double rough =
+        noise * diameter(truth.stone.solid) / std::sqrt(3.0) / model.frame().scale();
     const std::size_t count = mesh.solid.facets.size();
-    const std::vector<int> sides = closing_sides(system, std::vector<int>(count, 0), rough);
+    const std::vector<int> sides = closing_sides(model, std::vector<int>(count, 0), rough);
     Found found;
     for (std::size_t f = 0; f < count; ++f) {
         const Facet& facet = truth.stone.solid.facets[f];
@@ -65,18 +66,18 @@ TEST(ClosingSides, AreLeftAloneWhereTheMeshKnowsThem) {
     const Truth truth = make_tiered(60, 1);
     const Stone mesh = aimed_at_zero(truth.stone);
     const std::vector<Reading> readings = bind_readings(with_azimuths(truth, 1), mesh);
-    const System system(mesh, readings, {});
+    const FitModel model(mesh, readings, {});
     // Even wrong ones: it is not asked again.
     const std::vector<int> known(mesh.solid.facets.size(), 1);
-    EXPECT_EQ(closing_sides(system, known, 0.01), known);
+    EXPECT_EQ(closing_sides(model, known, 0.01), known);
 }
 
 TEST(ClosingSides, AreNotToldWithoutAzimuths) {
     const Truth truth = make_tiered(60, 1);
     const std::vector<Reading> readings = bind_readings(read_by_instruments(truth, 1), truth.stone);
-    const System system(truth.stone, readings, {});
+    const FitModel model(truth.stone, readings, {});
     const std::vector<int> none(truth.stone.solid.facets.size(), 0);
-    EXPECT_EQ(closing_sides(system, none, 0.01), none);
+    EXPECT_EQ(closing_sides(model, none, 0.01), none);
 }
 
 // Neighbours along the girdle that all lean the wrong way hold each other: turned over one by one,

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "fit/model/datum_defect.h"
-#include "fit/model/system.h"
+#include "fit/model/fit_model.h"
 #include "fit/solve/null_space.h"
 #include "fit/uncertainty/normal_inverse.h"
 #include "stone/dense_algebra.h"
@@ -120,8 +120,8 @@ std::vector<Case> cases() {
 TEST(Covariance, BothAlgorithmsAgree) {
     const Stone stone = stone_of(brilliant());
     for (const Case& c : cases()) {
-        const System system(stone, c.readings, {});
-        const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline());
+        const FitModel model(stone, c.readings, {});
+        const Linearised linear = linearise(model, model.mesh_shape(), model.mesh_outline());
         const Covariance dense(linear, Covariance::Algorithm::dense);
         const Covariance sparse(linear, Covariance::Algorithm::sparse);
         ASSERT_TRUE(dense.usable() && sparse.usable()) << c.name;
@@ -175,8 +175,8 @@ TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
 // Parameters by Steinitz: edges + 6, less what is held by the frame and by independent readings.
 TEST(Covariance, CountsWhatIsOpen) {
     const Stone stone = stone_of(brilliant());
-    const System system(stone, {}, {});
-    const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline());
+    const FitModel model(stone, {}, {});
+    const Linearised linear = linearise(model, model.mesh_shape(), model.mesh_outline());
     for (const auto algorithm : {Covariance::Algorithm::dense, Covariance::Algorithm::sparse}) {
         // 128 edges + 6, less shifts (3), the table's tilts (2) and the turn about up.
         EXPECT_EQ(Covariance(linear, algorithm).rank_defect(), 128);
@@ -189,13 +189,13 @@ TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
     const Solid truth = brilliant();
     const Stone stone = stone_of(truth);
     std::vector<Reading> readings = cases()[0].readings;
-    const System plain(stone, readings, {});
+    const FitModel plain(stone, readings, {});
     readings[0].sigma = 1e-12;
     readings[1].sigma = 1e12;
     readings[150].sigma = 1e-12;
-    const System mixed(stone, readings, {});
-    const auto sigma_of = [](const System& system, int f) {
-        const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline());
+    const FitModel mixed(stone, readings, {});
+    const auto sigma_of = [](const FitModel& model, int f) {
+        const Linearised linear = linearise(model, model.mesh_shape(), model.mesh_outline());
         const Covariance covariance(linear);
         FunctionRow row(linear.layout.size());
         row.coeffRef(linear.layout.tilt(f)) = 1;

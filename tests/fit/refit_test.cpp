@@ -47,10 +47,10 @@ TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
     for (const unsigned seed : {1u, 3u, 4u}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Fitted f = fitted_step_cut(seed);
-        const System system(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
-        const Parameters parameters = system.parameters();
-        const Relaxation relaxation(system, parameters);
-        const Shape told = *shape_of(system, f.result.solid);
+        const FitModel model(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
+        const Parameters parameters = model.parameters();
+        const Relaxation relaxation(model, parameters);
+        const Shape told = *shape_of(model, f.result.solid);
         const Shape laid = turned_to_calipers(relaxation, told);
         for (const double by : {-1e-3, 2e-3}) {
             const Shape again = turned_to_calipers(relaxation, turned_about_z(told, by));
@@ -72,10 +72,10 @@ TEST(Refit, JawsRestWhereTheyRested) {
     for (unsigned seed = 1; seed <= k_stones; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Fitted f = fitted_step_cut(seed);
-        const System system(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
-        const Parameters parameters = system.parameters();
-        Relaxation relaxation(system, parameters);
-        const Shape laid = turned_to_calipers(relaxation, *shape_of(system, f.result.solid));
+        const FitModel model(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
+        const Parameters parameters = model.parameters();
+        Relaxation relaxation(model, parameters);
+        const Shape laid = turned_to_calipers(relaxation, *shape_of(model, f.result.solid));
         relaxation.forget_contacts();
         relaxation.choose(laid, true);
         relaxation.share_level_corners(laid);
@@ -107,11 +107,11 @@ TEST(Refit, AJawThatIsPulledAwayLetsGo) {
         }
         const FitResult again = refitted(f, f.readings);
         // The last stage from the same shape, where no jaw rests on two corners at first.
-        const System system(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
-        const Parameters parameters = system.parameters();
+        const FitModel model(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
+        const Parameters parameters = model.parameters();
         const Shape laid =
-            turned_to_calipers({system, parameters}, *shape_of(system, f.result.solid));
-        const Candidate free = finish_from(system, laid, 100);
+            turned_to_calipers({model, parameters}, *shape_of(model, f.result.solid));
+        const Candidate free = finish_from(model, laid, 100);
         EXPECT_EQ(again.log.start, "earlier result");
         EXPECT_LT(again.statistics.chi2, free.finished.chi2 + 1);
     }

@@ -2,6 +2,7 @@
 // what they say with an equation each: the sums of squares differ by a constant.
 
 #include "fit/readings/replicates.h"
+#include "fit/model/equations.h"
 
 #include <gtest/gtest.h>
 
@@ -150,15 +151,15 @@ TEST_P(RepeatedReadings, SayTheSameTogetherAndApart) {
     }
     const std::vector<Reading> readings = bind_readings(written, truth.stone);
     const FitOptions options;
-    const System together(truth.stone, readings, options);
-    ASSERT_TRUE(together.has_replicates());
-    System apart = together;
+    const FitModel together(truth.stone, readings, options);
+    ASSERT_TRUE(!together.replicated().empty());
+    FitModel apart = together;
     apart.keep_replicates_apart();
     const Candidate one = finish_from(together, together.mesh_shape(), options.iterations);
     const Candidate other = finish_from(apart, apart.mesh_shape(), options.iterations);
     ASSERT_TRUE(one.finished.converged && other.finished.converged);
-    EXPECT_LT(together.equations(one.finished.shape, one.finished.outline).size(),
-              apart.equations(one.finished.shape, one.finished.outline).size());
+    EXPECT_LT(all_equations(together, one.finished.shape, one.finished.outline).size(),
+              all_equations(apart, one.finished.shape, one.finished.outline).size());
     EXPECT_NEAR(one.finished.chi2, other.finished.chi2, 1e-5);
     for (std::size_t f = 0; f < one.finished.shape.normals.size(); ++f) {
         EXPECT_LT(glm::length(one.finished.shape.normals[f] - other.finished.shape.normals[f]),

@@ -128,8 +128,8 @@ TEST(RobustStart, SlenderFacetsDoNotSayWhichWayTheyLean) {
     }
     for (unsigned seed = 1; seed <= 50; ++seed) {
         const Stone mesh = noisy_mesh(plate, noise, seed);
-        const System system(mesh, bind_readings(written, mesh), {});
-        const std::optional<Start> start = Starts(system).next();
+        const FitModel model(mesh, bind_readings(written, mesh), {});
+        const std::optional<Start> start = Starts(model).next();
         ASSERT_TRUE(start) << seed;
         for (std::size_t f = 0; f < plate.solid.facets.size(); ++f) {
             if (start->sides.empty() || start->sides[f] == 0) continue;
