@@ -10,11 +10,11 @@
 #include <exception>
 #include <new>
 
-#include "app/options.h"
-#include "app/terminal.h"
-#include "app/usage_advice.h"
-#include "stone/errors.h"
-#include "stone/name_suggestions.h"
+#include "app/program/options.h"
+#include "app/program/terminal.h"
+#include "app/program/usage_advice.h"
+#include "stone/text/errors.h"
+#include "stone/text/name_suggestions.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "bench/povray_run.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/cpu_time.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/beams/frame_renderer.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

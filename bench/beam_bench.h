@@ -47,6 +47,7 @@ private:
     void plain();
     void equal_error(const Scene& scene, const std::string& of);
     void povray();
+    void beside_povray(const std::string& lights, Scene scene);
 
     void begin(const std::string& name, const std::string& remark);
 

@@ -97,14 +97,21 @@ void BeamBench::povray() {
         return;
     }
     Scene scene = base_;
-    scene.lights = smooth_lights(0.9);
     scene.settings.depth = k_level - 1;
+    scene.lights = smooth_lights(0.9);
+    beside_povray("distant lights", scene);
+    scene.lights = near_lights(diameter(scene.stone.solid));
+    beside_povray("near lights", scene);
+}
+
+void BeamBench::beside_povray(const std::string& lights, Scene scene) {
     const PovrayRun theirs = PovrayFolder().draw(scene, "+A0.1 +AM2 +R3", 1);
     const auto line = [&](const std::string& what, double seconds, const Picture& picture) {
         const Difference d = difference(picture, references_.at(scene, k_full));
-        tables_.line(what, {fmt::format("{:.4f}", seconds), fmt::format("{:.2e}", d.rmse),
-                            fmt::format("{:.1f}", d.psnr()),
-                            fmt::format("{:.0f}", theirs.seconds / seconds)});
+        tables_.line(
+            lights + ", " + what,
+            {fmt::format("{:.4f}", seconds), fmt::format("{:.2e}", d.rmse),
+             fmt::format("{:.1f}", d.psnr()), fmt::format("{:.0f}", theirs.seconds / seconds)});
     };
     line("POV-Ray", theirs.seconds, theirs.picture);
     for (const bool polarised : {false, true}) {

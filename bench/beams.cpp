@@ -11,7 +11,7 @@
 
 #include "bench/beam_bench.h"
 #include "render/beams/beam_shading.h"
-#include "stone/output_file.h"
+#include "stone/text/output_file.h"
 
 int main(int argc, char** argv) {
     using namespace culet;

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

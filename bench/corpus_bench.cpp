@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/fit_corpus.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet::bench {
 namespace {

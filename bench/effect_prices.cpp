@@ -11,7 +11,7 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/cpu_time.h"
 #include "tests/render/plan_scenes.h"
 

@@ -13,8 +13,8 @@
 #include <map>
 
 #include "bench/bench_table.h"
-#include "stone/output_file.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/text/output_file.h"
 #include "tests/fit/fit_trials.h"
 
 namespace culet::bench {

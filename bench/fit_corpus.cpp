@@ -9,8 +9,8 @@
 #include <memory>
 #include <random>
 
-#include "stone/checks.h"
-#include "stone/half_edges.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/half_edges.h"
 #include "tests/scanned_solid.h"
 
 namespace culet::bench {

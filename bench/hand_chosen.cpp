@@ -8,7 +8,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/planner/planner.h"
 #include "render/planner/wavelengths.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/cpu_time.h"
 
 namespace culet {

@@ -12,9 +12,9 @@
 #include <random>
 
 #include "compare/light_probe/light_probe.h"
-#include "stone/errors.h"
-#include "stone/quantile.h"
-#include "stone/units.h"
+#include "stone/numbers/quantile.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 #include "tests/compare/light_probe/light_agreement.h"
 
 namespace {

@@ -27,7 +27,7 @@
 #include "compare/scores/score_list.h"
 #include "render/scene/turned_lights.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace {
 

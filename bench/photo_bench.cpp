@@ -18,7 +18,7 @@
 
 #include "compare/photo/photo.h"
 #include "render/colour/colour.h"
-#include "stone/quantile.h"
+#include "stone/numbers/quantile.h"
 #include "tests/scratch_folder.h"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "render/beams/facet_net.h"
 #include "render/beams/screen_view.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/plain_tracer.cpp"

@@ -21,7 +21,7 @@
 #include "render/planner/truth.h"
 #include "render/planner/wavelengths.h"
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/cpu_time.h"
 #include "tests/render/plan_scenes.h"
 

@@ -16,7 +16,7 @@
 
 #include "bench/pose_photographs.h"
 #include "compare/pose/find_pose.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/cpu_time.h"
 
 namespace {

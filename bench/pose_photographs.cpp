@@ -11,8 +11,8 @@
 
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
+#include "stone/numbers/units.h"
 #include "stone/stone.h"
-#include "stone/units.h"
 #include "tests/compare/simulated_photo.h"
 
 namespace culet {

@@ -7,7 +7,7 @@
 
 #include "compare/photo/photo.h"
 #include "compare/pose/stone_view.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 
 #include "render/export/povray.h"
 #include "render/image/image_io.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 

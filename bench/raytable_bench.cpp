@@ -22,7 +22,7 @@
 #include "render/raytable/table_maker.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
-#include "stone/material_io.h"
+#include "stone/material/material_io.h"
 #include "tests/cpu_time.h"
 #include "tests/render/bench_scenes.h"
 #include "tests/render/carved_solids.h"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

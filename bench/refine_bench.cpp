@@ -15,9 +15,9 @@
 #include "compare/calibration/facet_error.h"
 #include "compare/calibration/simulated_camera.h"
 #include "refine/refine.h"
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
 #include "tests/cpu_time.h"
 
 namespace {

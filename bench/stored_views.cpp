@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

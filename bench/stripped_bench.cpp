@@ -21,7 +21,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/render.h"
 #include "render/setup/built_effects.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/cpu_time.h"
 #include "tests/render/bench_scenes.h"
 

@@ -9,12 +9,12 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "app/fit_uncertainty.h"
+#include "app/input/fit_uncertainty.h"
 #include "fit/fit.h"
 #include "render/render.h"
 #include "render/scene/light_presets.h"
 #include "render/uncertainty/picture_uncertainty.h"
-#include "stone/material_io.h"
+#include "stone/material/material_io.h"
 #include "tests/cpu_time.h"
 #include "tests/fit/fit_truth.h"
 

@@ -10,7 +10,7 @@
 #include "render/raytable/table_hits.h"
 #include "render/work/listener.h"
 #include "render/work/threads.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -11,7 +11,7 @@
 #include "bench/stored_views.h"
 #include "render/raytable/ray_table.h"
 #include "render/raytable/table_key.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -44,7 +44,7 @@ target_compile_options(culet_seldom_run INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # Reading these takes longer than compiling most files, so they are compiled once at each level of optimisation, for all
 # rooms. Each file still includes what it uses: the build with sanitizers has no precompiled headers. Of Eigen, Core
-# alone: a decomposition takes seconds in every unit that instantiates it (stone/dense_algebra.h).
+# alone: a decomposition takes seconds in every unit that instantiates it (stone/numbers/dense_algebra.h).
 set(CULET_PRECOMPILED
   <algorithm> <array> <chrono> <cmath> <complex> <filesystem> <functional> <limits> <map> <memory> <numbers>
   <numeric> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>

@@ -19,7 +19,7 @@
 #include "fit/uncertainty/meet_evidence.h"
 #include "fit/uncertainty/meet_sigmas.h"
 #include "fit/uncertainty/statistics.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -2,7 +2,7 @@
 // One fit of a problem as it stands. Private to the room.
 
 #include "fit/hypotheses/problem.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

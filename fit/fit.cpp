@@ -14,8 +14,8 @@
 #include "fit/mesh/repair.h"
 #include "fit/take_outlines.h"
 #include "fit/uncertainty/prior_needed.h"
-#include "stone/errors.h"
-#include "stone/heed_stop.h"
+#include "stone/progress/heed_stop.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 
 #include "fit/findings/result.h"
 #include "fit/model/options.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

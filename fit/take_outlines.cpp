@@ -7,7 +7,7 @@
 
 #include "fit/silhouettes/silhouette_fit.h"
 #include "fit/uncertainty/statistics.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {

@@ -11,7 +11,7 @@
 #include "page/quantity.h"
 #include "page/template.h"
 #include "page/templates.h"
-#include "stone/proportions.h"
+#include "stone/design/proportions.h"
 
 namespace culet {
 

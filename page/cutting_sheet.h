@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "stone/cutting_list.h"
-#include "stone/solid.h"
+#include "stone/design/cutting_list.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 
 #include "page/colour_maps.h"
 #include "page/facet_view.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 #include "page/html.h"
 #include "page/parts.h"
 #include "page/templates.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

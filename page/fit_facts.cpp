@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "page/fit_fields.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "stone/text_decoding.h"
+#include "stone/text/text_decoding.h"
 
 namespace culet {
 

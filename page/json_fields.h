@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

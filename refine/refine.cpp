@@ -10,8 +10,8 @@
 #include "compare/refine/photograph_evidence.h"
 #include "compare/refine/photograph_scene.h"
 #include "fit/planes/plane_knowledge.h"
-#include "stone/errors.h"
-#include "stone/part_of_progress.h"
+#include "stone/progress/part_of_progress.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 
 #include "render/engine/engine.h"
 #include "render/scene/engine_name.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -1,8 +1,8 @@
 #include "stone/file_kind.h"
 
 #include "stone/solid_input.h"
-#include "stone/text_scan.h"
-#include "stone/toml_file.h"
+#include "stone/text/text_scan.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 
@@ -23,12 +23,6 @@ FileKind kind_of_toml(const std::filesystem::path& file,
 }
 
 }  // namespace
-
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    return lower_case(extension);
-}
 
 FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     if (is_solid_file(file)) return FileKind::solid;

@@ -12,9 +12,6 @@ enum class FileKind { solid, stone, scene, job, material, picture, table, unknow
 /// By extension; TOML files by their tables. A TOML file that cannot be read throws InputError.
 FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The extension without its point, in small letters.
-std::string extension_of(const std::filesystem::path& file);
-
 /// What a file of this kind is, in words that follow "is": "a scene", "a job", ...
 const char* words_for(FileKind kind);
 

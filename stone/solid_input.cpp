@@ -6,12 +6,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/errors.h"
-#include "stone/face_soup.h"
-#include "stone/file_kind.h"
-#include "stone/mesh_io.h"
-#include "stone/output_file.h"
-#include "stone/surface_mesh.h"
+#include "stone/mesh/face_soup.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/mesh/surface_mesh.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_scan.h"
 #include "stone/upright.h"
 
 namespace culet {

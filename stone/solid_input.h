@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stone/gemcad_io.h"
+#include "stone/gemcad/gemcad_io.h"
 #include "stone/stone.h"
 
 namespace culet {

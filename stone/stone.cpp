@@ -2,31 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <numbers>
-
-#include "stone/errors.h"
-#include "stone/file_kind.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
-
-double inclination(const Vec3& normal, const Vec3& up) {
-    // By both legs: the arc cosine alone loses half its digits near the table.
-    return std::atan2(glm::length(glm::cross(normal, up)), std::abs(glm::dot(normal, up)));
-}
-
-double azimuth(const Vec3& normal) {
-    const double angle = std::atan2(normal.y, normal.x);
-    if (angle >= 0) return angle + 0.0;  // and not -0
-    // A tiny negative angle plus a full turn rounds to the full turn itself.
-    const double turned = angle + 2 * std::numbers::pi;
-    return turned < 2 * std::numbers::pi ? turned : 0.0;
-}
 
 std::string doubtful_size(const Solid& solid) {
     // The least stones that are cut are half a millimetre wide, the largest below 0.2 m.

@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "stone/change.h"
-#include "stone/material.h"
-#include "stone/solid.h"
-#include "stone/units.h"
+#include "stone/material/material.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/angles.h"
+#include "stone/solid/solid.h"
+#include "stone/text/change.h"
 
 namespace culet {
 
@@ -41,12 +42,6 @@ struct Stone {
     bool facets_are_whole = false;
     std::vector<Change> changed;  ///< of its mesh, against what was given
 };
-
-/// Inclination of a facet, radians, 0 (table or culet) .. pi/2 (girdle), from an up direction.
-double inclination(const Vec3& normal, const Vec3& up);
-
-/// Azimuth of a normal about +z, radians in [0, 2 pi), counter-clockwise from +x seen from above.
-double azimuth(const Vec3& normal);
 
 /// What `load_solid` (solid_input.h) reads, as a stone file takes it.
 struct SolidFile {

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/design.h"
-#include "stone/errors.h"
-#include "stone/material_io.h"
-#include "stone/perpendicular.h"
+#include "stone/design/design.h"
+#include "stone/material/material_io.h"
+#include "stone/solid/perpendicular.h"
+#include "stone/text/errors.h"
+#include "stone/text/name_suggestions.h"
 #include "stone/upright.h"
 
 namespace culet {

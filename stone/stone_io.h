@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stone/stone.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "stone/checks.h"
-#include "stone/perpendicular.h"
-#include "stone/plan.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/perpendicular.h"
+#include "stone/solid/plan.h"
 #include "stone/upright.h"
 
 namespace culet {

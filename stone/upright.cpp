@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "stone/least_rotation.h"
-#include "stone/proportions.h"
+#include "stone/design/proportions.h"
+#include "stone/solid/least_rotation.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "stone/errors.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "page/html.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -19,8 +19,8 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/view_presets.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "viewer/engine/panorama.h"
 #include "viewer/engine/shown_stone.h"
 

@@ -1,7 +1,7 @@
 #include "viewer/viewer_page.h"
 
 #include "page/html.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "viewer/engine_file.h"
 #include "viewer/templates.h"
 

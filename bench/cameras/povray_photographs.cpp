@@ -22,9 +22,9 @@
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/compare/simulated_photo.h"
 #include "tests/scanned_solid.h"
 

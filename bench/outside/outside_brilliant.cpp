@@ -12,7 +12,7 @@
 
 #include "bench/outside/outside_folder.h"
 #include "fit/fit.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "stone/stone_io.h"
 #include "tests/scanned_solid.h"
 

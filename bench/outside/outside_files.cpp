@@ -10,11 +10,11 @@
 #include <sstream>
 
 #include "bench/outside/outside_folder.h"
-#include "stone/checks.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
-#include "stone/output_file.h"
-#include "stone/proportions.h"
+#include "stone/design/proportions.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
+#include "stone/text/output_file.h"
 #include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 

@@ -10,7 +10,7 @@
 #include "render/grade/grade.h"
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/cpu_time.h"
 #include "tests/render/bench_scenes.h"
 

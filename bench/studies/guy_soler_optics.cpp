@@ -9,7 +9,7 @@
 #include "bench/studies/rgb_absorption.h"
 #include "bench/studies/wave_angles.h"
 #include "page/html.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

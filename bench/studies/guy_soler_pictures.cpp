@@ -8,7 +8,7 @@
 #include "bench/studies/scenes.h"
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
-#include "stone/material_io.h"
+#include "stone/material/material_io.h"
 #include "tests/render/bench_scenes.h"
 
 namespace culet {

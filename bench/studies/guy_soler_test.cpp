@@ -8,7 +8,7 @@
 #include "bench/studies/merged_face.h"
 #include "bench/studies/rgb_absorption.h"
 #include "bench/studies/wave_angles.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 namespace {

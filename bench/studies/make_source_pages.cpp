@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "bench/studies/source_studies.h"
-#include "stone/output_file.h"
+#include "stone/text/output_file.h"
 #include "tests/cpu_time.h"
 
 int main(int argc, char** argv) {

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

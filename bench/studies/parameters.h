@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 // Soler 2004, eqs. 8 and 9).
 
 #include "render/colour/colour_difference.h"
-#include "stone/material.h"
+#include "stone/material/material.h"
 
 namespace culet {
 

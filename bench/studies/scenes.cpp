@@ -6,9 +6,9 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/setting_scene.h"
 #include "render/scene/stone_scene.h"
-#include "stone/errors.h"
-#include "stone/mesh_io.h"
-#include "stone/output_file.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/render/bench_scenes.h"
 #include "tests/scratch_folder.h"
 

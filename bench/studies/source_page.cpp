@@ -10,7 +10,7 @@
 #include "page/study_sections.h"
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/studies/source_studies.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "bench/studies/parameters.h"
 #include "bench/studies/source_page.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

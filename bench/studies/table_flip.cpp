@@ -4,7 +4,7 @@
 
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

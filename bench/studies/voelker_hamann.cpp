@@ -12,7 +12,7 @@
 #include "render/optimize/optimize.h"
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/render/bench_scenes.h"
 
 namespace culet {

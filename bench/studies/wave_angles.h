@@ -2,7 +2,7 @@
 // The largest angle between the two rays that one ray of light becomes on entering a uniaxial
 // crystal from air (Guy & Soler 2004, table of section 4.2).
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

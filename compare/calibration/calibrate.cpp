@@ -11,7 +11,7 @@
 #include "compare/calibration/photo_blur.h"
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/score_list.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

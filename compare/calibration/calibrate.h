@@ -13,7 +13,7 @@
 #include "compare/registration/frame.h"
 #include "compare/scores/score.h"
 #include "render/scene/scene.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 
 #include "compare/scores/score_list.h"
 #include "page/html.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 
 #include "compare/scores/score_list.h"
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 

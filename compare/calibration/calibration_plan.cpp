@@ -7,7 +7,7 @@
 #include "compare/calibration/facet_tilts.h"
 #include "compare/calibration/sensitivity.h"
 #include "compare/calibration/stone_samples.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <random>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

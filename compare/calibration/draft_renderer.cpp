@@ -5,7 +5,7 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/work/price.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "compare/calibration/chance.h"
-#include "stone/checks.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
 
 namespace culet {
 

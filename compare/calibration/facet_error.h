@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -12,9 +12,9 @@
 #include "compare/calibration/photo_blur.h"
 #include "compare/calibration/stone_samples.h"
 #include "compare/photo/resampling.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include "compare/calibration/simulated_camera.h"
 #include "compare/calibration/tilt_variance.h"
 #include "compare/scores/aligned_pair.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "compare/calibration/level_curve.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

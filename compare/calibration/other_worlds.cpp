@@ -12,7 +12,7 @@
 #include "compare/calibration/sensitivity.h"
 #include "compare/pose/stone_view.h"
 #include "render/scene/turned_lights.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

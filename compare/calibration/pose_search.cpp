@@ -8,8 +8,8 @@
 
 #include "compare/calibration/cropped_camera.h"
 #include "compare/scores/aligned_pair.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

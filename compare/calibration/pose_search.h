@@ -6,7 +6,7 @@
 
 #include "compare/calibration/draft_renderer.h"
 #include "compare/pose/stone_view.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -19,10 +19,10 @@
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/scored_pair.h"
 #include "render/uncertainty/picture_uncertainty.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/part_of_progress.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/progress/part_of_progress.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -11,7 +11,7 @@
 #include "compare/scores/compare.h"
 #include "render/render.h"
 #include "render/uncertainty/drawn_stones.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 
 #include "compare/calibration/level_curve.h"
 #include "compare/scores/score_list.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

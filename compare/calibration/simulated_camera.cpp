@@ -9,7 +9,7 @@
 #include "compare/photo/pixels.h"
 #include "compare/photo/resampling.h"
 #include "render/colour/colour.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "stone/dense_algebra.h"
-#include "stone/errors.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

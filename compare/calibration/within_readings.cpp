@@ -11,7 +11,7 @@
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/scored_pair.h"
 #include "render/colour/colour.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

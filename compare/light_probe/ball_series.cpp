@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "render/scene/environment_layout.h"
-#include "stone/heed_stop.h"
+#include "stone/progress/heed_stop.h"
 
 namespace culet {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "compare/photo/pixels.h"
-#include "stone/dense_algebra.h"
-#include "stone/heed_stop.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/progress/heed_stop.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -14,8 +14,8 @@
 
 #include "render/colour/colour.h"
 #include "render/scene/environment_layout.h"
-#include "stone/errors.h"
-#include "stone/heed_stop.h"
+#include "stone/progress/heed_stop.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 
 #include "compare/light_probe/ball_view.h"
 #include "render/scene/scene.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -11,10 +11,10 @@
 
 #include "compare/light_probe/view_places.h"
 #include "render/scene/environment_layout.h"
-#include "stone/errors.h"
-#include "stone/heed_stop.h"
-#include "stone/quantile.h"
-#include "stone/units.h"
+#include "stone/numbers/quantile.h"
+#include "stone/numbers/units.h"
+#include "stone/progress/heed_stop.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

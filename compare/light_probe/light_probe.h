@@ -10,7 +10,7 @@
 #include "compare/light_probe/near_light.h"
 #include "compare/light_probe/view_alignment.h"
 #include "compare/photo/photo.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -13,7 +13,7 @@
 #include "compare/photo/pixels.h"
 #include "page/colour_maps.h"
 #include "page/json_fields.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

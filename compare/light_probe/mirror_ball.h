@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -11,8 +11,8 @@
 
 #include "compare/light_probe/reflex.h"
 #include "compare/photo/pixels.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

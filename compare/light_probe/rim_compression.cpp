@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "stone/heed_stop.h"
+#include "stone/progress/heed_stop.h"
 
 namespace culet {
 

@@ -14,7 +14,7 @@
 #include "compare/pose/stone_view.h"
 #include "render/colour/colour.h"
 #include "render/scene/environment_layout.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 #include <opencv2/photo.hpp>
 #include <optional>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

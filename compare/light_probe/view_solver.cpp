@@ -12,8 +12,8 @@
 
 #include "compare/light_probe/even_directions.h"
 #include "compare/pose/stone_view.h"
-#include "stone/dense_algebra.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

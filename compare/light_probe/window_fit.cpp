@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

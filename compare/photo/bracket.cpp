@@ -11,7 +11,7 @@
 #include "compare/photo/exposure_sum.h"
 #include "compare/photo/response.h"
 #include "compare/photo/shot_alignment.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "compare/photo/pixels.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compare/photo/lens.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

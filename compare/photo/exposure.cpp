@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "render/image/codecs/exif.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -8,8 +8,8 @@
 
 #include "render/colour/colour.h"
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
-#include "stone/quantile.h"
+#include "stone/numbers/quantile.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -11,9 +11,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/photo/exposure.h"
-#include "stone/errors.h"
-#include "stone/file_kind.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

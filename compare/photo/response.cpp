@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/colour/colour.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 
 #include "compare/photo/exposure_sum.h"
 #include "compare/photo/pixels.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

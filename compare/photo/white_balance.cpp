@@ -13,9 +13,9 @@
 #include "compare/photo/pixels.h"
 #include "render/colour/colour.h"
 #include "render/colour/colour_difference.h"
-#include "stone/dense_algebra.h"
-#include "stone/errors.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

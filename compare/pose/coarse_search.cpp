@@ -10,8 +10,8 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

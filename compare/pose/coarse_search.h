@@ -7,7 +7,7 @@
 #include "compare/pose/edge_map.h"
 #include "compare/pose/outline_shape.h"
 #include "compare/pose/wireframe.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

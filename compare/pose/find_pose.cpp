@@ -11,7 +11,7 @@
 #include "compare/pose/edge_evidence.h"
 #include "compare/pose/pose_certainty.h"
 #include "compare/pose/same_look.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

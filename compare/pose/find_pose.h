@@ -18,8 +18,8 @@
 
 #include "compare/photo/photo.h"
 #include "render/scene/scene.h"
-#include "stone/progress.h"
-#include "stone/solid.h"
+#include "stone/progress/progress.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

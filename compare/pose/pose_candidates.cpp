@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "compare/pose/same_look.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stone/units.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

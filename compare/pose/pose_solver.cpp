@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "compare/pose/changed_view.h"
-#include "stone/dense_algebra.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

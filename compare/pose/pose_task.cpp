@@ -5,8 +5,8 @@
 #include <opencv2/core.hpp>
 
 #include "compare/photo/pixels.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

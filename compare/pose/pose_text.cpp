@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/pose/find_pose.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

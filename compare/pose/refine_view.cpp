@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "compare/pose/edge_lines.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

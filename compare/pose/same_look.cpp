@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

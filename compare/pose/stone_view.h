@@ -7,7 +7,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "render/scene/scene.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

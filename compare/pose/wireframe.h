@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compare/pose/stone_view.h"
-#include "stone/half_edges.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 

@@ -13,9 +13,9 @@
 #include "compare/refine/picture_misfit.h"
 #include "compare/refine/set_up.h"
 #include "compare/scores/aligned_pair.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

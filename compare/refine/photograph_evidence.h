@@ -9,7 +9,7 @@
 #include "compare/photo/photo.h"
 #include "compare/refine/plane_moves.h"
 #include "render/scene/scene.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -5,8 +5,8 @@
 #include "compare/calibration/cropped_camera.h"
 #include "compare/pose/find_pose.h"
 #include "compare/registration/frame.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 
 #include "compare/photo/photo.h"
 #include "render/scene/scene.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

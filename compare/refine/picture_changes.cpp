@@ -9,7 +9,7 @@
 #include "compare/calibration/photo_blur.h"
 #include "compare/calibration/stone_samples.h"
 #include "compare/refine/plane_moves.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -8,8 +8,8 @@
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/simulated_camera.h"
 #include "compare/refine/set_up.h"
-#include "stone/progress.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

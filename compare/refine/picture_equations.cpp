@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/calibration/stone_samples.h"
-#include "stone/dense_algebra.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 
 #include "compare/calibration/chance.h"
 #include "render/scene/transform.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "compare/photo/resampling.h"
-#include "stone/quantile.h"
+#include "stone/numbers/quantile.h"
 
 namespace culet {
 

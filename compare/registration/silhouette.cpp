@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/photo/pixels.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

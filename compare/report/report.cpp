@@ -7,7 +7,7 @@
 #include "page/fit_page.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
-#include "stone/output_file.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include "compare/calibration/calibrated_verdict.h"
 #include "compare/photo/photo.h"
 #include "compare/scores/compare.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

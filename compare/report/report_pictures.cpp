@@ -13,7 +13,7 @@
 #include "compare/templates.h"
 #include "page/html.h"
 #include "page/parts.h"
-#include "stone/quantile.h"
+#include "stone/numbers/quantile.h"
 
 namespace culet {
 

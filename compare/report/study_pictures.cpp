@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "compare/report/report_parts.h"
-#include "stone/quantile.h"
+#include "stone/numbers/quantile.h"
 
 namespace culet {
 

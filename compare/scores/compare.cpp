@@ -18,8 +18,8 @@
 #include "compare/scores/rotation_verdict.h"
 #include "compare/scores/score_list.h"
 #include "compare/scores/scored_pair.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 
 #include "compare/photo/photo.h"
 #include "compare/scores/score.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

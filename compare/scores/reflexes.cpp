@@ -9,7 +9,7 @@
 
 #include "compare/photo/pixels.h"
 #include "render/colour/colour_difference.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 
 #include "compare/photo/pixels.h"
 #include "compare/scores/flip.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

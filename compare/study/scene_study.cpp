@@ -15,7 +15,7 @@
 #include "compare/study/study_reference.h"
 #include "compare/study/study_words.h"
 #include "render/beams/frame_renderer.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "compare/study/scene_study_result.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

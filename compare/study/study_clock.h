@@ -5,8 +5,8 @@
 #include <ctime>
 #include <limits>
 
-#include "stone/errors.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

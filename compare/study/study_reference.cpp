@@ -11,7 +11,7 @@
 #include "compare/study/picture_error.h"
 #include "compare/study/study_design.h"
 #include "render/setup/optical_setup.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 
 #include "compare/photo/pixels.h"
 #include "compare/turntable/sharp_corners.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "stone/errors.h"
-#include "stone/units.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

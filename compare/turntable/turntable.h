@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compare/turntable/back_lit_outline.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

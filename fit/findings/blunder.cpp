@@ -9,7 +9,7 @@
 #include "fit/findings/fitted_parts.h"
 #include "fit/findings/words.h"
 #include "fit/readings/slips.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

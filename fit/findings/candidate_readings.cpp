@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "stone/tiers.h"
-#include "stone/units.h"
-#include "stone/upper_median.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "fit/findings/plan_view.h"
-#include "stone/tiers.h"
-#include "stone/units.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

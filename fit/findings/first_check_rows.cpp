@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "fit/model/azimuth_turn.h"
-#include "stone/tiers.h"
-#include "stone/units.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

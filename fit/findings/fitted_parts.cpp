@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 
 namespace culet {
 

@@ -11,7 +11,7 @@
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/words.h"
 #include "fit/mesh/come_to_nothing.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 
 namespace culet {
 

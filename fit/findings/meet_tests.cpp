@@ -8,7 +8,7 @@
 #include "fit/model/equations.h"
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "fit/model/eigenvector.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
 
 namespace culet {
 

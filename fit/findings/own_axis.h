@@ -7,7 +7,7 @@
 
 #include "fit/findings/findings.h"
 #include "fit/uncertainty/covariance.h"
-#include "stone/axis_groups.h"
+#include "stone/solid/axis_groups.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 
 #include "fit/findings/findings.h"
 #include "fit/model/linear.h"
-#include "stone/axis_groups.h"
+#include "stone/solid/axis_groups.h"
 
 namespace culet {
 

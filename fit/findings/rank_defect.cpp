@@ -7,8 +7,8 @@
 #include <map>
 
 #include "fit/model/facet_functions.h"
-#include "stone/dense_algebra.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

@@ -11,8 +11,8 @@
 #include "fit/model/undetermined.h"
 #include "fit/readings/measurement.h"
 #include "fit/silhouettes/silhouette.h"
+#include "stone/numbers/units.h"
 #include "stone/stone.h"
-#include "stone/units.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -14,7 +14,7 @@
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "fit/uncertainty/variance_component.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

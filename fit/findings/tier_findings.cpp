@@ -9,7 +9,7 @@
 
 #include "fit/readings/named_tiers.h"
 #include "fit/uncertainty/statistics.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

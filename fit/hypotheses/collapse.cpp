@@ -5,8 +5,8 @@
 #include <set>
 
 #include "fit/hypotheses/topology.h"
-#include "stone/checks.h"
-#include "stone/surface_edges.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/surface_edges.h"
 
 namespace culet {
 

@@ -9,8 +9,8 @@
 
 #include "fit/hypotheses/constants.h"
 #include "fit/hypotheses/topology_stage.h"
-#include "stone/checks.h"
-#include "stone/half_edges.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "stone/checks.h"
-#include "stone/half_edges.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 

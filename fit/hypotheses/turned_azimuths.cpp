@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 
 namespace culet {
 

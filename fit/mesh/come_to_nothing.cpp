@@ -1,7 +1,7 @@
 #include "fit/mesh/come_to_nothing.h"
 
-#include "stone/half_edges.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 

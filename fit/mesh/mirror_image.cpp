@@ -5,7 +5,7 @@
 
 #include "fit/mesh/orientation.h"
 #include "fit/mesh/repair.h"
-#include "stone/caliper.h"
+#include "stone/solid/caliper.h"
 #include "stone/upright.h"
 
 namespace culet {

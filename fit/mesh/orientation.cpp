@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "stone/face_orientation.h"
+#include "stone/mesh/face_orientation.h"
 
 namespace culet {
 

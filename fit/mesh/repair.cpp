@@ -13,8 +13,8 @@
 
 #include "fit/mesh/orientation.h"
 #include "fit/model/canonical.h"
-#include "stone/checks.h"
-#include "stone/half_edges.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 
@@ -47,6 +47,28 @@ void drop_unused(Solid& solid) {
     solid.vertices = std::move(used);
 }
 
+struct NearPair {
+    double distance;
+    int one, other;
+};
+
+// Corners of facets that lie near each other, the nearest pair first.
+std::vector<NearPair> near_pairs(const Solid& solid, const std::vector<std::set<int>>& facets) {
+    std::vector<NearPair> pairs;
+    const double limit = k_weld * diameter(solid);
+    for (std::size_t a = 0; a < facets.size(); ++a) {
+        for (std::size_t b = a + 1; b < facets.size(); ++b) {
+            if (facets[a].empty() || facets[b].empty()) continue;
+            const double distance = glm::length(solid.vertices[a] - solid.vertices[b]);
+            if (distance < limit) pairs.push_back({distance, int(a), int(b)});
+        }
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const NearPair& a, const NearPair& b) {
+        return std::tie(a.distance, a.one, a.other) < std::tie(b.distance, b.one, b.other);
+    });
+    return pairs;
+}
+
 // Kruskal (1956) with the rule that no facet has a corner twice.
 std::optional<Solid> welded(const Solid& solid) {
     const int count = static_cast<int>(solid.vertices.size());
@@ -61,29 +83,13 @@ std::optional<Solid> welded(const Solid& solid) {
     }
     int clusters = static_cast<int>(
         std::count_if(facets.begin(), facets.end(), [](const auto& f) { return !f.empty(); }));
-    struct Pair {
-        double distance;
-        int one, other;
-    };
-    std::vector<Pair> pairs;
-    const double limit = k_weld * diameter(solid);
-    for (int a = 0; a < count; ++a) {
-        for (int b = a + 1; b < count; ++b) {
-            if (facets[a].empty() || facets[b].empty()) continue;
-            const double distance = glm::length(solid.vertices[a] - solid.vertices[b]);
-            if (distance < limit) pairs.push_back({distance, a, b});
-        }
-    }
-    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-        return std::tie(a.distance, a.one, a.other) < std::tie(b.distance, b.one, b.other);
-    });
     std::vector<int> parent(solid.vertices.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](int v) {
         while (parent[v] != v) v = parent[v] = parent[parent[v]];
         return v;
     };
-    for (const Pair& pair : pairs) {
+    for (const NearPair& pair : near_pairs(solid, facets)) {
         if (clusters == wanted) break;
         const int a = root(pair.one), b = root(pair.other);
         if (a == b) continue;

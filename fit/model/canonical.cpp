@@ -19,7 +19,7 @@
 #include <numbers>
 
 #include "fit/model/sparse_ldl.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 
@@ -75,6 +75,25 @@ Pattern pattern_of(const Solid& solid, const HalfEdges& half, int infinite) {
 }
 
 // Newton's method; nothing when the pattern cannot be drawn.
+// Of the same sum: its Hessian at `at`. `index`: the unknown of each circle, -1 for lines.
+void set_hessian(const Pattern& pattern, const std::vector<int>& index,
+                 const std::vector<double>& at, Eigen::SparseMatrix<double>& hessian) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < pattern.circles; ++i) {
+        if (index[i] < 0) continue;
+        // One circle's size is free: the drawing has no scale.
+        double sum = index[i] == 0 ? 1.0 : 1e-14;
+        for (int j : pattern.crossing[i]) {
+            if (pattern.is_line[j]) continue;
+            const double weight = 1 / std::cosh(at[j] - at[i]);
+            sum += weight;
+            if (index[j] < index[i]) entries.emplace_back(index[i], index[j], -weight);
+        }
+        entries.emplace_back(index[i], index[i], sum);
+    }
+    hessian.setFromTriplets(entries.begin(), entries.end());
+}
+
 std::optional<std::vector<double>> log_radii(const Pattern& pattern) {
     std::vector<int> index(std::size_t(pattern.circles), -1);
     int count = 0;
@@ -99,20 +118,7 @@ std::optional<std::vector<double>> log_radii(const Pattern& pattern) {
     Eigen::SparseMatrix<double> hessian(count, count);
     for (int round = 0; round < 60; ++round) {
         if (g.lpNorm<Eigen::Infinity>() < 1e-11) return u;
-        std::vector<Eigen::Triplet<double>> entries;
-        for (int i = 0; i < pattern.circles; ++i) {
-            if (index[i] < 0) continue;
-            // One circle's size is free: the drawing has no scale.
-            double sum = index[i] == 0 ? 1.0 : 1e-14;
-            for (int j : pattern.crossing[i]) {
-                if (pattern.is_line[j]) continue;
-                const double weight = 1 / std::cosh(u[j] - u[i]);
-                sum += weight;
-                if (index[j] < index[i]) entries.emplace_back(index[i], index[j], -weight);
-            }
-            entries.emplace_back(index[i], index[i], sum);
-        }
-        hessian.setFromTriplets(entries.begin(), entries.end());
+        set_hessian(pattern, index, u, hessian);
         if (round == 0) factors.analyse(hessian);
         if (!factors.factor(hessian)) return std::nullopt;
         const Eigen::VectorXd step = factors.solve(-g);
@@ -216,11 +222,8 @@ bool centre_on_sphere(std::vector<Vec3>& points) {
     return false;
 }
 
-}  // namespace
-
-std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& half) {
-    if (half.edges.size() < 6) return std::nullopt;
-    // The edge between the facets with most corners: its four circles are large in any drawing.
+// The edge between the facets with most corners: its four circles are large in any drawing.
+int edge_at_infinity(const Solid& solid, const HalfEdges& half) {
     int infinite = 0;
     std::size_t most = 0;
     for (std::size_t e = 0; e < half.edges.size(); ++e) {
@@ -231,27 +234,39 @@ std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& h
             infinite = static_cast<int>(e);
         }
     }
-    const Pattern pattern = pattern_of(solid, half, infinite);
-    const auto radii = log_radii(pattern);
-    if (!radii) return std::nullopt;
-    const auto flat = drawn(pattern, *radii, half.edges.size(), infinite);
-    if (!flat) return std::nullopt;
+    return infinite;
+}
 
-    // Onto the sphere by stereographic projection; the edge at infinity touches at the pole.
+// Onto the sphere by stereographic projection; the edge at infinity touches at the pole.
+std::vector<Vec3> on_sphere(const std::vector<Complex>& flat, int infinite) {
     Complex mean(0, 0);
-    for (const Complex& z : *flat) mean += z / double(flat->size());
+    for (const Complex& z : flat) mean += z / double(flat.size());
     std::vector<double> reach;
-    for (const Complex& z : *flat) reach.push_back(std::abs(z - mean));
+    for (const Complex& z : flat) reach.push_back(std::abs(z - mean));
     const double scale = 1 / std::max(1e-300, upper_median(std::move(reach)));
     std::vector<Vec3> touch;
-    for (std::size_t e = 0; e < flat->size(); ++e) {
-        const Complex z = ((*flat)[e] - mean) * scale;
+    for (std::size_t e = 0; e < flat.size(); ++e) {
+        const Complex z = (flat[e] - mean) * scale;
         const double r2 = std::norm(z);
         // Seen from outside, the sphere's drawing from its pole is turned over: y changes sign.
         touch.push_back(static_cast<int>(e) == infinite
                             ? Vec3{0, 0, 1}
                             : Vec3{2 * z.real(), -2 * z.imag(), r2 - 1} / (r2 + 1));
     }
+    return touch;
+}
+
+}  // namespace
+
+std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& half) {
+    if (half.edges.size() < 6) return std::nullopt;
+    const int infinite = edge_at_infinity(solid, half);
+    const Pattern pattern = pattern_of(solid, half, infinite);
+    const auto radii = log_radii(pattern);
+    if (!radii) return std::nullopt;
+    const auto flat = drawn(pattern, *radii, half.edges.size(), infinite);
+    if (!flat) return std::nullopt;
+    std::vector<Vec3> touch = on_sphere(*flat, infinite);
     if (!centre_on_sphere(touch)) return std::nullopt;
 
     Shape shape;
@@ -278,23 +293,6 @@ std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& h
         }
     }
     return shape;
-}
-
-bool lies_mirrored(const Solid& solid, const HalfEdges& edges) {
-    const std::optional<Shape> canonical = canonical_polyhedron(solid, edges);
-    if (!canonical) return volume(solid) < 0;
-    Vec3 from(0), to(0);
-    const double share = 1 / static_cast<double>(solid.vertices.size());
-    for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
-        from += share * canonical->points[v];
-        to += share * solid.vertices[v];
-    }
-    // The sign of the cross moments' determinant (Kabsch 1976).
-    glm::dmat3 cross(0.0);
-    for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
-        cross += glm::outerProduct(solid.vertices[v] - to, canonical->points[v] - from);
-    }
-    return glm::determinant(cross) < 0;
 }
 
 }  // namespace culet

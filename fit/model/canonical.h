@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "fit/model/shape.h"
-#include "stone/half_edges.h"
-#include "stone/solid.h"
+#include "stone/solid/half_edges.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <glm/matrix.hpp>
 
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

@@ -13,7 +13,7 @@
 #include "fit/model/options.h"
 #include "fit/model/prior.h"
 #include "fit/model/symmetries.h"
-#include "stone/half_edges.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 

@@ -12,10 +12,10 @@
 #include "fit/model/canonical.h"
 #include "fit/model/constants.h"
 #include "fit/model/orbits.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/half_edges.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/half_edges.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -1,7 +1,7 @@
 #pragma once
 // From which side an inclination counts. Private to the room.
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 #include "fit/model/equations.h"
 #include "fit/model/known_planes.h"
 #include "fit/silhouettes/silhouette_fit.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

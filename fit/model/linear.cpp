@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/heed_stop.h"
+#include "stone/progress/heed_stop.h"
 
 namespace culet {
 

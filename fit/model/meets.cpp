@@ -6,7 +6,7 @@
 #include <set>
 
 #include "fit/model/constants.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

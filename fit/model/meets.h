@@ -6,7 +6,7 @@
 
 #include "fit/model/frame.h"
 #include "fit/model/options.h"
-#include "stone/half_edges.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet {
 

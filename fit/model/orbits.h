@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fit/model/shape.h"
-#include "stone/automorphisms.h"
+#include "stone/solid/automorphisms.h"
 
 namespace culet {
 

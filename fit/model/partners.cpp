@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

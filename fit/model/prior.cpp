@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "stone/tiers.h"
-#include "stone/upper_median.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 

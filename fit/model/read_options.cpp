@@ -5,8 +5,8 @@
 #include <string>
 
 #include "fit/model/options.h"
-#include "stone/mesh_io.h"
-#include "stone/toml_file.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

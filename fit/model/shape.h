@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "stone/heed_stop.h"
+#include "stone/progress/heed_stop.h"
 
 namespace culet {
 

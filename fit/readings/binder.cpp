@@ -9,8 +9,8 @@
 
 #include "fit/readings/reading_kinds.h"
 #include "fit/readings/slips.h"
-#include "stone/errors.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {

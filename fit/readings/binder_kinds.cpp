@@ -8,7 +8,7 @@
 #include <set>
 
 #include "fit/readings/binder.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {

@@ -8,10 +8,11 @@
 #include "fit/readings/binder.h"
 #include "fit/readings/spreadsheet_losses.h"
 #include "fit/readings/unknown_facet.h"
-#include "stone/errors.h"
-#include "stone/index_names.h"
-#include "stone/tiers.h"
-#include "stone/toml_file.h"
+#include "stone/design/index_names.h"
+#include "stone/design/tiers.h"
+#include "stone/text/errors.h"
+#include "stone/text/name_suggestions.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

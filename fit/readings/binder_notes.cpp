@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "fit/readings/binder.h"
-#include "stone/errors.h"
-#include "stone/text_scan.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 

@@ -10,9 +10,9 @@
 
 #include "fit/readings/binder.h"
 #include "fit/readings/reading_kinds.h"
-#include "stone/caliper.h"
-#include "stone/errors.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/solid/caliper.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

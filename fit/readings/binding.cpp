@@ -11,7 +11,7 @@
 #include "fit/readings/level_facets.h"
 #include "fit/readings/reading_sizes.h"
 #include "fit/readings/spreadsheet_losses.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include "fit/readings/reading_words.h"
 #include "fit/readings/readings_csv.h"
 #include "fit/readings/silhouette_tables.h"
-#include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

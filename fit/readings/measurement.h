@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "stone/stone.h"
-#include "stone/written_number.h"
+#include "stone/text/written_number.h"
 
 namespace culet {
 

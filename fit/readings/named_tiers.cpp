@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "stone/tiers.h"
-#include "stone/units.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -1,10 +1,10 @@
 #pragma once
-// Tiers (stone/tiers.h) as the readings of a stone are told by.
+// Tiers (stone/design/tiers.h) as the readings of a stone are told by.
 
 #include <string>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -11,10 +11,10 @@
 #include <numbers>
 #include <utility>
 
-#include "stone/errors.h"
-#include "stone/half_edges.h"
-#include "stone/units.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/solid/half_edges.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,8 +5,9 @@
 #include <cctype>
 
 #include "fit/readings/reading_kinds.h"
-#include "stone/text_scan.h"
-#include "stone/toml_file.h"
+#include "stone/text/name_suggestions.h"
+#include "stone/text/text_scan.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

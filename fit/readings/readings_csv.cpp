@@ -10,9 +10,9 @@
 
 #include "fit/readings/measurement.h"
 #include "fit/readings/reading_words.h"
-#include "stone/csv.h"
-#include "stone/errors.h"
-#include "stone/text_scan.h"
+#include "stone/text/csv.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 

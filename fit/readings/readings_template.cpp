@@ -8,10 +8,10 @@
 #include <map>
 #include <vector>
 
-#include "stone/caliper.h"
-#include "stone/index_names.h"
-#include "stone/tiers.h"
-#include "stone/units.h"
+#include "stone/design/index_names.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/caliper.h"
 
 namespace culet {
 

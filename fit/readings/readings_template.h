@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "stone/repeating_gear.h"
+#include "stone/design/repeating_gear.h"
 #include "stone/stone.h"
 
 namespace culet {

@@ -6,8 +6,8 @@
 
 #include "fit/silhouettes/contour_files.h"
 #include "fit/silhouettes/silhouette.h"
-#include "stone/errors.h"
-#include "stone/text_scan.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fit/readings/measurement.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

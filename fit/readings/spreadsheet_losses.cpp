@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

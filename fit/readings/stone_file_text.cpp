@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "fit/readings/readings_template.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "stone/caliper.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/caliper.h"
 #include "stone/upright.h"
 
 namespace culet {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

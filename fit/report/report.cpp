@@ -10,7 +10,7 @@
 #include "fit/findings/words.h"
 #include "fit/report/findings.h"
 #include "fit/report/json_number.h"
-#include "stone/design.h"
+#include "stone/design/design.h"
 
 namespace culet {
 

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/silhouettes/silhouette.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
-#include "stone/text_decoding.h"
-#include "stone/text_scan.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_decoding.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 

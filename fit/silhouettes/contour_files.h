@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/silhouettes/silhouette.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

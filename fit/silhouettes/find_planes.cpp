@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "fit/silhouettes/missing_facets.h"
-#include "stone/errors.h"
-#include "stone/units.h"
-#include "stone/upper_median.h"
+#include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,8 +5,8 @@
 
 #include "fit/silhouettes/plane_body.h"
 #include "fit/silhouettes/registration.h"
-#include "stone/dense_algebra.h"
-#include "stone/perpendicular.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

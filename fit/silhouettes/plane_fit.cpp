@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fit/silhouettes/plane_solver.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "fit/silhouettes/registration.h"
-#include "stone/dense_algebra.h"
-#include "stone/perpendicular.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

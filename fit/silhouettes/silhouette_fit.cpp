@@ -12,7 +12,7 @@
 #include "fit/silhouettes/plane_fit.h"
 #include "fit/silhouettes/registration.h"
 #include "fit/silhouettes/silhouette_start.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {
@@ -116,6 +116,37 @@ std::string list_of(const std::vector<std::string>& names) {
     return text;
 }
 
+// What outlines say of the mesh: facets that they leave no room for, that they hardly see, and that
+// it has not.
+std::vector<std::string> notes_of(const Stone& mesh, const FoundPlanes& found, const Solid& solid,
+                                  std::vector<int> unseen) {
+    std::vector<std::string> notes, names;
+    for (const int f : found.lost) names.push_back(mesh.solid.facets[std::size_t(f)].name);
+    if (!names.empty()) {
+        notes.push_back("the outlines leave no room for the mesh's facets " + list_of(names) +
+                        ": they are left out");
+    }
+    names.clear();
+    // The largest first.
+    std::stable_sort(unseen.begin(), unseen.end(), [&](int a, int b) {
+        return area(solid, solid.facets[std::size_t(a)]) >
+               area(solid, solid.facets[std::size_t(b)]);
+    });
+    for (const int p : unseen) names.push_back(solid.facets[std::size_t(p)].name);
+    if (!names.empty()) {
+        notes.push_back("the outlines hardly tell how these facets lie: " + list_of(names));
+    }
+    const std::size_t added = solid.facets.size() - mesh_planes(found);
+    if (added > 0) {
+        notes.push_back(
+            fmt::format("the outlines show {} facet{} more than the mesh has, most of them where "
+                        "it has few for "
+                        "a round girdle: named after the nearest facet",
+                        added, added == 1 ? "" : "s"));
+    }
+    return notes;
+}
+
 }  // namespace
 
 SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets) {
@@ -148,35 +179,7 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets) {
         knowledge->estimated.push_back(!(start.problem.stated_sigmas[s] > 0));
     }
     result.knowledge = std::move(knowledge);
-
-    std::vector<std::string> names;
-    for (const int f : found.lost) names.push_back(mesh.solid.facets[std::size_t(f)].name);
-    if (!names.empty()) {
-        result.notes.push_back("the outlines leave no room for the mesh's facets " +
-                               list_of(names) + ": they are left out");
-    }
-    names.clear();
-    // The largest first.
-    std::vector<int> unseen = told.unseen;
-    std::stable_sort(unseen.begin(), unseen.end(), [&](int a, int b) {
-        const Solid& solid = result.stone.solid;
-        return area(solid, solid.facets[std::size_t(a)]) >
-               area(solid, solid.facets[std::size_t(b)]);
-    });
-    for (const int p : unseen) {
-        names.push_back(result.stone.solid.facets[std::size_t(p)].name);
-    }
-    if (!names.empty()) {
-        result.notes.push_back("the outlines hardly tell how these facets lie: " + list_of(names));
-    }
-    const std::size_t added = result.stone.solid.facets.size() - mesh_planes(found);
-    if (added > 0) {
-        result.notes.push_back(
-            fmt::format("the outlines show {} facet{} more than the mesh has, most of them where "
-                        "it has few for "
-                        "a round girdle: named after the nearest facet",
-                        added, added == 1 ? "" : "s"));
-    }
+    result.notes = notes_of(mesh, found, result.stone.solid, told.unseen);
     return result;
 }
 

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "stone/upright.h"
 
 namespace culet {

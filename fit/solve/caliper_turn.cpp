@@ -12,7 +12,7 @@
 
 #include "fit/model/orbits.h"
 #include "fit/solve/constants.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 
 #include "fit/solve/constants.h"
 #include "fit/solve/manifolds.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

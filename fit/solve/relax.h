@@ -4,7 +4,7 @@
 // of Levenberg and Marquardt, Ceres).
 
 #include "fit/solve/relaxation.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

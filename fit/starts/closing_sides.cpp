@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -114,6 +115,34 @@ std::vector<Sided> sided_normals(const FitModel& model, const std::vector<int>& 
     return result;
 }
 
+// Of each edge that was read, by its facets.
+using ReadEdges = std::map<std::pair<int, int>, const Reading*>;
+ReadEdges read_edges(const FitModel& model) {
+    ReadEdges read;
+    for (const Reading& r : model.readings()) {
+        if (r.kind != ReadingKind::edge || r.aggregate != Aggregate::single) continue;
+        read.emplace(std::minmax(r.facets[0], r.facets[1]), &r);
+    }
+    return read;
+}
+
+Way way_of(int neighbour, const Sided& a, const Sided& b, double length, double sigma) {
+    Way way;
+    way.neighbour = neighbour;
+    const double turn = std::hypot(a.sigma, b.sigma);
+    for (const std::size_t i : {0, 1}) {
+        for (const std::size_t k : {0, 1}) {
+            const Vec3 u = glm::cross(a.normal[i], b.normal[k]);
+            const double sine = std::max(k_closing.least_sine, glm::length(u));
+            const double swing = std::min(k_closing.any_direction, turn / sine);
+            way.along[i][k] = u * (length / sine);
+            way.variance[i][k] =
+                k_closing.rounding + sigma * sigma + length * length * swing * swing;
+        }
+    }
+    return way;
+}
+
 Closing::Closing(const FitModel& model, const std::vector<int>& known, double rough) {
     const std::vector<Sided> sided = sided_normals(model, known, rough);
     const Shape& mesh = model.mesh_shape();
@@ -135,41 +164,20 @@ Closing::Closing(const FitModel& model, const std::vector<int>& known, double ro
         may_turn_[f] = 1;
         turning_.push_back(static_cast<int>(f));
     }
-    std::vector<std::pair<std::pair<int, int>, const Reading*>> read;
-    for (const Reading& r : model.readings()) {
-        if (r.kind != ReadingKind::edge || r.aggregate != Aggregate::single) continue;
-        read.push_back({std::minmax(r.facets[0], r.facets[1]), &r});
-    }
-    std::sort(read.begin(), read.end());
+    const ReadEdges read = read_edges(model);
     for (const Edge& e : model.edges().edges) {
-        const std::pair<int, int> pair = std::minmax(e.left, e.right);
-        const auto at = std::lower_bound(
-            read.begin(), read.end(), pair,
-            [](const auto& entry, const std::pair<int, int>& p) { return entry.first < p; });
+        const auto at = read.find(std::minmax(e.left, e.right));
         double length =
             glm::distance(mesh.points[std::size_t(e.from)], mesh.points[std::size_t(e.to)]);
         double sigma = std::hypot(std::numbers::sqrt2 * rough, k_closing.drawn_length * length);
-        if (at != read.end() && at->first == pair) {
+        if (at != read.end()) {
             const Reading& r = *at->second;
             length = r.value / model.frame().unit_of(r);
             sigma = std::hypot(r.sigma, r.rounding / std::sqrt(12.0)) / model.frame().unit_of(r);
         }
         for (const auto& [own, other] : {std::pair{e.left, e.right}, std::pair{e.right, e.left}}) {
-            Way way;
-            way.neighbour = other;
-            const Sided &a = sided[std::size_t(own)], &b = sided[std::size_t(other)];
-            const double turn = std::hypot(a.sigma, b.sigma);
-            for (const std::size_t i : {0, 1}) {
-                for (const std::size_t k : {0, 1}) {
-                    const Vec3 u = glm::cross(a.normal[i], b.normal[k]);
-                    const double sine = std::max(k_closing.least_sine, glm::length(u));
-                    const double swing = std::min(k_closing.any_direction, turn / sine);
-                    way.along[i][k] = u * (length / sine);
-                    way.variance[i][k] =
-                        k_closing.rounding + sigma * sigma + length * length * swing * swing;
-                }
-            }
-            ways_[std::size_t(own)].push_back(way);
+            ways_[std::size_t(own)].push_back(
+                way_of(other, sided[std::size_t(own)], sided[std::size_t(other)], length, sigma));
             near_[std::size_t(own)].push_back(other);
         }
     }

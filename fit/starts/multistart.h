@@ -9,7 +9,7 @@
 #include "fit/model/options.h"
 #include "fit/solve/active_set.h"
 #include "fit/starts/search_policy.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 
 #include "fit/solve/relaxation.h"
 #include "fit/starts/starts.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

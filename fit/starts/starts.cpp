@@ -15,8 +15,8 @@
 #include "fit/model/orbits.h"
 #include "fit/starts/closing_sides.h"
 #include "fit/starts/search_policy.h"
-#include "stone/checks.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/solid/checks.h"
 #include "stone/upright.h"
 
 namespace culet {

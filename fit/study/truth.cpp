@@ -6,7 +6,7 @@
 #include <random>
 
 #include "fit/study/parts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

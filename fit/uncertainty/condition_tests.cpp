@@ -5,7 +5,7 @@
 #include "fit/model/datum_defect.h"
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/statistics.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

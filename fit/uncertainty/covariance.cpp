@@ -7,7 +7,7 @@
 
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/sparse_covariance.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

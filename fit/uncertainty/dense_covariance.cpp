@@ -9,7 +9,7 @@
 #include "fit/solve/null_space.h"
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/covariance.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

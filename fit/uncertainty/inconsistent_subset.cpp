@@ -10,7 +10,7 @@
 #include "fit/solve/free_meets.h"
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/statistics.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include "fit/uncertainty/constants.h"
 #include "fit/uncertainty/diagnostics.h"
 #include "fit/uncertainty/meet_likelihood.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

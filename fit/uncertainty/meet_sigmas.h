@@ -4,7 +4,7 @@
 #include "fit/model/fit_model.h"
 #include "fit/model/options.h"
 #include "fit/solve/free_meets.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

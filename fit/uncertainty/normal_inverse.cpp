@@ -5,8 +5,8 @@
 
 #include "fit/model/sparse_ldl.h"
 #include "fit/uncertainty/constants.h"
-#include "stone/dense_algebra.h"
-#include "stone/heed_stop.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/progress/heed_stop.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

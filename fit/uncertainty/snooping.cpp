@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

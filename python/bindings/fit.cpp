@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "app/fit_uncertainty.h"
+#include "app/input/fit_uncertainty.h"
 #include "fit/findings/summary.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/long_work.h"

@@ -10,7 +10,7 @@
 #include "python/bindings/rooms.h"
 #include "render/grade/grade_json.h"
 #include "render/grade/grade_sigma.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace py = pybind11;

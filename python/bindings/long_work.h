@@ -7,7 +7,7 @@
 #include <chrono>
 #include <future>
 
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

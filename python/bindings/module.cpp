@@ -1,7 +1,7 @@
 // The compiled half of Python's culet. What people call stands in culet/*.py.
 
 #include "python/bindings/rooms.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace py = pybind11;
 

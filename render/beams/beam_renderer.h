@@ -7,7 +7,7 @@
 #include "render/beams/strip_painter.h"
 #include "render/image/picture.h"
 #include "render/setup/optical_setup.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -16,7 +16,7 @@
 #include "render/reference/prepared_scene.h"
 #include "render/setup/a_priori.h"
 #include "render/setup/scene_checks.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -177,6 +177,13 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
     const V3 beside = plus(to, hn::Neg(along), ray.direction);
     const V miss = hn::Sqrt(dot(beside, beside));
     const V radius = number(sphere.radius);
+    distance = along;
+    if constexpr (kSoft) {
+        // No pixel comes near it.
+        const V wide = length_of(plus(ray.point_x, along, ray.direction_x)) +
+                       length_of(plus(ray.point_y, along, ray.direction_y));
+        if (hn::AllFalse(k_floats, miss < radius + wide)) return number(0.0f);
+    }
     const V inside = radius - miss;
     const V half = hn::Sqrt(hn::Max(inside * (radius + miss), number(0.0f)));
     const V near = along - half, far = along + half;
@@ -219,7 +226,7 @@ HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& di
     const M meets = hn::And(towards<number(0.0f), height> number(0.0f));
     distance = height / hn::IfThenElse(meets, hn::Neg(towards), number(1.0f));
     V share = hn::IfThenElseZero(meets, number(1.0f));
-    if (!plane.bounded) return share;
+    if (!plane.bounded || hn::AllFalse(k_floats, meets)) return share;
     const V3 at = plus(ray.point, distance, ray.direction);
     V3 at_x = at, at_y = at;
     if constexpr (kSoft) {
@@ -239,6 +246,7 @@ HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& di
         if constexpr (kSoft) g = {dot(axis, at_x), dot(axis, at_y)};
         share = share * (share_where<kSoft>(value + number(1.0f), g) -
                          share_where<kSoft>(value - number(1.0f), g));
+        if (hn::AllFalse(k_floats, share > number(0.0f))) break;
     }
     return share;
 }
@@ -250,27 +258,25 @@ HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& rea
     const float* radiance[k_most_near_lights];
     const ShadedLights::Polarised* polarised[k_most_near_lights];
     int count = 0;
-    for (const auto& sphere : lights.spheres) {
-        radiance[count] = sphere.radiance.data();
-        polarised[count] = &sphere.polarised;
-        share[count] = sphere_share<kSoft>(sphere, ray, distance[count]);
+    // Those that no ray sees take no part: of several lights most rays see one or none.
+    const auto put = [&](const auto& light, const V& seen) HWY_ATTR {
+        share[count] = hn::IfThenElseZero(distance[count] < reach, hn::Max(seen, number(0.0f)));
+        if (hn::AllFalse(k_floats, share[count] > number(0.0f))) return;
+        radiance[count] = light.radiance.data();
+        polarised[count] = &light.polarised;
         ++count;
-    }
-    for (const auto& plane : lights.planes) {
-        radiance[count] = plane.radiance.data();
-        polarised[count] = &plane.polarised;
-        share[count] = plane_share<kSoft>(plane, ray, distance[count]);
-        ++count;
-    }
+    };
+    for (const auto& sphere : lights.spheres)
+        put(sphere, sphere_share<kSoft>(sphere, ray, distance[count]));
+    for (const auto& plane : lights.planes)
+        put(plane, plane_share<kSoft>(plane, ray, distance[count]));
     V unhidden = number(1.0f);
     for (int i = 0; i < count; ++i) {
-        share[i] = hn::IfThenElseZero(distance[i] < reach, share[i]);
         V seen = share[i];
         for (int j = 0; j < count; ++j) {
             if (j == i) continue;
             const M before = j < i ? distance[j] <= distance[i] : distance[j] < distance[i];
-            const V hides = hn::IfThenElseZero(hn::And(before, distance[j] < reach), share[j]);
-            seen = seen * (number(1.0f) - hides);
+            seen = seen * (number(1.0f) - hn::IfThenElseZero(before, share[j]));
         }
         take(seen, radiance[i], *polarised[i]);
         unhidden = unhidden * (number(1.0f) - share[i]);

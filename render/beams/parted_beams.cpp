@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/least_rotation.h"
+#include "stone/solid/least_rotation.h"
 
 namespace culet {
 

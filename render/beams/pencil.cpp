@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

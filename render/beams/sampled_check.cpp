@@ -9,7 +9,7 @@
 #include "render/reference/pixel_shader.h"
 #include "render/work/listener.h"
 #include "render/work/threads.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

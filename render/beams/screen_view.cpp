@@ -5,7 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include "stone/dense_algebra.h"
-#include "stone/errors.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

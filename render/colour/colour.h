@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "stone/spectrum.h"
+#include "stone/material/spectrum.h"
 
 namespace culet {
 

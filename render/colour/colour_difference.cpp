@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "render/colour/difference_near.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 namespace culet {
 

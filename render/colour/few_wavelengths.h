@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/colour/colour.h"
-#include "stone/spectrum.h"
+#include "stone/material/spectrum.h"
 
 namespace culet {
 

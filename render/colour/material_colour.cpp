@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vector>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

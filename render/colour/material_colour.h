@@ -13,7 +13,7 @@
 
 #include "render/colour/colour.h"
 #include "render/colour/colour_difference.h"
-#include "stone/material.h"
+#include "stone/material/material.h"
 
 namespace culet {
 

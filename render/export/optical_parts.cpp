@@ -6,7 +6,7 @@
 
 #include "render/optics/conductor.h"
 #include "stone/export/mean_material.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -13,7 +13,7 @@
 #include "render/export/scene_writer.h"
 #include "render/setup/optical_setup.h"
 #include "render/setup/scene_checks.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

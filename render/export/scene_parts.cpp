@@ -6,9 +6,9 @@
 #include <cctype>
 #include <glm/geometric.hpp>
 
-#include "stone/errors.h"
-#include "stone/facet_triangles.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/facet_triangles.h"
+#include "stone/solid/perpendicular.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "stone/errors.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

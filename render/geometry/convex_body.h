@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

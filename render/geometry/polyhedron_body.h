@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "render/geometry/convex_body.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -13,7 +13,7 @@
 #include "render/reference/prepared_scene.h"
 #include "render/setup/scene_checks.h"
 #include "render/work/listener.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 
 #include "render/beams/beam_lights.h"
 #include "render/gpu/gpu_passes.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 
 #include "render/beams/screen_region.h"
 #include "render/optics/fresnel.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

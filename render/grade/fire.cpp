@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "render/beams/screen_region.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

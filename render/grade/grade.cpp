@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "render/work/threads.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

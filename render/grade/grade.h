@@ -15,9 +15,9 @@
 #include "render/grade/hearts_arrows.h"
 #include "render/grade/light_return.h"
 #include "render/grade/scope_shares.h"
-#include "stone/material.h"
-#include "stone/progress.h"
-#include "stone/units.h"
+#include "stone/material/material.h"
+#include "stone/numbers/units.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -1,6 +1,6 @@
 #include "render/grade/grade_figures.h"
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/grade/grade_figures.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 
 #include "render/grade/grade.h"
 #include "render/grade/grade_sigma.h"
-#include "stone/change.h"
+#include "stone/text/change.h"
 
 namespace culet {
 

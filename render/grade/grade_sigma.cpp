@@ -10,9 +10,9 @@
 #include "render/grade/curve_sums.h"
 #include "render/grade/grade_figures.h"
 #include "render/work/threads.h"
-#include "stone/errors.h"
+#include "stone/design/tiers.h"
 #include "stone/stone.h"
-#include "stone/tiers.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

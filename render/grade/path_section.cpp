@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "render/optics/fresnel.h"
+#include "stone/design/tiers.h"
+#include "stone/numbers/units.h"
 #include "stone/stone.h"
-#include "stone/tiers.h"
-#include "stone/units.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

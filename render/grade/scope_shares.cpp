@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/scene/light_presets.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

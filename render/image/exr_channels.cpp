@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

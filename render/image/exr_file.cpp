@@ -8,7 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -21,7 +21,7 @@
 #include "render/image/exr_channels.h"
 #include "render/image/exr_file.h"
 #include "render/image/linear_picture.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -11,7 +11,7 @@
 #include <list>
 
 #include "render/image/image_exr.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

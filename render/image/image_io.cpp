@@ -9,10 +9,10 @@
 #include "render/image/linear_picture.h"
 #include "render/image/picture_format.h"
 #include "render/image/shown_bytes.h"
-#include "stone/errors.h"
-#include "stone/file_kind.h"
-#include "stone/output_file.h"
-#include "stone/text_decoding.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_decoding.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "render/scene/environment_layout.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

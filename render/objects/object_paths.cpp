@@ -6,7 +6,7 @@
 
 #include "render/objects/rough_surface.h"
 #include "render/optics/fresnel.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

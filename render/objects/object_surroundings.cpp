@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "render/reference/prepared_scene.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

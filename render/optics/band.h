@@ -4,7 +4,7 @@
 #include <array>
 
 #include "render/optics/crystal.h"
-#include "stone/spectrum.h"
+#include "stone/material/spectrum.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 
 #include "render/optics/complex_vector.h"
 #include "render/optics/wave_normals.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

@@ -11,7 +11,7 @@
 #include <array>
 #include <complex>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "render/optics/complex_vector.h"
-#include "stone/dense_algebra.h"
-#include "stone/perpendicular.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

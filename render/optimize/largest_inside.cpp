@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The largest copy of a convex solid that another holds.
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 
 #include "render/grade/scope_shares.h"
 #include "render/work/threads.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "render/optimize/largest_inside.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

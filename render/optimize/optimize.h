@@ -7,7 +7,7 @@
 
 #include "render/optimize/merit.h"
 #include "render/optimize/tier_design.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <set>
 
-#include "stone/dense_algebra.h"
-#include "stone/drawn_symmetry.h"
-#include "stone/errors.h"
+#include "stone/design/drawn_symmetry.h"
+#include "stone/numbers/dense_algebra.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -6,13 +6,14 @@
 // their angle. Wanted angles come first: each facet turns about its corners next to the girdle, the
 // table follows the facets around it. Then the nearest angles and offsets are found at which all
 // meets hold: Gauss-Newton on the meets' misses, each step the smallest that takes them away.
-// What the design's symmetry about +z takes into each other changes alike (stone/drawn_symmetry.h).
+// What the design's symmetry about +z takes into each other changes alike
+// (stone/design/drawn_symmetry.h).
 
 #include <optional>
 #include <vector>
 
-#include "stone/solid.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/planner/wavelengths.h"
 #include "render/setup/a_priori.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

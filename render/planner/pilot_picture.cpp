@@ -15,7 +15,7 @@
 #include "render/work/price.h"
 #include "render/work/threads.h"
 #include "render/work/work_meter.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 
 #include "render/engine/render_result.h"
 #include "render/scene/scene.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 
 #include "render/optics/path.h"
 #include "render/raytable/octahedral_codes.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

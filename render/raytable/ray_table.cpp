@@ -13,8 +13,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 

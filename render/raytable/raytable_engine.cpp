@@ -12,8 +12,8 @@
 #include "render/raytable/table_key.h"
 #include "render/raytable/table_maker.h"
 #include "render/setup/scene_checks.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 

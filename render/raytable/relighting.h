@@ -5,7 +5,7 @@
 #include "render/raytable/leaf_shader.h"
 #include "render/raytable/ray_table.h"
 #include "render/raytable/table_key.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

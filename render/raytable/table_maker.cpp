@@ -14,7 +14,7 @@
 #include "render/reference/light_paths.h"
 #include "render/work/listener.h"
 #include "render/work/threads.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 
 #include "render/raytable/ray_table.h"
 #include "render/raytable/table_key.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

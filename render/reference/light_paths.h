@@ -24,7 +24,7 @@
 #include "render/optics/path.h"
 #include "render/scene/scene.h"
 #include "render/setup/built_effects.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

@@ -11,8 +11,8 @@
 #include "render/reference/light_paths.h"
 #include "render/reference/prepared_scene.h"
 #include "render/setup/scene_checks.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

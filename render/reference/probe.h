@@ -7,7 +7,7 @@
 #include "render/optics/stokes.h"
 #include "render/scene/scene.h"
 #include "render/setup/optical_setup.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/scene/scene.h"
-#include "stone/least_rotation.h"
+#include "stone/solid/least_rotation.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/scene/view_presets.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

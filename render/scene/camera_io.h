@@ -2,7 +2,7 @@
 // [camera] of scene files, see docs/rendering.md.
 
 #include "render/scene/scene.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -3,7 +3,7 @@
 
 #include "render/image/film_look.h"
 #include "render/scene/scene.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

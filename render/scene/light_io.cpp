@@ -10,8 +10,8 @@
 #include "render/scene/light_presets.h"
 #include "render/scene/table_values.h"
 #include "render/scene/view_presets.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

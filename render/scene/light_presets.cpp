@@ -4,8 +4,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "stone/toml_file.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/name_suggestions.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "stone/least_rotation.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/least_rotation.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 

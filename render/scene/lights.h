@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "render/colour/colour.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

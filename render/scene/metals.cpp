@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/name_suggestions.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 
 #include "render/scene/table_values.h"
 #include "render/scene/transform.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

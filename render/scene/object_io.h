@@ -2,8 +2,8 @@
 // `[[object]]` of a scene file, see docs/rendering.md.
 
 #include "render/scene/objects.h"
-#include "stone/toml_file.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/scene/lights.h"
-#include "stone/surface_mesh.h"
+#include "stone/mesh/surface_mesh.h"
 
 namespace culet {
 

@@ -16,10 +16,10 @@
 #include "render/scene/transform.h"
 #include "render/scene/turned_lights.h"
 #include "render/scene/view_presets.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/material_io.h"
+#include "stone/material/material_io.h"
+#include "stone/solid/checks.h"
 #include "stone/stone_io.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/scene/scene.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

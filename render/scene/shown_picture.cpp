@@ -7,7 +7,7 @@
 
 #include "render/scene/film_io.h"
 #include "render/scene/light_presets.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

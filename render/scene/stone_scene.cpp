@@ -8,13 +8,13 @@
 
 #include "render/scene/scene_io.h"
 #include "render/scene/view_presets.h"
-#include "stone/design.h"
-#include "stone/errors.h"
-#include "stone/file_kind.h"
-#include "stone/material.h"
-#include "stone/material_io.h"
+#include "stone/design/design.h"
+#include "stone/material/material.h"
+#include "stone/material/material_io.h"
 #include "stone/solid_input.h"
-#include "stone/toml_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_scan.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -2,7 +2,7 @@
 // Values that several tables of a scene file have. All throw InputError with file and line.
 
 #include "render/scene/objects.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 
 #include "render/scene/objects.h"
 #include "stone/stone.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

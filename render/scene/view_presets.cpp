@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include "render/colour/few_wavelengths.h"
 #include "render/setup/light_needs.h"
 #include "render/setup/probe_wavelengths.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,9 +7,9 @@
 
 #include "render/geometry/stone_body.h"
 #include "render/optics/path.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "stone/facet_triangles.h"
+#include "stone/solid/facet_triangles.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 
 #include "render/colour/material_colour.h"
 #include "render/optics/conductor.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 

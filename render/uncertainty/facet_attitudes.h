@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/colour/colour.h"
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {

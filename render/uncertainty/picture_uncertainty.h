@@ -9,7 +9,7 @@
 #include "render/image/picture.h"
 #include "render/scene/scene.h"
 #include "render/uncertainty/drawn_stones.h"
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

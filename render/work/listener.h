@@ -5,7 +5,7 @@
 #include <chrono>
 #include <mutex>
 
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

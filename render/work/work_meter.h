@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "stone/progress.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 

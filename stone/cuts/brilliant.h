@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "stone/cuts/outline.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

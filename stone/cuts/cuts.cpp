@@ -8,10 +8,10 @@
 
 #include "stone/cuts/brilliant.h"
 #include "stone/cuts/faceted.h"
-#include "stone/errors.h"
-#include "stone/name_suggestions.h"
-#include "stone/toml_file.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
+#include "stone/text/name_suggestions.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

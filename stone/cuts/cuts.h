@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/plan.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/plan.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 
 namespace culet {

@@ -11,9 +11,9 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
-#include "stone/errors.h"
 #include "stone/export/mean_material.h"
-#include "stone/facet_triangles.h"
+#include "stone/solid/facet_triangles.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

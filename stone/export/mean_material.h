@@ -1,7 +1,7 @@
 #pragma once
 // A material for programs that know no crystals.
 
-#include "stone/material.h"
+#include "stone/material/material.h"
 
 namespace culet {
 

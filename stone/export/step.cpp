@@ -12,10 +12,10 @@
 #include <map>
 #include <utility>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/facet_triangles.h"
-#include "stone/text_decoding.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/facet_triangles.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_decoding.h"
 
 namespace culet {
 

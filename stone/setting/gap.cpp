@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "stone/facet_triangles.h"
+#include "stone/solid/facet_triangles.h"
 
 namespace culet {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "stone/errors.h"
-#include "stone/plan.h"
+#include "stone/solid/plan.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

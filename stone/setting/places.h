@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stone/plan.h"
+#include "stone/solid/plan.h"
 
 namespace culet {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/errors.h"
 #include "stone/setting/parts.h"
 #include "stone/setting/section_path.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "stone/setting/places.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "stone/caliper.h"
-#include "stone/errors.h"
 #include "stone/setting/parts.h"
+#include "stone/solid/caliper.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "stone/setting/shell.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 
@@ -44,8 +44,8 @@ struct Setting {
 };
 
 /// The mounting of a stone that stands with its table along `up`; the shank's hoop runs across the
-/// plan's x axis (stone/caliper.h), so that a stone lies along the finger. Any convex or notched
-/// outline will do.
+/// plan's x axis (stone/solid/caliper.h), so that a stone lies along the finger. Any convex or
+/// notched outline will do.
 ///
 /// - A prong is a round wire that rises from the gallery below, leans against the girdle and bends
 ///   over it onto the crown: in the upright section through its place the shortest path at a

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "stone/plan.h"
-#include "stone/solid.h"
+#include "stone/solid/plan.h"
+#include "stone/solid/solid.h"
 
 namespace culet {
 

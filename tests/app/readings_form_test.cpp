@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "stone/output_file.h"
+#include "stone/text/output_file.h"
 #include "tests/app/program_test.h"
 
 namespace culet {

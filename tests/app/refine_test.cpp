@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/calibration/facet_error.h"
+#include "stone/numbers/units.h"
 #include "stone/stone_io.h"
-#include "stone/units.h"
 #include "tests/app/program_test.h"
 
 namespace culet {

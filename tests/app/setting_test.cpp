@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/scene/scene_io.h"
-#include "stone/surface_mesh.h"
+#include "stone/mesh/surface_mesh.h"
 #include "tests/app/program_test.h"
 
 namespace culet {

@@ -10,8 +10,8 @@
 #include "compare/report/scores_json.h"
 #include "compare/scores/aligned_pair.h"
 #include "render/colour/colour.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 
 namespace culet {

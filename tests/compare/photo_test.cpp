@@ -10,7 +10,7 @@
 
 #include "render/colour/colour.h"
 #include "render/image/picture_format.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace culet {

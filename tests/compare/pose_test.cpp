@@ -23,9 +23,9 @@
 #include "render/beams/screen_view.h"
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/numbers/units.h"
 #include "stone/stone.h"
-#include "stone/units.h"
+#include "stone/text/errors.h"
 #include "tests/compare/simulated_photo.h"
 
 namespace culet {

@@ -12,7 +12,7 @@
 
 #include "compare/report/report_parts.h"
 #include "compare/report/scores_json.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 #include "tests/page/kept_pages.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/compare/study_scene.h"
 
 namespace culet {

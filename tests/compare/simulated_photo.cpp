@@ -11,10 +11,10 @@
 
 #include "compare/pose/stone_view.h"
 #include "render/colour/colour.h"
-#include "stone/errors.h"
-#include "stone/perpendicular.h"
-#include "stone/quantile.h"
-#include "stone/units.h"
+#include "stone/numbers/quantile.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/perpendicular.h"
+#include "stone/text/errors.h"
 
 namespace culet::synthetic {
 

@@ -2,7 +2,7 @@
 // A small scene whose study takes seconds: a cube seen from a corner.
 
 #include "render/scene/scene.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet::test {
 

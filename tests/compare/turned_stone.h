@@ -5,7 +5,7 @@
 #include <random>
 
 #include "compare/photo/photo.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet::synthetic {
 

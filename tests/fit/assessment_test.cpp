@@ -10,7 +10,7 @@
 #include "fit/model/fit_model.h"
 #include "fit/readings/rounding.h"
 #include "fit/readings/slips.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 namespace {

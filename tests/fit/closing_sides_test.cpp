@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/fit_trials.h"
 
 namespace culet {

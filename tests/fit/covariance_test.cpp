@@ -10,7 +10,7 @@
 #include "fit/model/fit_model.h"
 #include "fit/solve/null_space.h"
 #include "fit/uncertainty/normal_inverse.h"
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

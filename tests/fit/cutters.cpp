@@ -11,9 +11,9 @@
 #include <stdexcept>
 
 #include "fit/readings/named_tiers.h"
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/cutter_slips.h"
 #include "tests/fit/fit_truth.h"
 

@@ -10,7 +10,7 @@
 
 #include "fit/uncertainty/variance_component.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

@@ -14,7 +14,7 @@
 #include "fit/findings/tier_findings.h"
 #include "fit/hypotheses/doubted_readings.h"
 #include "stone/cuts/cuts.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
 #include "tests/fit/cutters.h"
 #include "tests/says.h"
 

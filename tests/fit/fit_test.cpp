@@ -8,9 +8,9 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

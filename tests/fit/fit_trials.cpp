@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/cpu_time.h"
 
 namespace culet::bench {

@@ -10,9 +10,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/half_edges.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/half_edges.h"
 
 namespace culet::bench {
 

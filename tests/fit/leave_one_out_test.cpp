@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "stone/checks.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/fit_trials.h"
 
 namespace culet {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "fit/fit.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 #include "tests/folder_test.h"
 

@@ -4,8 +4,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "fit/fit.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

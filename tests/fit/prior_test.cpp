@@ -8,8 +8,8 @@
 
 #include <cmath>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/cutters.h"
 #include "tests/fit/fit_truth.h"
 

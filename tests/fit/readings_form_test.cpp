@@ -13,10 +13,10 @@
 
 #include "fit/fit.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/gemcad_io.h"
-#include "stone/index_names.h"
+#include "stone/design/index_names.h"
+#include "stone/gemcad/gemcad_io.h"
 #include "stone/stone_io.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 #include "tests/says.h"
 

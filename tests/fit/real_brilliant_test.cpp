@@ -13,7 +13,7 @@
 #include <string>
 
 #include "fit/fit.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "stone/stone_io.h"
 
 namespace culet {

@@ -13,7 +13,7 @@
 #include "fit/solve/relaxation.h"
 #include "fit/starts/refit.h"
 #include "fit/uncertainty/diagnostics.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/fit/fit_truth.h"
 
 namespace culet {

@@ -11,7 +11,7 @@
 #include "fit/mesh/repair.h"
 #include "fit/model/canonical.h"
 #include "fit/starts/starts.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/fit_trials.h"
 #include "tests/fit/test_stones.h"
 

@@ -6,7 +6,7 @@
 
 #include "fit/fit.h"
 #include "fit/silhouettes/registration.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 #include "tests/fit/turntable_outlines.h"
 

@@ -7,8 +7,8 @@
 
 #include "fit/silhouettes/contour_files.h"
 #include "fit/silhouettes/silhouette.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/folder_test.h"
 
 namespace culet {

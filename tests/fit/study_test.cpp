@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

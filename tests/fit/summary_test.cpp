@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/says.h"
 
 namespace culet {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fit/fit.h"
-#include "stone/half_edges.h"
+#include "stone/solid/half_edges.h"
 #include "stone/stone.h"
 #include "tests/stone/enclosed.h"
 

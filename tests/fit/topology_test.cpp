@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "fit/mesh/come_to_nothing.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

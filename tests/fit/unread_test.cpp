@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
+#include "stone/solid/checks.h"
 #include "tests/fit/fit_trials.h"
 #include "tests/fit/test_stones.h"
 

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <string_view>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
-#include "stone/proportions.h"
+#include "stone/design/proportions.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

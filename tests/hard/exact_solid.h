@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet::hard {
 

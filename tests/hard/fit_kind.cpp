@@ -21,8 +21,8 @@
 #include <random>
 
 #include "fit/fit.h"
-#include "stone/checks.h"
-#include "stone/errors.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/fit/test_stones.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/hard_solids.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet::hard {
 

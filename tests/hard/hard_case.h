@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet::hard {
 

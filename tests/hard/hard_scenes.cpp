@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "render/scene/scene_io.h"
-#include "stone/mesh_io.h"
-#include "stone/output_file.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/output_file.h"
 
 namespace culet::hard {
 

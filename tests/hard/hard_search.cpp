@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stone/output_file.h"
+#include "stone/text/output_file.h"
 #include "tests/hard/hard_run.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 
 namespace culet::hard {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "stone/solid.h"
-#include "stone/toml_file.h"
+#include "stone/solid/solid.h"
+#include "stone/text/toml_file.h"
 
 namespace culet::hard {
 

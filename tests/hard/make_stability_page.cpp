@@ -5,7 +5,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "stone/output_file.h"
+#include "stone/text/output_file.h"
 #include "tests/hard/stability_page.h"
 
 int main(int argc, char** argv) {

@@ -19,8 +19,8 @@
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
 #include "compare/scores/compare.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/compare/synthetic_pictures.h"
 #include "tests/hard/hard_kinds.h"
 

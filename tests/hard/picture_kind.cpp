@@ -16,7 +16,7 @@
 #include "render/beams/beam_shading.h"
 #include "render/image/image_io.h"
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/hard/hard_scenes.h"
 
 namespace culet::hard {

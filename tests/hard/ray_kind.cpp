@@ -16,7 +16,7 @@
 #include <optional>
 
 #include "render/reference/probe.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/hard/hard_scenes.h"
 #include "tests/random_attitudes.h"
 

@@ -13,8 +13,8 @@
 
 #include "render/geometry/convex_body.h"
 #include "render/geometry/polyhedron_body.h"
-#include "stone/checks.h"
-#include "stone/mesh_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
 #include "tests/hard/exact_solid.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/hard_solids.h"

@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "render/optics/crystal.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet::hard {
 

@@ -71,7 +71,7 @@ std::set<std::string> includes_of(const fs::path& file) {
 // that stay inside their room may show Eigen or OpenCV to their neighbours.
 // The one exception is small dense algebra: its header shows <Eigen/Core>, which is cheap, so that
 // Eigen's decompositions, which are not, compile once for all rooms.
-const std::string k_shows_eigen = "stone/dense_algebra.h";
+const std::string k_shows_eigen = "stone/numbers/dense_algebra.h";
 
 TEST(Rooms, ShowNoHeavyLibraryToOtherRooms) {
     const std::regex heavy(

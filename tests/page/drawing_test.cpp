@@ -14,7 +14,7 @@
 #include "page/facet_labels.h"
 #include "page/fit_paint.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/page/xml.h"
 
 namespace culet {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "page/parts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/page/kept_pages.h"
 #include "tests/says.h"
 

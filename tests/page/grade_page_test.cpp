@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "page/grade_section.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/page/kept_pages.h"
 
 namespace culet {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/page/kept_pages.h"
 
 namespace culet {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/page/kept_pages.h"
 #include "tests/page/xml.h"
 

@@ -4,7 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "stone/errors.h"
+#include "stone/solid/perpendicular.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 
@@ -93,6 +94,22 @@ Lights smooth_lights(double peak) {
         CosinePowerLight{glm::normalize(Vec3{-1, 0.4, 0.5}), 8, {2.0 * scale}});
     lights.sources.push_back(
         CosinePowerLight{glm::normalize(Vec3{0.5, -1, 0.3}), 4, {1.0 * scale}});
+    return lights;
+}
+
+Lights near_lights(double diameter) {
+    Lights lights;
+    lights.constant = 0.05;
+    const auto panel = [&](const Vec3& towards, double half, double radiance) {
+        const Vec3 way = glm::normalize(towards), u = half * diameter * perpendicular_to(way);
+        lights.sources.push_back(
+            PlaneLight{2.5 * diameter * way, -way, u, glm::cross(way, u), {radiance}});
+    };
+    panel({0.5, 0.3, 1}, 1, 0.9);
+    panel({-1, 0.5, 0.6}, 0.7, 0.6);
+    panel({0.3, -1, 0.5}, 0.7, 0.4);
+    lights.sources.push_back(SphereLight{diameter * Vec3{-0.9, -1.2, 2.2}, 0.25 * diameter, {0.9}});
+    lights.sources.push_back(SphereLight{diameter * Vec3{1.6, -0.6, 1.4}, 0.2 * diameter, {0.7}});
     return lights;
 }
 

@@ -39,6 +39,10 @@ Vec3 random_view(std::mt19937_64& random);
 /// `peak`: radiance where the brightest lobe is. Lobes alone: nothing with an edge.
 Lights smooth_lights(double peak = 5);
 
+/// Three planes and two spheres about a stone of this size, as Voelker & Hamann light theirs for
+/// fig. 9; radiance 0.9 at most, which a PNG holds.
+Lights near_lights(double diameter);
+
 /// 800 x 800 without --pixels, depth 8, one wavelength, nothing cut.
 Scene base_scene(int pixels);
 void set_polarised(Scene& scene, bool polarised);

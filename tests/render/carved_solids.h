@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "stone/cuts/cuts.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 #include "tests/render/random_direction.h"
 
 namespace culet::carved {

@@ -21,7 +21,7 @@
 #include <variant>
 #include <vector>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/render/codec_pictures.h"
 
 namespace {

@@ -11,8 +11,8 @@
 
 #include "render/optics/eye_optics.h"
 #include "render/reference/light_paths.h"
-#include "stone/least_rotation.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/least_rotation.h"
+#include "stone/solid/perpendicular.h"
 #include "tests/render/ray_stones.h"
 
 namespace {

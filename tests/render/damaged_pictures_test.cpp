@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/render/codec_pictures.h"
 
 namespace {

@@ -13,7 +13,7 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/settings_io.h"
 #include "render/scene/turntable.h"
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 #include "tests/render/bench_scenes.h"
 #include "tests/render/gpu/gpu_scenes.h"
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/optics/complex_vector.h"
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 #include "tests/random_attitudes.h"
 
 namespace culet {

@@ -15,7 +15,7 @@
 #include "render/image/shown_bytes.h"
 #include "render/image/sparkle.h"
 #include "render/scene/film_io.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render/image/image_io.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace culet::test {

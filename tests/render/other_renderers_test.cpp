@@ -13,8 +13,8 @@
 
 #include "render/export/mitsuba.h"
 #include "render/export/pbrt.h"
-#include "stone/errors.h"
 #include "stone/export/mean_material.h"
+#include "stone/text/errors.h"
 #include "tests/render/ray_stones.h"
 
 namespace culet {

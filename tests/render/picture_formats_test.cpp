@@ -12,7 +12,7 @@
 
 #include "render/colour/colour.h"
 #include "render/image/image_io.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace {

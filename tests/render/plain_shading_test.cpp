@@ -13,8 +13,8 @@
 #include "render/shaded/local_shading.h"
 #include "render/shaded/shaded_picture.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/material.h"
+#include "stone/material/material.h"
+#include "stone/text/errors.h"
 #include "tests/render/shaded_scenes.h"
 
 namespace culet {

@@ -6,7 +6,7 @@
 
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/render/bench_scenes.h"
 
 namespace culet {

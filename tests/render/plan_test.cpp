@@ -20,7 +20,7 @@
 #include "render/render.h"
 #include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -12,7 +12,7 @@
 #include <limits>
 #include <thread>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/render/carved_solids.h"
 
 namespace {

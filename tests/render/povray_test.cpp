@@ -15,8 +15,8 @@
 
 #include "render/image/image_io.h"
 #include "render/render.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/folder_test.h"
 #include "tests/render/ray_stones.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/scene/scene.h"
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 #include "tests/render/random_direction.h"
 
 namespace culet {

@@ -15,7 +15,7 @@
 #include "render/scene/scene_io.h"
 #include "render/setup/scene_checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace {

@@ -12,7 +12,7 @@
 #include "render/reference/probe.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace {

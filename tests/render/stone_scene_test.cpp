@@ -15,7 +15,7 @@
 #include "render/scene/light_presets.h"
 #include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace culet {

@@ -16,7 +16,7 @@
 #include "render/render.h"
 #include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "stone/automorphisms.h"
+#include "stone/solid/automorphisms.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <set>
 
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/half_edges.h"
+#include "stone/solid/half_edges.h"
+#include "stone/text/errors.h"
 #include "tests/stone/enclosed.h"
 #include "tests/stone/synthetic_solids.h"
 

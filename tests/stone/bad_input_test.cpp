@@ -8,12 +8,12 @@
 #include <functional>
 #include <random>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
-#include "stone/output_file.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
 #include "stone/stone.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 

@@ -1,4 +1,4 @@
-#include "stone/checks.h"
+#include "stone/solid/checks.h"
 
 #include <gmock/gmock.h>
 

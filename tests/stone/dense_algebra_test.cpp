@@ -1,6 +1,6 @@
 // Source of the expectations: closed forms.
 
-#include "stone/dense_algebra.h"
+#include "stone/numbers/dense_algebra.h"
 
 #include <gtest/gtest.h>
 

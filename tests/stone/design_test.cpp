@@ -1,4 +1,4 @@
-#include "stone/design.h"
+#include "stone/design/design.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,10 @@
 #include <set>
 
 #include "stone/cuts/cuts.h"
-#include "stone/cutting_list.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
-#include "stone/output_file.h"
+#include "stone/design/cutting_list.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/output_file.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stone/solid.h"
+#include "stone/solid/solid.h"
 
 namespace culet::test {
 

@@ -9,12 +9,12 @@
 #include <regex>
 #include <set>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
 #include "stone/export/export_frame.h"
 #include "stone/export/gltf_write.h"
 #include "stone/export/step.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/mesh_io.h"
-#include "stone/units.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

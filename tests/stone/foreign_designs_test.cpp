@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "stone/errors.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/errors.h"
 #include "tests/says.h"
 
 namespace culet::test {

@@ -11,12 +11,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/mesh_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
 #include "stone/solid_input.h"
 #include "stone/stone_io.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 #include "tests/folder_test.h"
 #include "tests/says.h"

@@ -6,14 +6,14 @@
 #include <bit>
 #include <functional>
 
-#include "stone/csv.h"
-#include "stone/errors.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
-#include "stone/text_decoding.h"
-#include "stone/text_scan.h"
-#include "stone/toml_file.h"
-#include "stone/written_number.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/text/csv.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_decoding.h"
+#include "stone/text/text_scan.h"
+#include "stone/text/toml_file.h"
+#include "stone/text/written_number.h"
 #include "tests/folder_test.h"
 #include "tests/says.h"
 

@@ -1,4 +1,4 @@
-#include "stone/gemcad_io.h"
+#include "stone/gemcad/gemcad_io.h"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "stone/checks.h"
-#include "stone/cut_planes.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
-#include "stone/proportions.h"
-#include "stone/text_decoding.h"
+#include "stone/design/proportions.h"
+#include "stone/gemcad/cut_planes.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_decoding.h"
 #include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 

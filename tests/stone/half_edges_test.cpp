@@ -1,10 +1,10 @@
-#include "stone/half_edges.h"
+#include "stone/solid/half_edges.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

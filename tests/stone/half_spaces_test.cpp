@@ -9,10 +9,10 @@
 #include <set>
 #include <tuple>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/solid.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/solid.h"
+#include "stone/text/errors.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

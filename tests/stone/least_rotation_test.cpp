@@ -1,7 +1,7 @@
 // The least rotation between two directions, held against a quaternion's where that is well
 // conditioned, and against what any rotation keeps where the two are all but opposite.
 
-#include "stone/least_rotation.h"
+#include "stone/solid/least_rotation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "stone/mesh_io.h"
+#include "stone/mesh/mesh_io.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/face_soup.h"
+#include "stone/mesh/face_soup.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <set>
 
-#include "stone/errors.h"
-#include "stone/material.h"
-#include "stone/name_suggestions.h"
-#include "stone/toml_advice.h"
-#include "stone/toml_file.h"
+#include "stone/material/material.h"
+#include "stone/text/errors.h"
+#include "stone/text/name_suggestions.h"
+#include "stone/text/toml_advice.h"
+#include "stone/text/toml_file.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "stone/checks.h"
-#include "stone/solid.h"
+#include "stone/solid/checks.h"
+#include "stone/solid/solid.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

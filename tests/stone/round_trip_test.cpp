@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/gemcad_io.h"
-#include "stone/mesh_io.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
 #include "stone/stone.h"
 #include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/proportions.h"
+#include "stone/design/proportions.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 

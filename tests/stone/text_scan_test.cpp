@@ -1,4 +1,4 @@
-#include "stone/text_scan.h"
+#include "stone/text/text_scan.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include <random>
 #include <set>
 
-#include "stone/caliper.h"
 #include "stone/cuts/cuts.h"
-#include "stone/cutting_list.h"
-#include "stone/gemcad_io.h"
-#include "stone/output_file.h"
+#include "stone/design/cutting_list.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/solid/caliper.h"
 #include "stone/stone.h"
-#include "stone/written_number.h"
+#include "stone/text/output_file.h"
+#include "stone/text/written_number.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

@@ -1,4 +1,4 @@
-#include "stone/toml_keys.h"
+#include "stone/text/toml_keys.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/toml_file.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

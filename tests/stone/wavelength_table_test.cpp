@@ -1,10 +1,10 @@
 // Tables by wavelength: the unit is the header's, or that in which the table covers visible light.
 
-#include "stone/wavelength_table.h"
+#include "stone/material/wavelength_table.h"
 
 #include <gmock/gmock.h>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace culet::test {

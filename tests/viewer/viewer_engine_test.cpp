@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
@@ -16,7 +19,8 @@
 #include "render/scene/light_presets.h"
 #include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "viewer/engine/viewer_document.h"
 
 namespace culet {
@@ -273,6 +277,34 @@ TEST(ViewerEngine, CutsWithOtherProportions) {
               "none");
     // The one before is still there.
     page.call("set", {{"stone", 0}, {"settings", Json::array()}});
+}
+
+// The page asks nothing that the engine does not know, and docs/viewer.md has all calls, in their
+// order. `start` is the worker's own.
+TEST(ViewerEngine, HasTheCallsOfThePageAndOfItsDocumentation) {
+    const auto names_in = [](const std::filesystem::path& file, const char* pattern) {
+        const std::string text = read_text(std::filesystem::path(CULET_SOURCE_DIR) / file);
+        const std::regex call(pattern);
+        std::vector<std::string> names;
+        for (std::sregex_iterator at(text.begin(), text.end(), call), end; at != end; ++at) {
+            if ((*at)[1] != "start") names.push_back((*at)[1]);
+        }
+        return names;
+    };
+    const auto known = ViewerEngine::calls();
+    const std::vector<std::string> all(known.begin(), known.end());
+    EXPECT_EQ(names_in("docs/viewer.md", R"(\n\| `([a-z]+)` \| )"), all);
+    std::size_t asked = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::filesystem::path(CULET_SOURCE_DIR) / "viewer/page")) {
+        if (entry.path().extension() != ".js") continue;
+        for (const std::string& name : names_in(entry.path(), R"re(\.call\("([a-z]+)")re")) {
+            EXPECT_NE(std::find(all.begin(), all.end(), name), all.end())
+                << entry.path() << " asks " << name;
+            ++asked;
+        }
+    }
+    EXPECT_GT(asked, 5u);
 }
 
 // What is refused leaves everything as it was.

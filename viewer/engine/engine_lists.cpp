@@ -6,7 +6,7 @@
 #include "render/colour/material_colour.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "viewer/engine/stone_json.h"
 
 namespace culet {

@@ -1,6 +1,6 @@
 // Materials as JSON.
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "viewer/engine/stone_json.h"
 
 namespace culet {

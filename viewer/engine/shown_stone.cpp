@@ -7,7 +7,7 @@
 #include "render/planner/quick_picture.h"
 #include "render/scene/scene_io.h"
 #include "render/scene/turned_lights.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "viewer/engine/stone_json.h"
 
 namespace culet {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "page/html.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "viewer/engine/stone_json.h"
 
 namespace culet {

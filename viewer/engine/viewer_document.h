@@ -10,7 +10,7 @@
 
 #include "page/fit_facts.h"
 #include "stone/stone.h"
-#include "stone/toml_file.h"
+#include "stone/text/toml_file.h"
 
 namespace culet {
 

@@ -14,8 +14,9 @@
 #include "render/image/shown_bytes.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "viewer/engine/engine_lists.h"
+#include "viewer/engine/frame_request.h"
 #include "viewer/engine/gpu_answer.h"
 #include "viewer/engine/panorama.h"
 #include "viewer/engine/shown_stone.h"
@@ -24,22 +25,7 @@
 
 namespace culet {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
-
-// A picture of more would not fit a page's memory.
-constexpr int k_widest = 8192;
-constexpr double k_most_pixels = 3.4e7;
-
-int side_in(const Json& arguments, const char* key) {
-    const int side = arguments.at(key).get<int>();
-    if (side < 1 || side > k_widest)
-        throw InputError(fmt::format("{} is 1 to {} pixels, found {}", key, k_widest, side));
-    return side;
-}
-
-}  // namespace
 
 struct ViewerEngine::State {
     std::string version;
@@ -51,59 +37,29 @@ struct ViewerEngine::State {
     std::vector<float> radiance, texels;
 
     ShownStone& shown();
-    FrameRequest request_of(const Json& arguments);
+    FrameRequest request_of(const Json& arguments) {
+        return frame_request(arguments, shown().scene().camera);
+    }
     Json open(const Json& arguments, std::string_view document);
     Json set(const Json& arguments);
-    Json draw(const Json& arguments, bool shown_as_bytes);
+    Json picture(const Json& arguments, bool shown_as_bytes);
     Json gpu(const Json& arguments);
     Json facet(const Json& arguments);
     Json outline(const Json& arguments);
     Json path(const Json& arguments);
     Json cut(const Json& arguments);
     Json panorama(const Json& arguments, std::string_view bytes);
+
+    struct Call {
+        std::string_view name;
+        Json (*answer)(State&, const Json& arguments, std::string_view attached);
+    };
+    static const Call k_calls[10];
 };
 
 ShownStone& ViewerEngine::State::shown() {
     if (stones.empty()) throw InputError("no stone is open");
     return stones[now];
-}
-
-FrameRequest ViewerEngine::State::request_of(const Json& arguments) {
-    FrameRequest request;
-    Camera& camera = request.camera;
-    camera = shown().scene().camera;
-    camera.width = side_in(arguments, "width");
-    camera.height = side_in(arguments, "height");
-    if (static_cast<double>(camera.width) * camera.height > k_most_pixels)
-        throw InputError(fmt::format("a picture of {} x {} pixels is too large for a page",
-                                     camera.width, camera.height));
-    camera.principal_point.reset();
-    if (const auto view = arguments.find("camera"); view != arguments.end()) {
-        camera.position = vector_from(view->at("position"));
-        camera.look_at = vector_from(view->at("look_at"));
-        camera.up = vector_from(view->at("up"));
-        const Vec3 sight = camera.look_at - camera.position;
-        if (!(glm::length(glm::cross(sight, camera.up)) > 0))
-            throw InputError("the camera's up must not point along its view");
-        if (view->contains("width")) {
-            camera.orthographic_width = view->at("width").get<double>();
-            if (!(*camera.orthographic_width > 0))
-                throw InputError("the camera's width must be above 0");
-        } else if (view->contains("fov_deg")) {
-            camera.orthographic_width.reset();
-            camera.fov = radians(view->at("fov_deg").get<double>());
-            if (!(camera.fov > 0 && camera.fov < radians(179)))
-                throw InputError("the camera's angle of view is above 0 and below 179 degrees");
-        }
-    }
-    if (const auto turn = arguments.find("turn"); turn != arguments.end() && !turn->is_null())
-        request.turn = turn->get<std::array<double, 9>>();
-    request.preview = arguments.value("engine", "beams") == "preview";
-    request.quick = arguments.value("quick", request.preview);
-    if (const auto samples = arguments.find("samples");
-        samples != arguments.end() && samples->is_number())
-        request.samples = std::clamp(samples->get<int>(), 0, 1024);
-    return request;
 }
 
 Json ViewerEngine::State::open(const Json& arguments, std::string_view document) {
@@ -154,7 +110,7 @@ Json ViewerEngine::State::set(const Json& arguments) {
             {"settings", settings_of(stone.scene())}};
 }
 
-Json ViewerEngine::State::draw(const Json& arguments, bool shown_as_bytes) {
+Json ViewerEngine::State::picture(const Json& arguments, bool shown_as_bytes) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const FrameRequest request = request_of(arguments);
@@ -276,6 +232,21 @@ Json ViewerEngine::State::panorama(const Json& arguments, std::string_view bytes
             {"notes", panorama.notes}};
 }
 
+// The one list of what a page may ask, whether the engine is in its worker or in the program.
+const ViewerEngine::State::Call ViewerEngine::State::k_calls[] = {
+    {"open", [](State& s, const Json& a, std::string_view text) { return s.open(a, text); }},
+    {"set", [](State& s, const Json& a, std::string_view) { return s.set(a); }},
+    {"draw", [](State& s, const Json& a, std::string_view) { return s.picture(a, true); }},
+    {"radiance", [](State& s, const Json& a, std::string_view) { return s.picture(a, false); }},
+    {"gpu", [](State& s, const Json& a, std::string_view) { return s.gpu(a); }},
+    {"facet", [](State& s, const Json& a, std::string_view) { return s.facet(a); }},
+    {"outline", [](State& s, const Json& a, std::string_view) { return s.outline(a); }},
+    {"path", [](State& s, const Json& a, std::string_view) { return s.path(a); }},
+    {"cut", [](State& s, const Json& a, std::string_view) { return s.cut(a); }},
+    {"panorama",
+     [](State& s, const Json& a, std::string_view text) { return s.panorama(a, text); }},
+};
+
 ViewerEngine::ViewerEngine(std::string version) : state_(std::make_unique<State>()) {
     state_->version = std::move(version);
 }
@@ -284,25 +255,21 @@ ViewerEngine::ViewerEngine(ViewerEngine&&) noexcept = default;
 
 std::string ViewerEngine::answer(std::string_view call, std::string_view arguments,
                                  std::string_view attached) {
-    State& state = *state_;
+    const auto known = std::find_if(std::begin(State::k_calls), std::end(State::k_calls),
+                                    [&](const State::Call& one) { return one.name == call; });
+    if (known == std::end(State::k_calls)) throw InputError(fmt::format("no call \"{}\"", call));
     try {
-        const Json json = Json::parse(arguments);
-        const auto dumped = [](const Json& answer) { return answer.dump(); };
-        if (call == "open") return dumped(state.open(json, attached));
-        if (call == "set") return dumped(state.set(json));
-        if (call == "draw") return dumped(state.draw(json, true));
-        if (call == "radiance") return dumped(state.draw(json, false));
-        if (call == "gpu") return dumped(state.gpu(json));
-        if (call == "facet") return dumped(state.facet(json));
-        if (call == "outline") return dumped(state.outline(json));
-        if (call == "path") return dumped(state.path(json));
-        if (call == "cut") return dumped(state.cut(json));
-        if (call == "panorama") return dumped(state.panorama(json, attached));
+        return known->answer(*state_, Json::parse(arguments), attached).dump();
     } catch (const Json::exception& error) {
         throw InputError(fmt::format("{}: what was asked is not understood: {}", call,
                                      for_terminal(error.what())));
     }
-    throw InputError(fmt::format("no call \"{}\"", call));
+}
+
+std::vector<std::string_view> ViewerEngine::calls() {
+    std::vector<std::string_view> names;
+    for (const State::Call& call : State::k_calls) names.push_back(call.name);
+    return names;
 }
 
 const std::vector<std::uint8_t>& ViewerEngine::pixels() const {

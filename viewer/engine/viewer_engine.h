@@ -10,9 +10,8 @@
 
 namespace culet {
 
-/// Answers a page's calls, in JSON (docs/viewer.md, "The engine's calls"): open, set, draw,
-/// radiance, gpu, facet, outline, path, cut, panorama. Pictures are those of `culet render` with
-/// engine "beams" or "preview" and `check = "none"`.
+/// Answers a page's calls, in JSON (docs/viewer.md, "The engine's calls"). Pictures are those of
+/// `culet render` with engine "beams" or "preview" and `check = "none"`.
 class ViewerEngine {
 public:
     /// `version` of the program, for who asks.
@@ -24,6 +23,9 @@ public:
     /// wrong, in one line for people; nothing has changed then.
     std::string answer(std::string_view call, std::string_view arguments,
                        std::string_view attached = {});
+
+    /// The names of all calls.
+    static std::vector<std::string_view> calls();
 
     /// Of the last `draw`: RGBA, row by row from the top.
     const std::vector<std::uint8_t>& pixels() const;

@@ -11,7 +11,7 @@
 #include "render/image/image_io.h"
 #include "render/image/linear_picture.h"
 #include "render/image/picture_format.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

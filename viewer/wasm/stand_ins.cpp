@@ -6,12 +6,12 @@
 #include "render/image/image_io.h"
 #include "render/reference/light_field.h"
 #include "render/scene/engine_name.h"
-#include "stone/errors.h"
-#include "stone/half_edges.h"
-#include "stone/output_file.h"
+#include "stone/material/wavelength_table.h"
+#include "stone/mesh/surface_mesh.h"
+#include "stone/solid/half_edges.h"
 #include "stone/stone.h"
-#include "stone/surface_mesh.h"
-#include "stone/wavelength_table.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 

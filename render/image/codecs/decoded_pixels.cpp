@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
-#include "stone/text_scan.h"
+#include "stone/text/errors.h"
+#include "stone/text/text_scan.h"
 
 // Radiance pictures: G. Ward, Real Pixels, in Graphics Gems II (1991), and the format's reference,
 // `filefmts` of Radiance. A pixel is three mantissas of 8 bits and one exponent, R, G, B, E.

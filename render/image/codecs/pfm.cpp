@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 // Portable float maps (P. Debevec): `PF` (R, G, B) or `Pf` (grey), columns and rows, a scale that
 // is negative where numbers are little endian and by which values are multiplied; then rows from

@@ -12,7 +12,7 @@
 
 #include "render/image/codecs/codecs.h"
 #include "render/image/codecs/exif.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

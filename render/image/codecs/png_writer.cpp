@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render/image/codecs/codecs.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

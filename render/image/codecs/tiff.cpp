@@ -10,7 +10,7 @@
 
 #include "render/image/codecs/codecs.h"
 #include "render/image/codecs/tiff_memory.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "compare/calibration/facet_tilts.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -8,10 +8,10 @@
 #include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/facet_error.h"
 #include "compare/calibration/photo_blur.h"
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -9,7 +9,7 @@
 #include "compare/calibration/cropped_camera.h"
 #include "render/render.h"
 #include "render/scene/turned_lights.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
 #include "tests/compare/study_scene.h"
 
 namespace culet {

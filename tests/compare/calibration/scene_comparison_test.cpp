@@ -12,10 +12,10 @@
 #include "compare/calibration/facet_error.h"
 #include "compare/report/scores_json.h"
 #include "render/scene/fingerprint.h"
-#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -15,8 +15,8 @@
 #include <random>
 
 #include "render/scene/environment_layout.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 #include "tests/compare/light_probe/light_agreement.h"
 #include "tests/compare/light_probe/simulated_ball.h"
 

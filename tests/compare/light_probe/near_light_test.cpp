@@ -16,8 +16,8 @@
 
 #include "compare/light_probe/light_probe.h"
 #include "compare/light_probe/reflex.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 #include "tests/compare/light_probe/simulated_ball.h"
 
 namespace culet {

@@ -11,7 +11,7 @@
 
 #include "compare/photo/exposure.h"
 #include "render/colour/colour.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

@@ -14,7 +14,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace culet {

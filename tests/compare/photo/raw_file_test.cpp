@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/compare/photo/synthetic_dng.h"
 #include "tests/folder_test.h"
 

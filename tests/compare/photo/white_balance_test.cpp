@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "render/colour/colour.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

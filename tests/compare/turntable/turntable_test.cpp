@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/text/errors.h"
 #include "tests/compare/turned_stone.h"
 
 namespace culet {

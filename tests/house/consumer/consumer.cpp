@@ -1,7 +1,7 @@
 // A stranger's program: culet's installed headers and libraries are enough to build it.
 #include <cstdio>
 
-#include "stone/material.h"
+#include "stone/material/material.h"
 
 int main() {
     const culet::Material diamond = culet::catalogue_material("diamond");

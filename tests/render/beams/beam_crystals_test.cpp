@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stone/perpendicular.h"
+#include "stone/solid/perpendicular.h"
 #include "tests/render/beams/beam_lights.h"
 
 namespace {

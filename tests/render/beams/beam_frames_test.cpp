@@ -11,7 +11,7 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/transform.h"
 #include "render/scene/turned_lights.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/render/beams/beam_lights.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace culet::test {
 

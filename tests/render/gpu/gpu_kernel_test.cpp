@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "stone/material_io.h"
-#include "stone/perpendicular.h"
+#include "stone/material/material_io.h"
+#include "stone/solid/perpendicular.h"
 
 namespace culet {
 namespace {

@@ -9,7 +9,7 @@
 #include "render/engine/engine.h"
 #include "render/image/film_look.h"
 #include "render/scene/turntable.h"
-#include "stone/material_io.h"
+#include "stone/material/material_io.h"
 #include "tests/render/gpu/gpu_scenes.h"
 
 namespace culet {

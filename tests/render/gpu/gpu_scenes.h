@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/gpu/gpu_canvas.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/render/beams/beam_lights.h"
 #include "tests/render/gpu/path_pattern.h"
 

@@ -11,8 +11,8 @@
 #include "render/grade/grade.h"
 #include "render/optics/fresnel.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/tiers.h"
+#include "stone/design/tiers.h"
+#include "stone/text/errors.h"
 #include "tests/render/grade/round_brilliants.h"
 
 namespace culet {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "stone/solid.h"
-#include "stone/units.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/solid.h"
 
 namespace culet::test {
 

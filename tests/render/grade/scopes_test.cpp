@@ -6,7 +6,7 @@
 #include "render/grade/grade_figures.h"
 #include "render/grade/grade_sigma.h"
 #include "render/grade/path_section.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "stone/upright.h"
 #include "tests/render/grade/round_brilliants.h"
 

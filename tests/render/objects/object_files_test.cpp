@@ -8,7 +8,7 @@
 #include "render/scene/fingerprint.h"
 #include "render/scene/scene_io.h"
 #include "render/scene/turntable.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/folder_test.h"
 
 namespace culet {

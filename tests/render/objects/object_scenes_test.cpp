@@ -11,7 +11,7 @@
 #include "render/optics/fresnel.h"
 #include "render/planner/pilot_picture.h"
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 #include "tests/render/carved_solids.h"
 #include "tests/render/ray_stones.h"
 

@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "stone/cuts/cuts.h"
-#include "stone/drawn_symmetry.h"
-#include "stone/errors.h"
+#include "stone/design/drawn_symmetry.h"
+#include "stone/text/errors.h"
 
 namespace culet {
 namespace {

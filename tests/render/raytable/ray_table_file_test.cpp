@@ -12,8 +12,8 @@
 #include <string>
 
 #include "render/raytable/octahedral_codes.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/folder_test.h"
 #include "tests/render/ray_stones.h"
 #include "tests/render/raytable/table_scenes.h"

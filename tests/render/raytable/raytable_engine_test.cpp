@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "render/render.h"
-#include "stone/errors.h"
-#include "stone/output_file.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "tests/folder_test.h"
 #include "tests/render/raytable/table_scenes.h"
 

@@ -8,8 +8,8 @@
 #include "render/raytable/relighting.h"
 #include "render/raytable/table_maker.h"
 #include "render/setup/optical_setup.h"
-#include "stone/errors.h"
-#include "stone/material_io.h"
+#include "stone/material/material_io.h"
+#include "stone/text/errors.h"
 #include "tests/render/bench_scenes.h"
 #include "tests/render/carved_solids.h"
 

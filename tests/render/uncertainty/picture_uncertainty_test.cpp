@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "render/render.h"
-#include "stone/errors.h"
+#include "stone/text/errors.h"
 
 namespace {
 

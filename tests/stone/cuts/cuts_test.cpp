@@ -10,10 +10,10 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "stone/checks.h"
-#include "stone/errors.h"
-#include "stone/mesh_io.h"
-#include "stone/units.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/numbers/units.h"
+#include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/scratch_folder.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // Outlines, places on them, wires and gaps that a setting is made from.
 // Source of the expectations: closed forms, stated with each.
 
-#include "stone/plan.h"
+#include "stone/solid/plan.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
 #include "stone/setting/gap.h"
 #include "stone/setting/places.h"
 #include "stone/setting/section_path.h"
+#include "stone/text/errors.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

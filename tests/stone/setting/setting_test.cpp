@@ -14,9 +14,9 @@
 #include <ostream>
 
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
-#include "stone/facet_triangles.h"
 #include "stone/setting/gap.h"
+#include "stone/solid/facet_triangles.h"
+#include "stone/text/errors.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

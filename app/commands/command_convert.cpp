@@ -1,0 +1,295 @@
+// culet convert IN OUT
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "app/input/export_input.h"
+#include "app/input/readings_form.h"
+#include "app/program/file_kinds.h"
+#include "app/program/options.h"
+#include "app/program/terminal.h"
+#include "render/export/gltf_look.h"
+#include "render/export/mitsuba.h"
+#include "render/export/pbrt.h"
+#include "render/export/povray.h"
+#include "render/grade/grade.h"
+#include "render/image/image_io.h"
+#include "render/scene/stone_scene.h"
+#include "stone/design/design.h"
+#include "stone/export/export_frame.h"
+#include "stone/export/gltf_write.h"
+#include "stone/export/step.h"
+#include "stone/file_kind.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/material/material_io.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid/checks.h"
+#include "stone/solid_input.h"
+#include "stone/stone_io.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_scan.h"
+
+namespace culet {
+
+namespace {
+
+// What corners of a stone read from a file may be off its planes by.
+constexpr double k_step_tolerance_mm = 1e-5;
+
+struct ConvertOptions {
+    CommonOptions common;
+    std::filesystem::path in, out;
+    CutReading cut;
+    std::string width;  // empty: as it is
+    std::string material, clearance;
+};
+
+bool is_for_other_programs(const std::filesystem::path& out) {
+    const std::string ending = extension_of(out);
+    return ending == "glb" || ending == "gltf" || ending == "step" || ending == "stp";
+}
+
+void say_of(const std::filesystem::path& file, const std::vector<std::string>& notes, bool quiet) {
+    for (const std::string& note : notes) say(fmt::format("{}: {}", file.string(), note), quiet);
+}
+
+void say_next(const ConvertOptions& options) {
+    const std::string ending = extension_of(options.out), out = options.out.string();
+    std::string next = fmt::format("open {} in the program that it is for", out);
+    if (ending == "asc")
+        next = fmt::format("culet info {} --cutting-sheet sheet.html (to cut it)", out);
+    else if (!options.clearance.empty())
+        next = fmt::format("take the solid of {} away from the metal, in your CAD program", out);
+    else if (mesh_format(options.out))
+        next = fmt::format("culet render {} --material NAME -o stone.png (a picture)", out);
+    else if (ending == "pov")
+        next = fmt::format("povray +I{}", out);
+    else if (ending == "xml")
+        next = fmt::format("mitsuba -m scalar_rgb {}", out);
+    else if (ending == "pbrt")
+        next = fmt::format("pbrt {}", out);
+    say("next: " + next, options.common.quiet);
+}
+
+std::vector<std::string> write_gltf(const ExportInput& input, const std::filesystem::path& out) {
+    const GltfForm form = extension_of(out) == "glb" ? GltfForm::binary : GltfForm::text;
+    if (!input.has_material) {
+        write_text(out, gltf_bytes(input.stone, std::nullopt, form));
+        return {"no material: a grey surface (--material NAME)"};
+    }
+    const GltfMaterial material =
+        gltf_material(input.stone.material, outline_width(input.stone.solid));
+    write_text(out, gltf_bytes(input.stone, material.look, form));
+    return material.notes;
+}
+
+// In mm, the girdle's plane at z = 0, the table up.
+int convert_for_others(const ConvertOptions& options) {
+    ExportChoices choices{options.common.set, options.cut, options.material, {}};
+    if (!options.width.empty()) choices.width_mm = length_mm(options.width, "--width");
+    ExportInput input = read_for_export(options.in, choices);
+    if (!options.clearance.empty()) {
+        input.stone.solid =
+            grown_outward(input.stone.solid, length_mm(options.clearance, "--clearance"));
+        input.stone.name += " seat";
+    }
+    std::vector<std::string> notes;
+    if (mesh_format(options.out)) {
+        write_mesh(input.stone.solid, options.out);
+    } else if (extension_of(options.out).starts_with("st")) {
+        const StepFile step =
+            step_text(planar_solid(input.stone.solid, input.stone.convex, k_step_tolerance_mm),
+                      input.stone.name);
+        write_text(options.out, step.text);
+        notes = step.notes;
+    } else {
+        notes = write_gltf(input, options.out);
+    }
+    const bool quiet = options.common.quiet;
+    say_of(options.in, input.notes, quiet);
+    say_of(options.in, input.details, quiet || !options.common.verbose);
+    say_of(options.out, notes, quiet);
+    say_next(options);
+    return exit_good;
+}
+
+bool is_scene_for_others(const std::filesystem::path& out) {
+    const std::string ending = extension_of(out);
+    return ending == "pov" || ending == "xml" || ending == "pbrt";
+}
+
+ExportedScene exported(const Scene& scene, const std::filesystem::path& out) {
+    if (extension_of(out) == "xml") return mitsuba_scene(scene, out.stem().string());
+    if (extension_of(out) == "pbrt") return pbrt_scene(scene, out.stem().string());
+    return povray_scene(scene);
+}
+
+// A scene, or a stone in the usual light, for another renderer. The file that names the others is
+// written last.
+int convert_scene(const ConvertOptions& options) {
+    StoneScene choices;
+    choices.material = options.material;
+    if (!options.width.empty()) choices.width_mm = length_mm(options.width, "--width");
+    const Scene scene = read_any_scene(options.in, options.common.set, choices);
+    const ExportedScene converted = exported(scene, options.out);
+    const std::filesystem::path folder = options.out.parent_path();
+    for (const auto& [name, text] : converted.meshes) write_text(folder / name, text);
+    if (converted.environment)
+        write_picture(converted.environment->second, folder / converted.environment->first);
+    write_text(options.out, converted.text);
+    for (const std::string& note : scene.notes) say(note, options.common.quiet);
+    for (const std::string& note : converted.notes) {
+        say(fmt::format("{}: not carried: {}", options.out.string(), note), options.common.quiet);
+    }
+    say_next(options);
+    return exit_good;
+}
+
+// A solid, or the stone of a stone file as it is drawn.
+struct ConvertInput {
+    Solid solid;
+    std::optional<Material> material;
+    std::vector<std::string> notes, details;
+};
+
+ConvertInput converted_input(const ConvertOptions& options) {
+    ConvertInput input;
+    if (kind_of(options.in, options.common.set) == FileKind::stone &&
+        extension_of(options.out) == "asc") {
+        StoneFile stone = read_stone(options.in, options.common.set);
+        input.solid = std::move(stone.stone.solid);
+        if (stone.has_material) input.material = std::move(stone.stone.material);
+        input.notes = std::move(stone.notes);
+        input.details = std::move(stone.details);
+    } else {
+        require_kind(options.in, {FileKind::solid}, "culet convert");
+        SolidInput solid = load_solid(options.in, options.cut);
+        input.solid = std::move(solid.solid);
+        input.notes = std::move(solid.notes);
+        input.details = std::move(solid.details);
+    }
+    if (!options.material.empty()) input.material = material_called(options.material);
+    if (!options.width.empty()) scale_to_width(input.solid, length_mm(options.width, "--width"));
+    return input;
+}
+
+// The design that the solid was cut by, or the one that its drawing shows; its index is the
+// material's where one is named.
+std::vector<std::string> write_asc(const ConvertInput& input, const std::filesystem::path& out) {
+    Design design = cutting_design(input.solid);
+    // The index of a design is given to four decimals at most.
+    if (input.material)
+        design.refractive_index = std::round(1e4 * grade_index(&*input.material, {}).n) / 1e4;
+    std::vector<std::string> notes = write_gemcad_asc(input.solid, design, out);
+    if (!design.refractive_index)
+        notes.emplace_back(
+            "its refractive index is not known: 1.54, GemCad's own, is written (--material NAME)");
+    return notes;
+}
+
+int convert(const ConvertOptions& options) {
+    const bool grows = !options.clearance.empty(), is_cut = extension_of(options.out) == "asc";
+    const bool to_scene = is_scene_for_others(options.out),
+               to_others = is_for_other_programs(options.out);
+    if (grows && (to_scene || (!to_others && !mesh_format(options.out))))
+        throw InputError("--clearance is for meshes, .glb, .gltf and .step");
+    if (to_scene) return convert_scene(options);
+    if (to_others || grows) return convert_for_others(options);
+    if (!options.material.empty() && !is_cut)
+        throw InputError("--material is for .asc, .glb, .gltf, .pov, .xml and .pbrt");
+    if (!options.common.set.empty() && !is_cut) {
+        throw InputError(
+            "--set changes keys of a stone or scene: the output must end in .asc, .pov, .xml, "
+            ".pbrt, .glb, .gltf or .step");
+    }
+    if (!mesh_format(options.out) && !is_cut) {
+        throw InputError(options.out,
+                         "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
+                         ".glb, .gltf, .step or .stp, or for a renderer in .pov, .xml (Mitsuba) "
+                         "or .pbrt");
+    }
+    const ConvertInput input = converted_input(options);
+    // A mesh may be bent or dented and still be worth converting: it is written as it is.
+    const std::vector<Fault> faults =
+        find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
+    std::vector<std::string> notes_on_writing;
+    if (is_cut) {
+        notes_on_writing = write_asc(input, options.out);
+    } else {
+        write_mesh(input.solid, options.out);
+    }
+    // Only now: when nothing could be written, the error is all there is to say.
+    const bool quiet = options.common.quiet;
+    say_of(options.in, input.notes, quiet);
+    say_of(options.in, input.details, quiet || !options.common.verbose);
+    for (const Fault& fault : faults) {
+        say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),
+                        fault.what),
+            quiet);
+    }
+    say_of(options.out, notes_on_writing, quiet);
+    say_next(options);
+    return faults.empty() ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
+void add_command_convert(CLI::App& program, int& exit_code) {
+    auto options = std::make_shared<ConvertOptions>();
+    CLI::App* command = program.add_subcommand(
+        "convert",
+        "between mesh and cut formats; to glTF and STEP; a scene to POV-Ray, Mitsuba or PBRT");
+    command
+        ->add_option("IN", options->in,
+                     "mesh (.obj .off .ply .stl), cut (.asc .gem), stone file or scene (.toml)")
+        ->required();
+    command
+        ->add_option(
+            "OUT", options->out,
+            ".obj, .off, .ply, .stl or .asc; for Blender and the web .glb or .gltf; for CAD "
+            ".step; for renderers .pov, .xml (Mitsuba 3) or .pbrt (PBRT-v4)")
+        ->required();
+    command
+        ->add_option("--meet-tolerance", options->cut.meet_tolerance,
+                     "meets of a cut that miss by less than this fraction of its width become one "
+                     "corner (0: none)")
+        ->check(CLI::Range(0.0, 0.1))
+        ->type_name("FRACTION")
+        ->capture_default_str();
+    command
+        ->add_option("--width", options->width,
+                     "scale the stone to this width (W of culet info): the output is in mm")
+        ->type_name("6.5mm");
+    command
+        ->add_option(
+            "--material", options->material,
+            "of the stone in .asc (its index), .glb, .gltf, .pov, .xml and .pbrt: a name of the "
+            "catalogue or a "
+            "material file")
+        ->type_name("NAME");
+    command
+        ->add_option("--clearance", options->clearance,
+                     "grow a convex stone by so much on every side: what a seat for it takes away")
+        ->type_name("0.05mm");
+    add_common(*command, options->common, true);
+    command->footer(
+        "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
+        "faults is converted as it is, with a warning and exit code 1. What another renderer "
+        "cannot draw is named on stderr and in its file.\n"
+        "Examples:\n"
+        "  culet convert design.asc design.obj\n"
+        "  culet convert --width 6.5mm design.asc stone.obj\n"
+        "  culet convert scan.stl scan.ply\n"
+        "  culet convert fitted.obj recut.asc --material tourmaline\n"
+        "  culet convert --width 6.5mm --material diamond design.asc stone.glb\n"
+        "  culet convert --clearance 0.05mm fitted.obj seat.step\n"
+        "  culet convert scene.toml scene.pov --set render.depth=9\n"
+        "  culet convert scene.toml scene.pbrt\n"
+        "  culet convert fitted.obj scene.xml --material sapphire_blue");
+    command->callback([options, &exit_code] { exit_code = convert(*options); });
+}
+
+}  // namespace culet

@@ -1,0 +1,19 @@
+#pragma once
+// The page of culet grade, for commands that end in one.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/input/grade_input.h"
+#include "app/program/options.h"
+
+namespace culet {
+
+/// report.html, grade.json and pictures of the files side by side, as `culet grade -o` writes them;
+/// above them what `culet optimize --json` writes, unless it is empty.
+void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
+                      const std::filesystem::path& folder, const CommonOptions& common,
+                      const std::string& optimized_json = {});
+
+}  // namespace culet

@@ -1,0 +1,249 @@
+// culet optimize STONE|CUT -o BETTER.asc : better angles, meets kept.
+
+#include "render/optimize/optimize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/grade/command_grade.h"
+#include "app/grade/optimize_options.h"
+#include "app/input/grade_input.h"
+#include "app/program/terminal.h"
+#include "render/grade/grade_figures.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+
+namespace culet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+LightModel model_called(const std::string& name) {
+    for (int m = 0; m < k_light_model_count; ++m) {
+        if (name == name_of(static_cast<LightModel>(m))) return static_cast<LightModel>(m);
+    }
+    throw InputError(
+        fmt::format("--model is iso, cos, sc2, random or wlr (docs/grade.md), found \"{}\"", name));
+}
+
+OptimizeOptions options_of(const OptimizeCommand& command, const GradeInput& input) {
+    OptimizeOptions options;
+    options.merit.index =
+        grade_index(input.has_material ? &input.stone.material : nullptr, input.index);
+    options.merit.model = model_called(command.model);
+    options.merit.head = radians(command.head_deg);
+    options.merit.weights = merit_weights(command.objective);
+    options.merit.threads = command.common.threads;
+    options.evaluations = command.evaluations;
+    options.limits.range = radians(command.range_deg);
+    options.limits.over_critical = radians(command.over_critical_deg);
+    options.limits.least_volume = command.least_volume_percent / 100;
+    if (!command.table.empty()) {
+        std::string list = command.table;
+        std::replace(list.begin(), list.end(), ':', ',');
+        const std::vector<double> range =
+            numbers_in(list, 2, 2, "--table is LEAST:MOST, per cent of the stone's width");
+        options.limits.least_table = range[0] / 100;
+        options.limits.most_table = range[1] / 100;
+    }
+    if (command.recut) options.recut = Recut{command.gain, command.most_loss_percent / 100};
+    return options;
+}
+
+nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) {
+    nlohmann::ordered_json json{{"total", merit.total}};
+    for (std::size_t p = 0; p < merit.parts.size(); ++p) {
+        if (options.weights[p] > 0) json[name_of(static_cast<MeritPart>(p))] = merit.parts[p];
+    }
+    return json;
+}
+
+// By the titles of the cutting sheet, tier by tier; tiers of a design that stand alike were changed
+// together.
+std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
+    Solid solid = result.start;
+    solid.design = std::make_shared<const Design>(design);
+    const std::vector<std::string> titles = tier_titles(design);
+    const std::vector<DesignPlace> places = places_of(solid);
+    std::vector<std::string> words;
+    for (const OptimizedTier& tier : result.tiers) {
+        std::vector<std::string> own;
+        for (const int f : tier.tier.facets) {
+            const int t = places[std::size_t(f)].tier;
+            const std::string& title =
+                t < 0 ? solid.facets[std::size_t(f)].name : titles[std::size_t(t)];
+            if (std::find(own.begin(), own.end(), title) == own.end()) own.push_back(title);
+        }
+        words.push_back(fmt::format("{}", fmt::join(own, " ")));
+    }
+    return words;
+}
+
+std::string json_of(const Optimized& result, const std::vector<std::string>& names,
+                    const OptimizeOptions& options, const OptimizeCommand& command) {
+    nlohmann::ordered_json json{{"schema", 1},
+                                {"objective", command.objective},
+                                {"model", command.model},
+                                {"index", options.merit.index.n},
+                                {"merit",
+                                 {{"start", json_of(result.at_start, options.merit)},
+                                  {"two_factors", json_of(result.by_two_factors, options.merit)},
+                                  {"better", json_of(result.at_better, options.merit)}}},
+                                {"found", result.found},
+                                {"recut", command.recut},
+                                {"volume_ratio", result.volume_ratio},
+                                {"table_percent",
+                                 {{"start", 100 * table_share(result.start)},
+                                  {"better", 100 * table_share(result.better)}}},
+                                {"evaluations", result.evaluations},
+                                {"tiers", nlohmann::ordered_json::array()}};
+    for (std::size_t t = 0; t < names.size(); ++t) {
+        const OptimizedTier& tier = result.tiers[t];
+        nlohmann::ordered_json facets = nlohmann::ordered_json::array();
+        for (const int f : tier.tier.facets)
+            facets.push_back(result.start.facets[static_cast<std::size_t>(f)].name);
+        json["tiers"].push_back(
+            {{"name", names[t]},
+             {"part", tier.tier.part == StonePart::crown ? "crown" : "pavilion"},
+             {"facets", facets},
+             {"from_deg", degrees(tier.from)},
+             {"to_deg", degrees(tier.to)}});
+    }
+    return json.dump(1) + "\n";
+}
+
+void print_result(const Optimized& result, const std::vector<std::string>& names,
+                  const OptimizeCommand& command) {
+    std::string text = fmt::format(
+        "{}: {:.2f} before, {:.2f} now ({:.2f} where crown and pavilion are each "
+        "scaled as a whole)\n",
+        command.objective, result.at_start.total, result.at_better.total,
+        result.by_two_factors.total);
+    for (std::size_t t = 0; t < names.size(); ++t)
+        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", names[t],
+                            degrees(result.tiers[t].from), degrees(result.tiers[t].to));
+    text += fmt::format("  table {:.1f} -> {:.1f} % of the width; ",
+                        100 * table_share(result.start), 100 * table_share(result.better));
+    text += command.recut ? fmt::format("{:.2f} % of the weight is cut away\n",
+                                        100 * (1 - result.volume_ratio))
+                          : fmt::format("volume {:+.2f} %\n", 100 * (result.volume_ratio - 1));
+    if (!result.found) text += "  nothing better was found: the angles stay as they are\n";
+    print_lines(text);
+}
+
+// What the design says of itself, or the drawing shows; where it has no title, the stone's name.
+Design design_of(const OptimizeOptions& options, const GradeInput& input) {
+    Design design = cutting_design(input.stone.solid);
+    if (design.headings.empty()) design.headings.push_back(input.name);
+    // To as many decimals as designs give.
+    design.refractive_index = std::round(1e4 * options.merit.index.n) / 1e4;
+    return design;
+}
+
+// What a buyer may ask for and the objective did not.
+void print_losses(const Optimized& result, const OptimizeOptions& options) {
+    GradeOptions grade;
+    grade.head = options.merit.head;
+    grade.threads = options.merit.threads;
+    const auto figures = [&](const Solid& solid) {
+        return figures_of(grade_stone(solid, options.merit.index, grade));
+    };
+    const std::vector<GradeFigure> before = figures(result.start), now = figures(result.better);
+    // Below this, in points, nobody sees it.
+    constexpr double k_seen = 0.05;
+    for (const GradeFigure& was : before) {
+        if (!was.percent && was.name != "weighted_light_return") continue;
+        const auto is = std::find_if(now.begin(), now.end(), [&](const GradeFigure& figure) {
+            return figure.name == was.name;
+        });
+        const double scale = was.percent ? 1 : 100;
+        if (is != now.end() && scale * (was.value - is->value) > k_seen)
+            print_lines(fmt::format("  worse than before: {} {:.2f} -> {:.2f} %\n", was.words,
+                                    scale * was.value, scale * is->value));
+    }
+}
+
+int run_optimize(OptimizeCommand command) {
+    if (fs::path(command.out).extension() != ".asc")
+        throw InputError(command.out, "is written as a cut design: give it the ending .asc");
+    command.choices.command = "culet optimize";
+    command.choices.index = command.index;
+    command.choices.overrides = command.common.set;
+    command.choices.quiet = command.common.quiet;
+    if (command.gain > 0 && !command.recut)
+        throw InputError("--gain is of a stone that is cut anew: give --recut too");
+    GradeInput input = load_for_grade(command.file, command.choices, false).front();
+    const OptimizeOptions options = options_of(command, input);
+    require_writable(command.out);
+    require_writable(command.json);
+    Optimized result;
+    try {
+        result = optimize_cut(input.stone.solid, options,
+                              progress_line("optimize", command.common.quiet));
+    } catch (const InputError& error) {
+        throw InputError(input.file, error.what());
+    }
+    Design design = design_of(options, input);
+    const std::vector<std::string> names = tier_words(result, design);
+    const fs::path before = fs::path(command.page) / "before.asc";
+    if (!command.page.empty()) {
+        fs::create_directories(command.page);
+        write_gemcad_asc(result.start, design, before);
+    }
+    design.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
+    write_gemcad_asc(about_its_axis(result), design, command.out);
+    if (!command.json.empty()) write_text(command.json, json_of(result, names, options, command));
+    if (command.json != "-") {
+        print_result(result, names, command);
+        if (result.found && !result.interrupted) print_losses(result, options);
+    }
+    // The last one of a fit that is not trusted is told below.
+    for (std::size_t i = 0; i + (input.trusted ? 0 : 1) < input.notes.size(); ++i)
+        say(fmt::format("{}: {}", input.file, input.notes[i]), command.common.quiet);
+    if (result.interrupted) {
+        say(fmt::format("interrupted after {} of about {} cuts: {} is the best until then",
+                        result.evaluations, options.evaluations, command.out),
+            command.common.quiet);
+        return exit_interrupted;
+    }
+    if (!command.page.empty())
+        write_grade_page({before.string(), command.out}, command.choices, command.page,
+                         command.common, json_of(result, names, options, command));
+    if (!input.trusted)
+        say(fmt::format("{}: the fit should not be trusted, nor should these angles: {}",
+                        input.file, input.notes.back()),
+            command.common.quiet);
+    if (!result.gained)
+        say(fmt::format("a gain of {:g} was not reached: ask for less, or allow more --range",
+                        command.gain),
+            command.common.quiet);
+    say(fmt::format("next: culet info {} --cutting-sheet sheet.html (to cut it)", command.out),
+        command.common.quiet);
+    return input.trusted && result.gained ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
+void add_command_optimize(CLI::App& program, int& exit_code) {
+    auto command = std::make_shared<OptimizeCommand>();
+    CLI::App* optimize = program.add_subcommand(
+        "optimize", "better angles for a cut: its index settings and meets are kept");
+    add_optimize_options(*optimize, *command);
+    optimize->footer(
+        "Examples:\n"
+        "  culet optimize design.asc --material quartz -o better.asc --page out/better\n"
+        "  culet optimize design.asc --index 1.54 --objective brilliance=2,tilt=1 -o better.asc\n"
+        "  culet optimize stone.toml --recut --gain 2 -o recut.asc");
+    optimize->callback([optimize, command, &exit_code] {
+        command->choices.given = as_given(*optimize);
+        exit_code = run_optimize(*command);
+    });
+}
+
+}  // namespace culet

@@ -1,0 +1,60 @@
+#include "app/grade/grade_pictures.h"
+
+#include <fmt/format.h>
+
+#include "page/html.h"
+#include "render/image/image_io.h"
+#include "render/render.h"
+#include "render/scene/framing.h"
+#include "render/scene/light_presets.h"
+#include "stone/text/output_file.h"
+
+namespace culet {
+
+namespace {
+
+struct Scope {
+    const char *preset, *title;
+};
+constexpr Scope k_scopes[] = {{"aset", "ASET"},
+                              {"idealscope", "Ideal-scope"},
+                              {"darkfield", "Dark field"},
+                              {"hearts", "Hearts"},
+                              {"arrows", "Arrows"}};
+
+Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePictureOptions& options) {
+    Scene scene;
+    scene.stone = stone;
+    scene.lights = *light_preset(preset.name);
+    scene.light_preset = preset.name;
+    scene.camera.width = scene.camera.height = options.size;
+    frame_stone(stone.solid, preset.from_below ? Facing::pavilion : Facing::crown, scene.camera);
+    RenderSettings& settings = scene.settings;
+    settings.engine = k_beam_engine;
+    settings.check = Check::none;
+    settings.threads = options.threads;
+    settings.effects_auto = false;
+    settings.effects.fill(false);
+    settings.effects[static_cast<std::size_t>(Effects::dispersion)] =
+        !stone.material.index[0].is_constant();
+    settings.effects[static_cast<std::size_t>(Effects::polarization)] = true;
+    return scene;
+}
+
+}  // namespace
+
+std::vector<GradePicture> draw_scopes(const Stone& stone, const std::filesystem::path& folder,
+                                      const std::string& prefix,
+                                      const GradePictureOptions& options) {
+    std::vector<GradePicture> pictures;
+    for (const Scope& scope : k_scopes) {
+        const LightPreset& preset = *find_light_preset(scope.preset);
+        const RenderResult result = render(scene_in(stone, preset, options));
+        const std::filesystem::path file = folder / fmt::format("{}-{}.png", prefix, scope.preset);
+        write_picture(result.picture, file);
+        pictures.push_back({scope.title, preset.summary, png_uri(read_text(file))});
+    }
+    return pictures;
+}
+
+}  // namespace culet

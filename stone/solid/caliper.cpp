@@ -1,0 +1,104 @@
+#include "stone/solid/caliper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <numbers>
+
+namespace culet {
+
+namespace {
+
+using Vec2d = glm::dvec2;
+
+constexpr double k_round = 1.05;
+
+double cross(const Vec2d& a, const Vec2d& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+// Andrew's monotone chain (1979), counter-clockwise. Corners within rounding of an edge are none.
+std::vector<Vec2d> hull_of(std::vector<Vec2d> points, double size) {
+    std::sort(points.begin(), points.end(), [](const Vec2d& a, const Vec2d& b) {
+        return std::pair(a.x, a.y) < std::pair(b.x, b.y);
+    });
+    std::vector<Vec2d> hull;
+    for (int pass = 0; pass < 2; ++pass) {
+        const std::size_t begin = hull.size();
+        for (const Vec2d& p : points) {
+            while (hull.size() >= begin + 2 && cross(hull.back() - hull[hull.size() - 2],
+                                                     p - hull.back()) <= 1e-12 * size * size) {
+                hull.pop_back();
+            }
+            hull.push_back(p);
+        }
+        hull.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+double half_turn(const Vec2d& direction) {
+    const double angle =
+        std::fmod(std::atan2(direction.y, direction.x) + 2 * std::numbers::pi, std::numbers::pi);
+    // Just below a half turn is none.
+    return std::numbers::pi - angle < 1e-9 ? 0 : angle;
+}
+
+}  // namespace
+
+bool CaliperWidths::round() const {
+    return least > 0 && length < k_round * least && mean < k_round * least;
+}
+
+PlanFrame plan_frame(const Vec3& up) {
+    const Vec3 z = glm::normalize(up);
+    const Vec3 aside = std::abs(z.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 x = glm::normalize(aside - glm::dot(aside, z) * z);
+    return {x, glm::cross(z, x)};
+}
+
+CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
+    CaliperWidths widths;
+    const PlanFrame frame = plan_frame(up);
+    std::vector<Vec2d> points;
+    for (const Vec3& v : solid.vertices) {
+        points.push_back({glm::dot(frame.x, v), glm::dot(frame.y, v)});
+    }
+    if (points.size() < 3) return widths;
+    const std::vector<Vec2d> hull = hull_of(std::move(points), diameter(solid));
+    if (hull.size() < 3) return widths;
+    widths.corners = static_cast<int>(hull.size());
+    const auto extent = [&](const Vec2d& direction) {
+        double low = INFINITY, high = -INFINITY;
+        for (const Vec2d& p : hull) {
+            low = std::min(low, glm::dot(direction, p));
+            high = std::max(high, glm::dot(direction, p));
+        }
+        return high - low;
+    };
+    widths.least = INFINITY;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const Vec2d edge = hull[(i + 1) % hull.size()] - hull[i];
+        const double length = glm::length(edge);
+        widths.mean += length / std::numbers::pi;
+        const Vec2d across{-edge.y / length, edge.x / length};
+        // Of equal widths (to rounding) the first: the answer must not turn on the last digit.
+        if (const double width = extent(across); width < widths.least * (1 - 1e-12)) {
+            widths.least = width;
+            widths.least_azimuth = half_turn(across);
+            widths.length = extent(edge / length);
+        }
+        for (std::size_t j = i + 1; j < hull.size(); ++j) {
+            const Vec2d between = hull[j] - hull[i];
+            if (const double width = glm::length(between); width > widths.largest * (1 + 1e-12)) {
+                widths.largest = width;
+                widths.largest_azimuth = half_turn(between);
+            }
+        }
+    }
+    return widths;
+}
+
+}  // namespace culet

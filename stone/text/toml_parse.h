@@ -1,0 +1,33 @@
+#pragma once
+// From text to toml++'s tables, and back. Private to the folder: shows toml++.
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stone/text/toml_file.h"
+
+namespace culet {
+
+struct TomlTable::Content {
+    std::filesystem::path file;
+    toml::table root;
+    HeldFiles held;
+};
+
+/// With `overrides` (KEY.PATH=VALUE) applied. Throws InputError.
+toml::table parse_toml(std::string_view text, const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides);
+void apply_override(toml::table& root, const std::string& setting);
+
+/// Keys are paths with dots between their parts.
+void erase_keys(toml::table& root, const std::vector<std::string>& keys);
+/// Every text below `node` that names a file in `from` names it as seen from `to`.
+void move_paths(toml::node& node, const std::filesystem::path& from,
+                const std::filesystem::path& to);
+std::string formatted_toml(const toml::table& root);
+
+}  // namespace culet
