@@ -174,7 +174,8 @@ void say_result(const CompareArguments& a, const Comparison& comparison, bool ca
     for (const std::string& note : comparison.notes) say("  " + note, a.common.quiet);
 }
 
-int run_compare(const CompareArguments& a, const std::string& version) {
+// Throws InputError where what was asked does not go together.
+void check_asked(const CompareArguments& a) {
     if (a.pictures.size() < 2) {
         throw InputError(
             "compare takes a photograph and a render or a scene file: "
@@ -203,39 +204,15 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     if (!a.mask.empty() && a.photographs() > 1) {
         throw InputError("--mask belongs to one photograph: compare them one by one");
     }
-    std::optional<Scene> scene;
-    SceneExtras extras;
-    if (a.against_scene()) {
-        scene = read_scene(a.against(), a.common.set);
-        for (const std::string& note : scene->notes) say(note, a.common.quiet);
-        scene->settings.threads = a.common.threads;
-        if (!a.start.empty()) extras.start = load_solid(a.start).solid;
-        if (!a.uncertainty.empty())
-            extras.uncertainty = uncertainty_in(a.uncertainty, scene->stone);
-    }
-    if (!a.json.empty()) require_writable(a.json);
-    const OutputFolder folder(a.folder);
-    const fs::path page_file = fs::path(a.folder) / "report.html";
-    require_writable(page_file);
+}
 
-    if (a.photographs() == 1) {
-        const Compared one =
-            scene ? compare_with_scene(a, a.pictures.front(), *scene, extras, version)
-                  : compare_with_render(a, version);
-        const std::string page = report_page(one.report);
-        if (!a.json.empty()) write_text(a.json, one.json);
-        write_text(page_file, page);
-        say_result(a, one.comparison, one.calibrated.has_value());
-        say(fmt::format("report: {}; next: open it in a browser", page_file.string()),
-            a.common.quiet);
-        return one.comparison.usable() ? exit_good : exit_untrusted;
-    }
-
+int compare_several(const CompareArguments& a, const Scene& scene, const SceneExtras& extras,
+                    const std::string& version, const fs::path& page_file) {
     std::vector<PhotographRow> rows;
     std::vector<std::string> pages;
     for (std::size_t i = 0; i < a.photographs(); ++i) {
         const std::string& file = a.pictures[i];
-        Compared one = compare_with_scene(a, file, *scene, extras, version);
+        Compared one = compare_with_scene(a, file, scene, extras, version);
         say(file, a.common.quiet);
         say_result(a, one.comparison, one.calibrated.has_value());
         pages.push_back(report_page(one.report));
@@ -256,6 +233,34 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     say(fmt::format("{}: {}", verdict_words(several.verdict), several.reason), a.common.quiet);
     say(fmt::format("report: {}; next: open it in a browser", page_file.string()), a.common.quiet);
     return several.verdict == Verdict::refused ? exit_untrusted : exit_good;
+}
+
+int run_compare(const CompareArguments& a, const std::string& version) {
+    check_asked(a);
+    std::optional<Scene> scene;
+    SceneExtras extras;
+    if (a.against_scene()) {
+        scene = read_scene(a.against(), a.common.set);
+        for (const std::string& note : scene->notes) say(note, a.common.quiet);
+        scene->settings.threads = a.common.threads;
+        if (!a.start.empty()) extras.start = load_solid(a.start).solid;
+        if (!a.uncertainty.empty())
+            extras.uncertainty = uncertainty_in(a.uncertainty, scene->stone);
+    }
+    if (!a.json.empty()) require_writable(a.json);
+    const OutputFolder folder(a.folder);
+    const fs::path page_file = fs::path(a.folder) / "report.html";
+    require_writable(page_file);
+
+    if (a.photographs() > 1) return compare_several(a, *scene, extras, version, page_file);
+    const Compared one = scene ? compare_with_scene(a, a.pictures.front(), *scene, extras, version)
+                               : compare_with_render(a, version);
+    const std::string page = report_page(one.report);
+    if (!a.json.empty()) write_text(a.json, one.json);
+    write_text(page_file, page);
+    say_result(a, one.comparison, one.calibrated.has_value());
+    say(fmt::format("report: {}; next: open it in a browser", page_file.string()), a.common.quiet);
+    return one.comparison.usable() ? exit_good : exit_untrusted;
 }
 
 }  // namespace

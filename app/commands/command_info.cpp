@@ -165,6 +165,54 @@ Description describe_file(const DescribeOptions& options) {
                      ".jpg), and ray tables (.rays)");
 }
 
+namespace {
+
+// Of a mesh or a cut design.
+void add_solid_options(CLI::App& command, InfoOptions& options) {
+    command
+        .add_option("--meet-tolerance", options.describe.cut.meet_tolerance,
+                    "meets of a cut that miss by less than this fraction of its width become one "
+                    "corner (0: none)")
+        ->check(CLI::Range(0.0, 0.1))
+        ->type_name("FRACTION")
+        ->capture_default_str();
+    command
+        .add_option("--width", options.width,
+                    "tell of a mesh or cut design at this width (W), in mm")
+        ->type_name("6.5mm");
+    command.add_flag("--cutting-list", options.describe.cutting_list,
+                     "of a mesh or cut design: angle and index settings, tier by tier");
+    command
+        .add_option("--cutting-sheet", options.sheet.out,
+                    "of a mesh or cut design, to be printed: drawings, angles, index settings, "
+                    "what each tier is cut to")
+        ->type_name("SHEET.html|.txt");
+    command
+        .add_option("--report", options.sheet.report,
+                    "report of the stone's fit: angles of the cutting sheet with their sigmas")
+        ->type_name("FIT.json");
+    command
+        .add_option("--gear", options.describe.cutting.gear,
+                    "teeth of the index wheel of cutting list and form (the design's own, or 96)")
+        ->check(CLI::Range(1.0, 1e6))
+        ->type_name("TEETH");
+    command
+        .add_option("--goniometer", options.describe.cutting.shown_deg,
+                    "what yours shows, degrees: facets of a tier that differ by less are cut "
+                    "alike (0.1)")
+        ->check(CLI::Range(0.001, 5.0))
+        ->type_name("DEG");
+    add_form_options(command, options.form);
+    command
+        .add_option("--material", options.form.material,
+                    "for the weight in the form, and the stone file")
+        ->type_name("NAME");
+    command.add_flag("--may-be-concave", options.describe.may_be_concave,
+                     "a dented stone is no fault");
+}
+
+}  // namespace
+
 void add_command_info(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
@@ -187,46 +235,7 @@ void add_command_info(CLI::App& program, int& exit_code) {
         ->type_name("LIST.html");
     command->add_option("--json", options->json, "write one object there (-: stdout)")
         ->type_name("FILE");
-    command
-        ->add_option("--meet-tolerance", options->describe.cut.meet_tolerance,
-                     "meets of a cut that miss by less than this fraction of its width become one "
-                     "corner (0: none)")
-        ->check(CLI::Range(0.0, 0.1))
-        ->type_name("FRACTION")
-        ->capture_default_str();
-    command
-        ->add_option("--width", options->width,
-                     "tell of a mesh or cut design at this width (W), in mm")
-        ->type_name("6.5mm");
-    command->add_flag("--cutting-list", options->describe.cutting_list,
-                      "of a mesh or cut design: angle and index settings, tier by tier");
-    command
-        ->add_option("--cutting-sheet", options->sheet.out,
-                     "of a mesh or cut design, to be printed: drawings, angles, index settings, "
-                     "what each tier is cut to")
-        ->type_name("SHEET.html|.txt");
-    command
-        ->add_option("--report", options->sheet.report,
-                     "report of the stone's fit: angles of the cutting sheet with their sigmas")
-        ->type_name("FIT.json");
-    command
-        ->add_option("--gear", options->describe.cutting.gear,
-                     "teeth of the index wheel of cutting list and form (the design's own, or 96)")
-        ->check(CLI::Range(1.0, 1e6))
-        ->type_name("TEETH");
-    command
-        ->add_option("--goniometer", options->describe.cutting.shown_deg,
-                     "what yours shows, degrees: facets of a tier that differ by less are cut "
-                     "alike (0.1)")
-        ->check(CLI::Range(0.001, 5.0))
-        ->type_name("DEG");
-    add_form_options(*command, options->form);
-    command
-        ->add_option("--material", options->form.material,
-                     "for the weight in the form, and the stone file")
-        ->type_name("NAME");
-    command->add_flag("--may-be-concave", options->describe.may_be_concave,
-                      "a dented stone is no fault");
+    add_solid_options(*command, *options);
     add_common(*command, options->common, true);
     command->footer(
         "-v lists every facet. Exit code 1 when there are faults.\n"

@@ -114,6 +114,56 @@ Picture picture_of(const EnvironmentMap& map, Picture::Environment kind) {
     return picture;
 }
 
+void write_light(const LightArguments& a, const LightProbe& probe, const ProbeOptions& given) {
+    const Picture lat_long = picture_of(probe.light.map, Picture::Environment::lat_long);
+    write_picture(lat_long, a.out);
+    if (!a.cube.empty()) {
+        const EnvironmentMap cube = cube_of_lat_long(probe.light.map, probe.light.map.width / 4);
+        write_picture(picture_of(cube, Picture::Environment::cube), a.cube);
+    }
+    if (!a.picture.empty()) write_text(a.picture, coverage_png(probe));
+    if (!a.table.empty()) {
+        const std::filesystem::path beside = std::filesystem::absolute(a.table).parent_path();
+        const std::filesystem::path map = std::filesystem::absolute(a.out);
+        const std::filesystem::path way = map.lexically_relative(beside);
+        write_text(a.table, light_toml(probe, (way.empty() ? map : way).generic_string()));
+    }
+    if (!a.json.empty()) write_text(a.json, light_json(probe, given));
+}
+
+void say_light(const LightProbe& probe, bool quiet) {
+    for (const ProbeViewResult& view : probe.views) {
+        say(fmt::format("{}: ball at {:.1f},{:.1f} with radius {:.1f} px, {:.0f} radii away ({})",
+                        view.name, view.circle.x, view.circle.y, view.circle.radius, view.distance,
+                        view.distance_from),
+            quiet);
+    }
+    for (const NearLight& light : probe.near_lights) {
+        if (!light.usable()) continue;
+        say(fmt::format(
+                "near light: {:.4g} x {:.4g}, {:.4g} away{}, radiance {:.4g}, {:.4g}, {:.4g}",
+                2 * glm::length(light.window.u), 2 * glm::length(light.window.v), light.distance,
+                light.from == "parallax"
+                    ? fmt::format(" +- {:.2g}", light.distance_sigma)
+                    : fmt::format(" ({})", light.from == "distance" ? "given" : light.from),
+                light.radiance[0], light.radiance[1], light.radiance[2]),
+            quiet);
+    }
+    for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
+        say(fmt::format("{}: {:.2f} degrees from the first camera; agrees with correlation {:.3f}, "
+                        "half of what both show within {:.2f} stops",
+                        probe.views[v + 1].name, degrees(probe.views[v + 1].turned),
+                        probe.alignments[v].correlation, probe.alignments[v].residual),
+            quiet);
+    }
+    if (!probe.alignments.empty())
+        say(fmt::format(
+                "two views differ by less than {:.2f} stops over half of what they show, by "
+                "{:.2f} on average",
+                probe.middle_disagreement, probe.mean_disagreement),
+            quiet);
+}
+
 int run_light(const LightArguments& a) {
     for (const std::string& file : {a.out, a.cube, a.picture, a.json, a.table})
         require_writable(file);
@@ -134,52 +184,8 @@ int run_light(const LightArguments& a) {
     give_balls(a, read.views);
     const LightProbe probe =
         light_probe(read.views, given, progress_line("finding the light", a.common.quiet));
-
-    const Picture lat_long = picture_of(probe.light.map, Picture::Environment::lat_long);
-    write_picture(lat_long, a.out);
-    if (!a.cube.empty()) {
-        const EnvironmentMap cube = cube_of_lat_long(probe.light.map, probe.light.map.width / 4);
-        write_picture(picture_of(cube, Picture::Environment::cube), a.cube);
-    }
-    if (!a.picture.empty()) write_text(a.picture, coverage_png(probe));
-    if (!a.table.empty()) {
-        const std::filesystem::path beside = std::filesystem::absolute(a.table).parent_path();
-        const std::filesystem::path map = std::filesystem::absolute(a.out);
-        const std::filesystem::path way = map.lexically_relative(beside);
-        write_text(a.table, light_toml(probe, (way.empty() ? map : way).generic_string()));
-    }
-    if (!a.json.empty()) write_text(a.json, light_json(probe, given));
-
-    for (const ProbeViewResult& view : probe.views) {
-        say(fmt::format("{}: ball at {:.1f},{:.1f} with radius {:.1f} px, {:.0f} radii away ({})",
-                        view.name, view.circle.x, view.circle.y, view.circle.radius, view.distance,
-                        view.distance_from),
-            a.common.quiet);
-    }
-    for (const NearLight& light : probe.near_lights) {
-        if (!light.usable()) continue;
-        say(fmt::format(
-                "near light: {:.4g} x {:.4g}, {:.4g} away{}, radiance {:.4g}, {:.4g}, {:.4g}",
-                2 * glm::length(light.window.u), 2 * glm::length(light.window.v), light.distance,
-                light.from == "parallax"
-                    ? fmt::format(" +- {:.2g}", light.distance_sigma)
-                    : fmt::format(" ({})", light.from == "distance" ? "given" : light.from),
-                light.radiance[0], light.radiance[1], light.radiance[2]),
-            a.common.quiet);
-    }
-    for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
-        say(fmt::format("{}: {:.2f} degrees from the first camera; agrees with correlation {:.3f}, "
-                        "half of what both show within {:.2f} stops",
-                        probe.views[v + 1].name, degrees(probe.views[v + 1].turned),
-                        probe.alignments[v].correlation, probe.alignments[v].residual),
-            a.common.quiet);
-    }
-    if (!probe.alignments.empty())
-        say(fmt::format(
-                "two views differ by less than {:.2f} stops over half of what they show, by "
-                "{:.2f} on average",
-                probe.middle_disagreement, probe.mean_disagreement),
-            a.common.quiet);
+    write_light(a, probe, given);
+    say_light(probe, a.common.quiet);
     for (const std::string& note : read.notes) say("note: " + note, a.common.quiet);
     for (const std::string& note : probe.notes) say("note: " + note, a.common.quiet);
     if (!probe.usable()) say("not to be trusted: " + probe.doubt, a.common.quiet);
@@ -191,57 +197,61 @@ int run_light(const LightArguments& a) {
     return probe.usable() ? exit_good : exit_untrusted;
 }
 
+// The photographs, and what is known of how they were taken.
+void add_view_options(CLI::App& command, LightArguments& a) {
+    command.add_option("PHOTO", a.photos,
+                       "photographs: one view, or two to six from places up to 90 degrees from "
+                       "the next; several exposures of a view are told apart by their EXIF data");
+    command.add_option("-o,--output", a.out, "lat-long environment, .exr or .hdr")
+        ->required()
+        ->type_name("ENV");
+    command
+        .add_option("--view", a.views,
+                    "photographs of one view (once a view), where they cannot be told apart")
+        ->type_name("PHOTO...");
+    command
+        .add_option("--exposure", a.exposures,
+                    "exposures in the order of the photographs: seconds (1/125) or stops (-2EV)")
+        ->delimiter(',')
+        ->type_name("LIST");
+    command
+        .add_option("--ball", a.balls,
+                    "the ball's outline in pixels from the top left, once or once a view "
+                    "(otherwise found)")
+        ->type_name("X,Y,RADIUS")
+        ->allow_extra_args(false);
+    command
+        .add_option("--distance", a.distance,
+                    "from the camera to the ball's middle, in radii of the ball, or inf (otherwise "
+                    "from EXIF, or from two views)")
+        ->type_name("RADII");
+    command
+        .add_option("--reflectance", a.reflectance,
+                    "share of light that the ball reflects (chrome 0.6, steel 0.57); otherwise 1")
+        ->type_name("R[,G,B]");
+    command
+        .add_option("--towards", a.towards,
+                    "where the first camera looked in the stone's frame, degrees: azimuth, "
+                    "elevation; straight down with the picture's top towards +y is 90,-90")
+        ->type_name("AZ,EL");
+    a.turned_given = command
+                         .add_option("--turned", a.turned_deg,
+                                     "how far the camera went round for the second view, "
+                                     "counter-clockwise from above (otherwise found)")
+                         ->type_name("DEGREES");
+    command
+        .add_option("--camera", a.camera,
+                    "camera file: take out the lens's distortion, and use its focal length")
+        ->type_name("FILE");
+}
+
 }  // namespace
 
 void add_command_light(CLI::App& program, int& exit_code) {
     auto a = std::make_shared<LightArguments>();
     CLI::App* command = program.add_subcommand(
         "light", "photographs of a mirror ball to the light around it, as an environment");
-    command->add_option("PHOTO", a->photos,
-                        "photographs: one view, or two to six from places up to 90 degrees from "
-                        "the next; several exposures of a view are told apart by their EXIF data");
-    command->add_option("-o,--output", a->out, "lat-long environment, .exr or .hdr")
-        ->required()
-        ->type_name("ENV");
-    command
-        ->add_option("--view", a->views,
-                     "photographs of one view (once a view), where they cannot be told apart")
-        ->type_name("PHOTO...");
-    command
-        ->add_option("--exposure", a->exposures,
-                     "exposures in the order of the photographs: seconds (1/125) or stops (-2EV)")
-        ->delimiter(',')
-        ->type_name("LIST");
-    command
-        ->add_option("--ball", a->balls,
-                     "the ball's outline in pixels from the top left, once or once a view "
-                     "(otherwise found)")
-        ->type_name("X,Y,RADIUS")
-        ->allow_extra_args(false);
-    command
-        ->add_option(
-            "--distance", a->distance,
-            "from the camera to the ball's middle, in radii of the ball, or inf (otherwise "
-            "from EXIF, or from two views)")
-        ->type_name("RADII");
-    command
-        ->add_option("--reflectance", a->reflectance,
-                     "share of light that the ball reflects (chrome 0.6, steel 0.57); otherwise 1")
-        ->type_name("R[,G,B]");
-    command
-        ->add_option("--towards", a->towards,
-                     "where the first camera looked in the stone's frame, degrees: azimuth, "
-                     "elevation; straight down with the picture's top towards +y is 90,-90")
-        ->type_name("AZ,EL");
-    a->turned_given = command
-                          ->add_option("--turned", a->turned_deg,
-                                       "how far the camera went round for the second view, "
-                                       "counter-clockwise from above (otherwise found)")
-                          ->type_name("DEGREES");
-    command
-        ->add_option("--camera", a->camera,
-                     "camera file: take out the lens's distortion, and use its focal length")
-        ->type_name("FILE");
+    add_view_options(*command, *a);
     add_near_light_options(*command, a->near);
     command->add_flag("--moved", a->moved,
                       "the camera stood still and the ball was moved: later views show only how "

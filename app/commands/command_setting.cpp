@@ -113,6 +113,34 @@ std::string report_json(const Setting& setting, std::size_t triangles) {
     return json.dump(2) + "\n";
 }
 
+void say_result(const SettingCommand& command, const StoneToSet& loaded, const Setting& setting,
+                std::size_t triangles) {
+    const bool quiet = command.common.quiet;
+    for (const std::string& note : loaded.notes)
+        say(fmt::format("{}: {}", command.stone.string(), note), quiet);
+    if (!loaded.has_size)
+        say(fmt::format("{} has no size: the metal is in proportion to it, as for a stone {:g} mm "
+                        "wide (culet convert --width 6.5mm gives it one)",
+                        command.stone.filename().string(), k_usual_width_mm),
+            quiet);
+    const SettingOptions& made = setting.options;
+    const std::string_view unit = name_of(loaded.stone.unit);
+    const std::string holds =
+        made.style == SettingStyle::bezel
+            ? fmt::format("bezel from a wire of {:.3g} {}", *made.prong_diameter, unit)
+            : fmt::format("{} prongs of {:.3g} {}", made.prongs, *made.prong_diameter, unit);
+    say(fmt::format("{}: {}{}, {:.3g} {} from the stone; {} closed shells, {} triangles",
+                    command.out.string(), holds,
+                    made.shank ? fmt::format(", ring of {:.3g} {} inside", made.ring_diameter, unit)
+                               : std::string(", no shank"),
+                    setting.clearance, unit, setting.parts.size(), triangles),
+        quiet || command.json == "-");
+    say(command.scene.empty()
+            ? std::string("next: the same with --scene ring.toml, for a scene to be rendered")
+            : fmt::format("next: culet render {} -o ring.png", command.scene.string()),
+        quiet);
+}
+
 int run_setting(const SettingCommand& command) {
     const Metal& metal = metal_named(command.metal);
     if (!mesh_format(command.out))
@@ -151,31 +179,46 @@ int run_setting(const SettingCommand& command) {
     write_surface(mesh, command.out);
     if (!command.scene.empty()) write_text(command.scene, scene);
     if (!command.json.empty()) write_text(command.json, report_json(setting, mesh.facets.size()));
-    const bool quiet = command.common.quiet;
-    for (const std::string& note : loaded.notes)
-        say(fmt::format("{}: {}", command.stone.string(), note), quiet);
-    if (!loaded.has_size)
-        say(fmt::format("{} has no size: the metal is in proportion to it, as for a stone {:g} mm "
-                        "wide (culet convert --width 6.5mm gives it one)",
-                        command.stone.filename().string(), k_usual_width_mm),
-            quiet);
-    const SettingOptions& made = setting.options;
-    const std::string_view unit = name_of(loaded.stone.unit);
-    const std::string holds =
-        made.style == SettingStyle::bezel
-            ? fmt::format("bezel from a wire of {:.3g} {}", *made.prong_diameter, unit)
-            : fmt::format("{} prongs of {:.3g} {}", made.prongs, *made.prong_diameter, unit);
-    say(fmt::format("{}: {}{}, {:.3g} {} from the stone; {} closed shells, {} triangles",
-                    command.out.string(), holds,
-                    made.shank ? fmt::format(", ring of {:.3g} {} inside", made.ring_diameter, unit)
-                               : std::string(", no shank"),
-                    setting.clearance, unit, setting.parts.size(), mesh.facets.size()),
-        quiet || command.json == "-");
-    say(command.scene.empty()
-            ? std::string("next: the same with --scene ring.toml, for a scene to be rendered")
-            : fmt::format("next: culet render {} -o ring.png", command.scene.string()),
-        quiet);
+    say_result(command, loaded, setting, mesh.facets.size());
     return exit_good;
+}
+
+void add_metal_options(CLI::App& command, SettingCommand& options) {
+    command.add_option("--style", options.style, "prong or bezel")
+        ->check(CLI::IsMember({"prong", "bezel"}))
+        ->capture_default_str();
+    command
+        .add_option("--prongs", options.prongs,
+                    "how many, 2 to 24; 0: a bezel. Default: one at each corner; round and oval "
+                    "stones 6, cushions 4")
+        ->check([](const std::string& text) {
+            const int count = std::atoi(text.c_str());
+            return count == 0 || (count >= 2 && count <= k_most_prongs)
+                       ? std::string()
+                       : fmt::format("{} is neither 0 (a bezel) nor 2 to {}", text, k_most_prongs);
+        })
+        ->type_name("N");
+    command
+        .add_option("--prong-diameter", options.prong_diameter,
+                    "of the wire; default: an eighth of the stone's width")
+        ->type_name("0.8mm");
+    command
+        .add_option("--clearance", options.clearance,
+                    "between metal and stone; default: a five-hundredth of the stone's width")
+        ->type_name("0.01mm");
+    command.add_option("--ring", options.ring, "inner diameter of the shank; default: 17mm")
+        ->type_name("17mm");
+    command.add_flag("--no-shank", options.no_shank, "the head alone, without a ring");
+    command
+        .add_option("--smoothness", options.smoothness,
+                    "flat sides of a round wire, a multiple of 4: 8 is coarse, 48 fine")
+        ->check(CLI::Range(8, 128))
+        ->check([](const std::string& text) {
+            return std::atoi(text.c_str()) % 4 == 0 ? std::string()
+                                                    : "--smoothness is a multiple of 4";
+        })
+        ->type_name("N")
+        ->capture_default_str();
 }
 
 }  // namespace
@@ -191,41 +234,7 @@ void add_command_setting(CLI::App& program, int& exit_code) {
     command->add_option("-o,--output", options->out, "mesh of the metal: .obj .off .ply .stl")
         ->required()
         ->type_name("MESH");
-    command->add_option("--style", options->style, "prong or bezel")
-        ->check(CLI::IsMember({"prong", "bezel"}))
-        ->capture_default_str();
-    command
-        ->add_option("--prongs", options->prongs,
-                     "how many, 2 to 24; 0: a bezel. Default: one at each corner; round and oval "
-                     "stones 6, cushions 4")
-        ->check([](const std::string& text) {
-            const int count = std::atoi(text.c_str());
-            return count == 0 || (count >= 2 && count <= k_most_prongs)
-                       ? std::string()
-                       : fmt::format("{} is neither 0 (a bezel) nor 2 to {}", text, k_most_prongs);
-        })
-        ->type_name("N");
-    command
-        ->add_option("--prong-diameter", options->prong_diameter,
-                     "of the wire; default: an eighth of the stone's width")
-        ->type_name("0.8mm");
-    command
-        ->add_option("--clearance", options->clearance,
-                     "between metal and stone; default: a five-hundredth of the stone's width")
-        ->type_name("0.01mm");
-    command->add_option("--ring", options->ring, "inner diameter of the shank; default: 17mm")
-        ->type_name("17mm");
-    command->add_flag("--no-shank", options->no_shank, "the head alone, without a ring");
-    command
-        ->add_option("--smoothness", options->smoothness,
-                     "flat sides of a round wire, a multiple of 4: 8 is coarse, 48 fine")
-        ->check(CLI::Range(8, 128))
-        ->check([](const std::string& text) {
-            return std::atoi(text.c_str()) % 4 == 0 ? std::string()
-                                                    : "--smoothness is a multiple of 4";
-        })
-        ->type_name("N")
-        ->capture_default_str();
+    add_metal_options(*command, *options);
     std::vector<std::string> names;
     for (const Metal& metal : metals()) names.emplace_back(metal.name);
     command->add_option("--metal", options->metal, "of the scene: " + listed(names, names.size()))

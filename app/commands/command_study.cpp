@@ -38,6 +38,29 @@ void refuse(const StudyCommand& command, const CLI::Option* given, const char* k
                      fmt::format("{} is for studies of {}", given->get_name(), kind));
 }
 
+void refuse_outlines(const std::vector<Reading>& readings) {
+    for (const Reading& reading : readings) {
+        if (reading.kind != ReadingKind::silhouette) continue;
+        throw InputError(reading.file, reading.line,
+                         "a study draws readings anew, which it cannot do with outlines: take the "
+                         "[[silhouette]] tables out; hold_out tells how well outlines fit");
+    }
+}
+
+void write_study(const StudyCommand& command, const Study& study, const std::string& json,
+                 const std::string& title, const StudyOptions& options, const fs::path& folder) {
+    write_text(folder / "study.json", json);
+    write_text(folder / "time.csv", study_time_csv(study));
+    write_text(folder / "limit.csv", study_limit_csv(study));
+    write_text(folder / "time.svg", study_time_chart(json));
+    write_text(folder / "limit.svg", study_limit_chart(json));
+    write_text(folder / "report.html",
+               study_page({json, title, CULET_VERSION,
+                           fmt::format("culet study {} -o {} --seed {} --draws {} --budget {:g}",
+                                       command.input, command.out, options.seed, options.draws,
+                                       options.budget_seconds)}));
+}
+
 int run_study(const StudyCommand& command) {
     require_kind(command.input, {FileKind::scene, FileKind::stone}, "culet study",
                  command.common.set);
@@ -59,12 +82,7 @@ int run_study(const StudyCommand& command) {
     if (input.readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");
     }
-    for (const Reading& reading : input.readings) {
-        if (reading.kind != ReadingKind::silhouette) continue;
-        throw InputError(reading.file, reading.line,
-                         "a study draws readings anew, which it cannot do with outlines: take the "
-                         "[[silhouette]] tables out; hold_out tells how well outlines fit");
-    }
+    refuse_outlines(input.readings);
     StudyOptions options;
     options.fit = read_fit_options(command.input, command.common.set);
     options.seed = command.common.seed;
@@ -86,16 +104,7 @@ int run_study(const StudyCommand& command) {
         }
     }();
     const std::string json = study_json(study);
-    write_text(folder / "study.json", json);
-    write_text(folder / "time.csv", study_time_csv(study));
-    write_text(folder / "limit.csv", study_limit_csv(study));
-    write_text(folder / "time.svg", study_time_chart(json));
-    write_text(folder / "limit.svg", study_limit_chart(json));
-    write_text(folder / "report.html",
-               study_page({json, file.stone.name, CULET_VERSION,
-                           fmt::format("culet study {} -o {} --seed {} --draws {} --budget {:g}",
-                                       command.input, command.out, options.seed, options.draws,
-                                       options.budget_seconds)}));
+    write_study(command, study, json, file.stone.name, options, folder);
     if (!command.json.empty()) write_text(command.json, json);
     if (command.json != "-") print_lines(study_table(json));
     say(fmt::format("{}: {}", name_of(study.status), study.message), command.common.quiet);

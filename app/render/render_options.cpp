@@ -29,6 +29,35 @@ void add_stone_options(CLI::App& command, StoneScene& stone) {
         ->type_name("MM");
 }
 
+// What [render] of a scene says too; a plan has all of it.
+void add_settings(CLI::App& command, RenderOptions& options, CLI::Option* plan) {
+    command
+        .add_option("--engine", options.engine, fmt::format("{}", fmt::join(engine_names(), ", ")))
+        ->excludes(plan);
+    command
+        .add_option("--table", options.table,
+                    "ray table of the engine raytable: written where there is none, else "
+                    "read, for other lights and body colours without tracing")
+        ->type_name("FILE.rays")
+        ->excludes(plan);
+    command
+        .add_option("--effects", options.effects,
+                    "auto, all, none, or a list: dispersion,absorption,...")
+        ->excludes(plan);
+    command.add_option("--depth", options.depth, "faces on a path at most (0: by tolerance)")
+        ->excludes(plan);
+    command
+        .add_option("--tolerance", options.tolerance,
+                    "of the picture's mean radiance; not given: what about 10 s allow")
+        ->excludes(plan);
+    command
+        .add_option("--check", options.check,
+                    "full: drawn until it is within the tolerance; estimate: drawn once, and held "
+                    "against the truth; none: drawn once")
+        ->check(CLI::IsMember({"none", "estimate", "full"}))
+        ->excludes(plan);
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
@@ -55,31 +84,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                         "STATS.json of an earlier picture of the same stone and light: drawn with "
                         "its settings, nothing is chosen or checked anew")
             ->type_name("STATS.json");
-    command
-        .add_option("--engine", options.engine, fmt::format("{}", fmt::join(engine_names(), ", ")))
-        ->excludes(plan);
-    command
-        .add_option("--table", options.table,
-                    "ray table of the engine raytable: written where there is none, else "
-                    "read, for other lights and body colours without tracing")
-        ->type_name("FILE.rays")
-        ->excludes(plan);
-    command
-        .add_option("--effects", options.effects,
-                    "auto, all, none, or a list: dispersion,absorption,...")
-        ->excludes(plan);
-    command.add_option("--depth", options.depth, "faces on a path at most (0: by tolerance)")
-        ->excludes(plan);
-    command
-        .add_option("--tolerance", options.tolerance,
-                    "of the picture's mean radiance; not given: what about 10 s allow")
-        ->excludes(plan);
-    command
-        .add_option("--check", options.check,
-                    "full: drawn until it is within the tolerance; estimate: drawn once, and held "
-                    "against the truth; none: drawn once")
-        ->check(CLI::IsMember({"none", "estimate", "full"}))
-        ->excludes(plan);
+    add_settings(command, options, plan);
     CLI::Option* const frames = command
                                     .add_option("--frames", options.frames,
                                                 "a turntable of so many pictures, -o "

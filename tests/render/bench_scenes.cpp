@@ -100,14 +100,15 @@ Lights smooth_lights(double peak) {
 Lights near_lights(double diameter) {
     Lights lights;
     lights.constant = 0.05;
-    const auto panel = [&](const Vec3& towards, double half, double radiance) {
+    // Beyond the camera or far beside it, which sees no plane from behind.
+    const auto panel = [&](const Vec3& towards, double away, double half, double radiance) {
         const Vec3 way = glm::normalize(towards), u = half * diameter * perpendicular_to(way);
         lights.sources.push_back(
-            PlaneLight{2.5 * diameter * way, -way, u, glm::cross(way, u), {radiance}});
+            PlaneLight{away * diameter * way, -way, u, glm::cross(way, u), {radiance}});
     };
-    panel({0.5, 0.3, 1}, 1, 0.9);
-    panel({-1, 0.5, 0.6}, 0.7, 0.6);
-    panel({0.3, -1, 0.5}, 0.7, 0.4);
+    panel({0.5, 0.3, 1}, 8, 3.2, 0.9);
+    panel({-1, 0.5, 0.25}, 2.5, 0.7, 0.6);
+    panel({0.3, -1, 0.3}, 2.5, 0.7, 0.4);
     lights.sources.push_back(SphereLight{diameter * Vec3{-0.9, -1.2, 2.2}, 0.25 * diameter, {0.9}});
     lights.sources.push_back(SphereLight{diameter * Vec3{1.6, -0.6, 1.4}, 0.2 * diameter, {0.7}});
     return lights;
