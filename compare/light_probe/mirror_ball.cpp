@@ -58,6 +58,13 @@ Cone cone_of(const BallCircle& circle, const PixelPlace& principal, double focal
     return {glm::normalize(whole), std::sqrt(1 + 1 / std::max(tan2, 1e-300))};
 }
 
+// The direction (c, s) by twice the angle of this tangent towards (1, 0).
+void turn_back(double& c, double& s, double tangent) {
+    const double t2 = tangent * tangent, x = (1 - t2) * c + 2 * tangent * s;
+    s = ((1 - t2) * s - 2 * tangent * c) / (1 + t2);
+    c = x / (1 + t2);
+}
+
 }  // namespace
 
 MirrorBall::MirrorBall(const BallCircle& circle, const PixelPlace& principal, double focal_px,
@@ -114,23 +121,27 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
     const double cosine = glm::dot(d, towards_camera_);
     Vec3 aside = d - cosine * towards_camera_;
     const double sine = glm::length(aside);
-    const double theta = std::atan2(sine, cosine);
-    if (theta >= std::numbers::pi - blind_half_angle()) return std::nullopt;
+    if (cosine < 0 && sine * distance_ <= 1) return std::nullopt;  // the blind cone
     aside = sine > 0 ? aside / sine : Vec3(0);
     // The normal at phi from the camera's direction sends the ray that meets it there, psi beside
     // the axis, to theta = 2 phi + psi. Newton: psi' = (L cos phi - 1) / (L^2 - 2 L cos phi + 1).
+    // In cosines and sines, as a pair (c, s) that turns: what is left of the angle is that of
+    // (c, s)^2 (L - c, s) / (cosine, sine), and tan(x / 2) = sin x / (1 + cos x) turns by it.
     const double l = distance_;
-    double phi = (theta - std::sin(theta / 2) / (l - std::cos(theta / 2))) / 2;
+    double c = std::sqrt(std::max(0.0, (1 + cosine) / 2)),
+           s = std::sqrt(std::max(0.0, (1 - cosine) / 2));
+    turn_back(c, s, s / (l - c) / 4);
     for (int i = 0; i < 20; ++i) {
-        const double c = std::cos(phi), s = std::sin(phi);
-        const double psi = std::atan2(s, l - c);
-        const double slope = 2 + (l * c - 1) / (l * l - 2 * l * c + 1);
-        const double step = (2 * phi + psi - theta) / slope;
-        phi -= step;
-        if (std::abs(step) < 1e-12) break;
+        const double square = l * l - 2 * l * c + 1, length = std::sqrt(square);
+        // (c, s)^2 (L - c, s) = L (c, s)^2 - (c, s)
+        const double x = l * (c * c - s * s) - c, y = 2 * l * c * s - s;
+        const double left = (y * cosine - x * sine) / (length + x * cosine + y * sine);
+        const double step = left / (2 + (l * c - 1) / square);
+        turn_back(c, s, step);
+        if (std::abs(step) < 5e-13) break;
     }
     // From the camera: the centre, and the normal from it.
-    const Vec3 point = centre_ + std::cos(phi) * towards_camera_ + std::sin(phi) * aside;
+    const Vec3 point = centre_ + c * towards_camera_ + s * aside;
     if (point.z >= 0) return std::nullopt;
     return PixelPlace{principal_.x - focal_px_ * point.x / point.z,
                       principal_.y + focal_px_ * point.y / point.z};
