@@ -52,8 +52,10 @@ TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
     const std::vector<double> sigmas{0.01};
     const PlaneSolver::Weights weights = solver.weights(state, {1});
     const auto equations = solver.equations(state, weights, sigmas, true);
+    // Every fifth: of each plane another coordinate, and of the motion some.
+    constexpr Eigen::Index k_stride = 5;
     int seen = 0, alike = 0, other = 0;
-    for (Eigen::Index i = 0; i < equations.gradient.size(); ++i) {
+    for (Eigen::Index i = 0; i < equations.gradient.size(); i += k_stride) {
         constexpr double k_step = 1e-6;
         Eigen::VectorXd step = Eigen::VectorXd::Zero(equations.gradient.size());
         double cost[2];
@@ -68,40 +70,39 @@ TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
         (std::abs(equations.gradient(i) - difference) < allowed ? alike : other)++;
         seen += std::abs(difference) > 1;
     }
-    EXPECT_GT(seen, 60);
+    EXPECT_GT(seen, 60 / k_stride);
     EXPECT_LT(other, 0.05 * alike);
 }
 
 // A step cut whose facets are far off the design, in few and rough outlines: facets that were added
 // become too narrow until the end. Everything is numbered by the planes that are left, each of
-// which has a facet. (Each of these seeds drops planes in its last round.)
+// which has a facet. (This seed drops planes in its last round.)
 TEST(FindPlanes, WhatIsNumberedByPlanesIsOfThoseThatAreLeft) {
     const Solid design = make_cut("step");
-    for (const unsigned seed : {8u, 9u, 10u}) {
-        const Solid truth = off_standard(design, degrees(0.03), 0.05, seed);
-        const double elevation = radians(30);
-        std::mt19937_64 random(seed);
-        auto set = std::make_shared<SilhouetteSet>();
-        for (int k = 0; k < 8; ++k) {
-            const double a = 2 * std::numbers::pi * k / 8;
-            const Vec3 sight{std::cos(elevation) * std::cos(a), std::cos(elevation) * std::sin(a),
-                             std::sin(elevation)};
-            set->contours.push_back(
-                test::seen_along(truth, sight, {.points = 350, .sigma = 0.01}, random));
-        }
-        SilhouetteStart start = silhouette_start(stone_of(design), {set});
-        const FoundPlanes found = find_planes(stone_of(design), start.problem);
-        const std::size_t planes = found.fit.planes.size();
-        EXPECT_EQ(start.problem.start.size(), planes) << seed;
-        EXPECT_EQ(found.mesh_facet.size(), planes) << seed;
-        EXPECT_EQ(found.fit.body.present, std::vector<bool>(planes, true)) << seed;
-        for (const std::array<int, 3>& crossing : found.fit.body.planes) {
-            for (const int p : crossing) EXPECT_LT(p, int(planes)) << seed;
-        }
-        const SilhouetteFit fit = fit_silhouettes(stone_of(design), {set});
-        ASSERT_EQ(fit.stone.solid.facets.size(), planes) << seed;
-        for (const auto& row : fit.knowledge->rows) EXPECT_EQ(row.normal.size(), planes) << seed;
+    constexpr unsigned seed = 8;
+    const Solid truth = off_standard(design, degrees(0.03), 0.05, seed);
+    const double elevation = radians(30);
+    std::mt19937_64 random(seed);
+    auto set = std::make_shared<SilhouetteSet>();
+    for (int k = 0; k < 8; ++k) {
+        const double a = 2 * std::numbers::pi * k / 8;
+        const Vec3 sight{std::cos(elevation) * std::cos(a), std::cos(elevation) * std::sin(a),
+                         std::sin(elevation)};
+        set->contours.push_back(
+            test::seen_along(truth, sight, {.points = 350, .sigma = 0.01}, random));
     }
+    SilhouetteStart start = silhouette_start(stone_of(design), {set});
+    const FoundPlanes found = find_planes(stone_of(design), start.problem);
+    const std::size_t planes = found.fit.planes.size();
+    EXPECT_EQ(start.problem.start.size(), planes);
+    EXPECT_EQ(found.mesh_facet.size(), planes);
+    EXPECT_EQ(found.fit.body.present, std::vector<bool>(planes, true));
+    for (const std::array<int, 3>& crossing : found.fit.body.planes) {
+        for (const int p : crossing) EXPECT_LT(p, int(planes));
+    }
+    const SilhouetteFit fit = fit_silhouettes(stone_of(design), {set});
+    ASSERT_EQ(fit.stone.solid.facets.size(), planes);
+    for (const auto& row : fit.knowledge->rows) EXPECT_EQ(row.normal.size(), planes);
 }
 
 }  // namespace
