@@ -22,11 +22,11 @@ int main() {
         {"round-brilliant", "diamond",
          R"(["light={preset=\"jeweller\"}", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
         {"step", "tourmaline_dravite",
-         R"(["light={preset=\"daylight\"}", "film.tonemap=\"filmic\"", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
+         R"(["light={preset=\"daylight\"}", "film.tonemap=\"filmic\"", "render.depth=6", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
         {"oval", "sapphire_blue",
          R"(["light={preset=\"lightbox\"}", "optic_axis=[1,0,0.2]", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
         {"princess", "peridot",
-         R"(["light={preset=\"aset\"}", "immersion=1.33", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
+         R"(["light={preset=\"aset\"}", "immersion=1.33", "render.depth=8", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
         {"round-brilliant", "zircon_high",
          R"(["preset=\"polariscope\"", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
     };
