@@ -127,15 +127,15 @@ TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
 }
 
 TEST_F(BatchCommand, SharesMakeTheBytesOfOneRun) {
-    write_stones(12);
+    write_stones(7);
     ASSERT_EQ(batch({file("stones"), "-o", file("one"), "-q", "--threads", "2"}).exit_code,
               batch({file("stones"), "-o", file("again"), "-q", "--threads", "1"}).exit_code);
-    for (int k = 4; k >= 0; --k)
-        batch({file("stones"), "-o", file("shares"), "--shard", std::to_string(k) + "/5", "-q"});
+    for (int k = 2; k >= 0; --k)
+        batch({file("stones"), "-o", file("shares"), "--shard", std::to_string(k) + "/3", "-q"});
     EXPECT_FALSE(fs::exists(folder_ / "shares/table.csv"));
     batch({"--merge", file("shares"), "-q"});
     const auto one = tree_of(folder_ / "one");
-    EXPECT_EQ(one.size(), 5u + 12u * 4u);  // plan, table twice, page, jobs; each with three files
+    EXPECT_EQ(one.size(), 5u + 7u * 4u);  // plan, table twice, page, jobs; each with three files
     EXPECT_EQ(one, tree_of(folder_ / "again"));
     EXPECT_EQ(one, tree_of(folder_ / "shares"));
 }
@@ -165,7 +165,7 @@ TEST_F(BatchCommand, ResumeDoesWhatHasChanged) {
 
 // The process and its workers are killed while they work; what stood as finished stands.
 TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
-    constexpr int k_stones = 60;
+    constexpr int k_stones = 24;
     write_stones(k_stones);
     const auto start = std::chrono::steady_clock::now();
     ASSERT_NE(batch({file("stones"), "-o", file("whole"), "-q"}).exit_code, 2);
