@@ -311,7 +311,7 @@ TEST(NearLight, WindowsThatLookAlikeAreNotConfused) {
 
 // Guy & Soler's two views: the camera goes round a quarter, in a room that holds its turn.
 TEST(NearLight, TwoCamerasTellWhereAWindowIs) {
-    const double radius = 110;
+    const double radius = 80;
     const Window truth = window_at(-2.4, 0.25, 5, 1.4, 0.9);
     const auto panorama = simulated::room(5);
     BallShot front = first_shot(radius), side = first_shot(radius);
