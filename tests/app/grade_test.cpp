@@ -106,10 +106,10 @@ TEST_F(GradeCommand, TellsSigmasByAFitReport) {
     std::ofstream(folder_ / "fit.json") << Json{{"facets", facets}}.dump();
     const ProgramRun run =
         run_culet({"grade", file("round.obj"), "--material", "diamond", "--tilts", "0", "--draws",
-                   "6", "--report", file("fit.json"), "--json", "-"});
+                   "3", "--report", file("fit.json"), "--json", "-"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const Json json = Json::parse(run.out);
-    EXPECT_EQ(json.at("sigma_draws"), 6);
+    EXPECT_EQ(json.at("sigma_draws"), 3);
     EXPECT_GT(json.at("sigma").at("iso").get<double>(), 0);
     EXPECT_GT(json.at("sigma").at("aset.red").get<double>(), 0);
     EXPECT_GT(json.at("sigma").at("hearts.evenness").get<double>(), 0);
