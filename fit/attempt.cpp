@@ -4,11 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fit/findings/assess.h"
 #include "fit/findings/describe.h"
-#include "fit/findings/fitted_parts.h"
-#include "fit/findings/judge.h"
-#include "fit/findings/shape_findings.h"
 #include "fit/mesh/notes.h"
 #include "fit/model/enclosed.h"
 #include "fit/model/fit_model.h"
@@ -41,7 +37,6 @@ void fill_in_search(const FitModel& model, const Multistart& multistart, FitResu
     result.log.starts = multistart.starts;
     result.log.start = best.start;
     result.log.iterations = best.finished.iterations;
-    result.findings.vanishing_edges = edges_kept_open(model, best.held);
     result.findings.vanishing_chi2 = best.cost_of_holding;
     const bool has_size = result.log.options.mesh_has_size;
     for (std::string note : {other_turn(model), has_size ? other_size(model) : std::string()}) {
@@ -137,7 +132,6 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     const Frame::Pose pose = model.frame().pose_of(finished.shape);
     fill_in_statistics(diagnosis, result);
     fill_in(model, problem.readings, finished.shape, diagnosis, pose, weights, result);
-    assess(model, finished, diagnosis, result);
     describe_findings(model, finished, best.held, diagnosis, pose, result);
     judge(model, finished, diagnosis, result);
     return made;

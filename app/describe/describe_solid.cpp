@@ -68,11 +68,11 @@ void describe_proportions(const Solid& solid, Description& about) {
                          {"mean", widths.mean},
                          {"min_azimuth", degrees(widths.least_azimuth)},
                          {"max_azimuth", degrees(widths.largest_azimuth)},
-                         {"corners", widths.corners}};
+                         {"corners", widths.outline.size()}};
     about.lines.push_back(fmt::format(
         "caliper {:.4g} (azimuth {:.4g}) to {:.4g} (azimuth {:.4g}), mean {:.4g}{}", widths.least,
         degrees(widths.least_azimuth), widths.largest, degrees(widths.largest_azimuth), widths.mean,
-        widths.round() ? fmt::format("; the outline has {} corners", widths.corners)
+        widths.round() ? fmt::format("; the outline has {} corners", widths.outline.size())
                        : std::string()));
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "fit/findings/fitted_parts.h"
 #include "fit/findings/words.h"
 #include "fit/readings/slips.h"
 #include "stone/text/errors.h"
@@ -37,6 +36,38 @@ Proposal proposal_for(const Reading& reading, double estimate, double sigma, dou
     return proposal;
 }
 
+FittedReading as_taken(const Reading& reading) {
+    FittedReading fitted;
+    fitted.id = reading.id;
+    fitted.kind = reading.kind;
+    fitted.of = reading.of;
+    fitted.value = reading.value;
+    fitted.sigma = reading.sigma;
+    fitted.exact = reading.exact;
+    fitted.rounding = reading.rounding;
+    return fitted;
+}
+
+void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
+                  FitResult& result) {
+    std::string ids;
+    for (const std::size_t i : left_out) {
+        const Reading& r = readings[i];
+        FittedReading fitted = as_taken(r);
+        fitted.fitted = fitted.residual = fitted.normalized = fitted.redundancy =
+            std::numeric_limits<double>::quiet_NaN();
+        fitted.left_out = "the facet lies level within its uncertainty and has no azimuth";
+        result.readings.insert(result.readings.begin() + std::ptrdiff_t(i), std::move(fitted));
+        ids += (ids.empty() ? "" : ", ") + r.id;
+        if (!r.of.empty()) ids += fmt::format(" (of {})", r.of.front());
+    }
+    result.log.notes.push_back(
+        fmt::format("azimuth {} left out: the facet lies level within its uncertainty, and a level "
+                    "facet has no azimuth",
+                    ids));
+    result.message += "; " + result.log.notes.back();
+}
+
 FittedReading left_out(const Reading& reading, const Proposal& proposal, const char* why) {
     FittedReading fitted = as_taken(reading);
     const double off = proposal.estimate - reading.value;
@@ -61,27 +92,19 @@ void accuse(const std::vector<Proposal>& proposals, const std::string& told, Fit
     if (result.status != FitStatus::not_converged) result.status = FitStatus::contradictory;
 }
 
-void flag_blunders(const std::vector<Reading>& readings, const std::vector<Blunder>& blunders,
-                   FitResult& result) {
-    std::vector<Proposal> proposals;
-    std::vector<std::string> words;
-    for (const Blunder& blunder : blunders) {
-        const Reading& r = readings[blunder.reading];
-        const auto listed =
-            std::find_if(result.readings.begin(), result.readings.end(),
-                         [&](const FittedReading& other) { return other.id == r.id; });
-        check(listed != result.readings.end(), "an accused reading is not listed");
-        proposals.push_back(proposal_for(r, blunder.estimate, blunder.sigma));
-        *listed = left_out(r, proposals.back(), "no stone could be found with it");
-        const double unit = file_unit(r.kind);
-        words.push_back(fmt::format("{} ({}{}: read {:g}, the others say {:.4g}{})", r.id,
-                                    name_of(r.kind), of_words(r.of), unit * r.value,
-                                    unit * blunder.estimate, slip_words(proposals.back())));
-    }
-    const bool one = blunders.size() == 1;
-    const std::string told = fmt::format("reading{} {} cannot belong to the others and {} left out",
-                                         one ? "" : "s", name_list(words), one ? "is" : "are");
-    accuse(proposals, told, result);
+void flag_blunder(const Reading& wrong, double estimate, double sigma, FitResult& result) {
+    const auto listed = std::find_if(result.readings.begin(), result.readings.end(),
+                                     [&](const FittedReading& r) { return r.id == wrong.id; });
+    check(listed != result.readings.end(), "an accused reading is not listed");
+    const Proposal proposal = proposal_for(wrong, estimate, sigma);
+    *listed = left_out(wrong, proposal, "no stone could be found with it");
+    const double unit = file_unit(wrong.kind);
+    const std::string told = fmt::format(
+        "reading {} ({}{}: read {:g}, the others say {:.4g}{}) cannot belong to the others and is "
+        "left out",
+        wrong.id, name_of(wrong.kind), of_words(wrong.of), unit * wrong.value, unit * estimate,
+        slip_words(proposal));
+    accuse({proposal}, told, result);
     result.log.notes.push_back(told);
 }
 

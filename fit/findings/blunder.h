@@ -13,6 +13,14 @@ namespace culet {
 Proposal proposal_for(const Reading& reading, double estimate, double sigma,
                       double part_missed = 1);
 
+/// A reading as it was taken; what the fit makes of it is still open.
+FittedReading as_taken(const Reading& reading);
+
+/// The result of a fit without azimuths of level facets, with these in their places again, marked
+/// as left out.
+void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
+                  FitResult& result);
+
 /// A reading that takes no part and should have been what the proposal says.
 FittedReading left_out(const Reading& reading, const Proposal& proposal, const char* why);
 
@@ -20,14 +28,8 @@ FittedReading left_out(const Reading& reading, const Proposal& proposal, const c
 /// message.
 void accuse(const std::vector<Proposal>& proposals, const std::string& told, FitResult& result);
 
-/// A reading that cannot belong to the others, and what they say that it should be.
-struct Blunder {
-    std::size_t reading = 0;
-    double estimate = 0, sigma = 0;
-};
-
-/// Accuses them. The result is of a fit that does without them and lists them all the same.
-void flag_blunders(const std::vector<Reading>& readings, const std::vector<Blunder>& blunders,
-                   FitResult& result);
+/// Accuses one that cannot belong to the others, who say what it should be. The result is of a fit
+/// that does without it and lists it all the same.
+void flag_blunder(const Reading& wrong, double estimate, double sigma, FitResult& result);
 
 }  // namespace culet

@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <tuple>
 
+#include "fit/findings/blunder.h"
+#include "fit/findings/cut_quantities.h"
 #include "fit/findings/meet_tests.h"
+#include "fit/findings/optimal_design.h"
 #include "fit/findings/own_axis.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/symmetry_tests.h"
 #include "fit/findings/words.h"
 #include "fit/model/equations.h"
 #include "fit/uncertainty/covariance.h"
+#include "stone/design/tiers.h"
 
 namespace culet {
 
@@ -60,12 +64,7 @@ void describe_axis(const FitModel& model, const Shape& shape, const Frame::Pose&
         const Vec3 inside = axis.direction;
         // Directions go outside as normals of planes do.
         axis.direction = model.frame().outside_plane({inside, 0}, pose).normal;
-        const double leans = std::hypot(inside.x, inside.y), c = std::cos(pose.turn),
-                     s = std::sin(pose.turn);
-        axis.azimuth =
-            leans > 1e-12
-                ? azimuth(Vec3{c * inside.x - s * inside.y, s * inside.x + c * inside.y, 0})
-                : 0;
+        axis.azimuth = outside_azimuth(inside, pose);
     }
     result.findings.tiers = std::move(tiers);
     result.findings.own_axis = std::move(axis);
@@ -87,19 +86,17 @@ double explained_by_readings(const FitResult& result) {
 
 void describe_meets(const FitModel& model, const Shape& shape, const Covariance& covariance,
                     FitResult& result) {
-    result.findings.meets = test_meets(
-        model, shape, covariance, {result.log.options.significance, explained_by_readings(result)});
+    result.findings.meets = test_meets(model, shape, covariance, result.log.options.significance,
+                                       explained_by_readings(result));
     for (MeetFinding& meet : result.findings.meets) {
         meet.miss *= model.frame().scale();
         meet.sigma *= model.frame().scale();
         const bool may_meet = meet.how == "released" && meet.tested > 0 && meet.p > 0.05;
         if (!meet.contradicted && !may_meet) continue;
-        meet.advice =
-            fmt::format("meet of {}: planes miss by {}, sigma {}: {}", name_list(meet.facets),
-                        length_words(meet.miss, result.unit), length_words(meet.sigma, result.unit),
-                        !meet.contradicted    ? "the readings do not tell this from a common point"
-                        : meet.how == "exact" ? "release it"
-                                              : "release it, or give it a larger sigma");
+        meet.advice = fmt::format(
+            "meet of {}: planes miss by {}, sigma {}: {}", name_list(meet.facets),
+            length_words(meet.miss, result.unit), length_words(meet.sigma, result.unit),
+            meet.contradicted ? "release it" : "the readings do not tell this from a common point");
     }
 }
 
@@ -124,12 +121,74 @@ std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
     return conditions;
 }
 
+// One sentence a tier and kind of freedom: `nothing measured fixes the azimuth of crown facet S3`.
+std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape,
+                                       const std::vector<Undetermined>& undetermined) {
+    if (undetermined.empty()) return {};
+    const Solid& mesh = model.stone().solid;
+    // By the form: numbers of facets say nothing of tiers.
+    const std::vector<FacetTier> tiers = culet::tiers_of(mesh, model.stone().up);
+    const std::vector<int> tier_of = tier_of_each(tiers, mesh.facets.size());
+    // In the order in which tiers first appear.
+    std::vector<std::pair<int, std::string>> order;
+    std::map<std::pair<int, std::string>, std::vector<std::string>> groups;
+    for (const Undetermined& u : undetermined) {
+        const auto key = std::make_pair(tier_of[std::size_t(find_facet(mesh, u.facet))], u.freedom);
+        if (groups[key].empty()) order.push_back(key);
+        groups[key].push_back(u.facet);
+    }
+    std::vector<std::string> sentences;
+    for (const auto& key : order) {
+        const std::vector<std::string>& names = groups[key];
+        const int first = find_facet(mesh, names[0]);
+        const char* s = names.size() > 1 ? "s" : "";
+        const bool whole =
+            names.size() > 1 && names.size() == tiers[std::size_t(key.first)].facets.size();
+        const std::string role = first == model.frame().up_facet()         ? "table"
+                                 : model.frame().is_girdle(first)          ? "girdle facet"
+                                 : shape.normals[std::size_t(first)].z > 0 ? "crown facet"
+                                                                           : "pavilion facet";
+        sentences.push_back(fmt::format("nothing measured fixes the {}{} of {}{}{} {}", key.second,
+                                        s, whole ? "the " : "", role, s, name_list(names)));
+    }
+    return sentences;
+}
+
+void propose(const FitModel& model, const Diagnosis& diagnosis, FitFindings& findings) {
+    const auto reading = [&](int r) -> const Reading& { return model.readings()[std::size_t(r)]; };
+    for (const Suspicion& s : diagnosis.suspicions) {
+        // The others are not sure of each other: a slip must leave little of what it explains.
+        constexpr double k_part_missed = 0.25;
+        Proposal proposal = proposal_for(reading(s.reading), s.estimate, s.sigma, k_part_missed);
+        for (const int other : s.alternatives) proposal.alternatives.push_back(reading(other).id);
+        findings.proposals.push_back(std::move(proposal));
+    }
+    for (const int r : diagnosis.disagreeing) findings.disagreeing.push_back(reading(r).id);
+}
+
+// Proportions, what is open, and what to read next.
+void describe_whole(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
+                    FitFindings& findings) {
+    const Covariance& covariance = *diagnosis.covariance;
+    const RowWriter writer(finished.shape);
+    for (const CutQuantity& q : cut_quantities(model, finished.shape, finished.outline)) {
+        findings.proportions.push_back(
+            {q.name, q.unit, q.quantity.value,
+             std::sqrt(covariance.total_variance(writer.function(q.quantity)))});
+    }
+    findings.undetermined_words = open_freedoms(model, finished.shape, diagnosis.undetermined);
+    findings.help = next_readings(model, finished.shape, finished.outline, covariance);
+}
+
 }  // namespace
 
 void describe_findings(const FitModel& model, const Finished& finished,
                        const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,
                        const Frame::Pose& pose, FitResult& result) {
-    if (!result.log.options.findings || !finished.outline) return;
+    propose(model, diagnosis, result.findings);
+    if (!finished.outline) return;
+    if (diagnosis.covariance) describe_whole(model, finished, diagnosis, result.findings);
+    if (!result.log.options.findings) return;
     std::shared_ptr<const Covariance> covariance = diagnosis.covariance;
     if (covariance && !held.empty()) {
         covariance = std::make_shared<const Covariance>(linearise(
@@ -141,11 +200,6 @@ void describe_findings(const FitModel& model, const Finished& finished,
     describe_meets(model, finished.shape, *covariance, result);
     FitFindings& findings = result.findings;
     findings.shapes = find_open_shape(model, finished, held, diagnosis, *covariance, result);
-    findings.vanishing_edges.clear();
-    for (const ShapeFinding& finding : findings.shapes) {
-        if (finding.kind != ShapeFinding::Kind::edge_vanishes) continue;
-        findings.vanishing_edges.push_back(finding.facets[0] + "/" + finding.facets[1]);
-    }
     const bool declared =
         std::any_of(model.readings().begin(), model.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.

@@ -1,14 +1,42 @@
 #pragma once
-// What a fit finds out about the stone besides its shape: its own axis and tiers, which meets the
-// readings contradict, what its topology should be, and its symmetry. Plain data; angles in
+// What a fit finds out besides the stone's shape: proportions, what suspects should have been, what
+// to read next; the stone's own axis and tiers, which meets the readings contradict, what its
+// topology should be, and its symmetry. Plain data; angles in
 // radians, lengths in the stone's unit, directions in the frame of the fitted solid.
 
 #include <string>
 #include <vector>
 
+#include "fit/readings/measurement.h"
 #include "stone/solid/solid.h"
 
 namespace culet {
+
+/// A proportion of the cut (see cut_quantities.h for the definitions).
+struct FittedProportion {
+    std::string name, unit;  ///< unit: %, deg, mm3, ct, the stone's length unit, or empty
+    double value = 0, sigma = 0;
+};
+
+/// A reading that was not made and would help.
+struct NextReading {
+    ReadingKind kind = ReadingKind::inclination;
+    std::vector<std::string> of;
+    double sigma =
+        0;  ///< that is supposed: as of the other readings of its kind; radians or length
+    double reduces = 0;   ///< part of the total variance of all facets that it would take away
+    bool closes = false;  ///< it would determine a freedom that nothing determines
+};
+
+/// What a suspect reading should have been.
+struct Proposal {
+    std::string id;
+    bool in_radians = false;
+    double estimate = 0, sigma = 0;  ///< from the other readings, in the reading's unit
+    std::string slip;                ///< the slip of pen or key that would explain it, or empty
+    double corrected = 0;            ///< with a slip: the value without it
+    std::vector<std::string> alternatives;  ///< ids that would explain the misfit as well
+};
 
 /// The axis about which the facets of each tier are most alike: of the stone itself, whatever facet
 /// its angles are read from.

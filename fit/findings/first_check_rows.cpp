@@ -1,10 +1,8 @@
 #include "fit/findings/first_check_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -52,19 +50,17 @@ std::optional<double> Rows::in_mesh_angle(const Reading& r) const {
     for (const int f : r.facets) mean += inclination(normal(f), up_) / double(r.facets.size());
     if (r.kind == ReadingKind::inclination) return mean;
     if (!(mean > k_no_azimuth)) return {};
-    return azimuth(normal(r.facets[0]));
+    return azimuth(normal(r.facets[0])) + turn_;
 }
 
 double Rows::table_width(const Vec3& direction) const {
-    const int table = find_facet(stone_.solid, stone_.up_facet);
-    if (table < 0) return 0;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const int corner : stone_.solid.facets[std::size_t(table)].corners) {
-        const double along = glm::dot(direction, stone_.solid.vertices[std::size_t(corner)]);
-        low = std::min(low, along);
-        high = std::max(high, along);
+    Solid table;
+    const int facet = find_facet(stone_.solid, stone_.up_facet);
+    if (facet < 0) return 0;
+    for (const int corner : stone_.solid.facets[std::size_t(facet)].corners) {
+        table.vertices.push_back(stone_.solid.vertices[std::size_t(corner)]);
     }
-    return high - low;
+    return width_along(table, direction);
 }
 
 std::optional<double> Rows::in_mesh(const Reading& r) const {
@@ -91,44 +87,24 @@ double half_turn(double angle) {
     return std::remainder(angle, 2 * std::numbers::pi);
 }
 
-// The turn that most azimuths agree on: each one's own is tried. What is left of each, and how much
-// that scatters.
-struct Turn {
-    std::vector<double> left;
-    double sigma = std::numeric_limits<double>::infinity();
-};
-Turn common_turn(const std::vector<double>& turns) {
-    Turn best;
-    for (const double t : turns) {
-        Turn own;
-        for (const double other : turns) own.left.push_back(half_turn(other - t));
-        own.sigma = robust_sigma(own.left);
-        if (!(own.sigma < best.sigma)) continue;
-        const double middle = median(own.left);
-        for (double& left : own.left) left = half_turn(left - middle);
-        best = std::move(own);
-    }
-    return best;
-}
-
-// Azimuths count from a mark of their own, as drawn or the other way round (a mesh drawn as its
-// mirror image). Where they do not agree on it they are not checked.
+// Azimuths count from a mark of their own: from where they say on the median. Where they do not
+// agree on it they are not checked.
 void turn_azimuths(std::vector<CheckedRow>& rows) {
-    std::array<std::vector<double>, 2> turns;
-    for (const CheckedRow& row : rows) {
+    std::vector<double> off;
+    for (CheckedRow& row : rows) {
         if (row.kind != ReadingKind::azimuth) continue;
-        turns[0].push_back(row.value - row.mesh);
-        turns[1].push_back(row.value + row.mesh);
+        row.mesh = row.value - half_turn(row.off());
+        off.push_back(row.off());
     }
-    const Turn drawn = common_turn(turns[0]), mirrored = common_turn(turns[1]);
-    const Turn& common = mirrored.sigma < drawn.sigma ? mirrored : drawn;
-    if (turns[0].size() < k_fewest_azimuths || !(common.sigma < k_no_agreement)) {
+    if (off.size() < k_fewest_azimuths || !(robust_sigma(off) < k_no_agreement)) {
         std::erase_if(rows, [](const CheckedRow& r) { return r.kind == ReadingKind::azimuth; });
         return;
     }
-    auto left = common.left.begin();
+    const double middle = median(off);
     for (CheckedRow& row : rows) {
-        if (row.kind == ReadingKind::azimuth) row.mesh = row.value - *left++;
+        if (row.kind == ReadingKind::azimuth) {
+            row.mesh = row.value - half_turn(row.off() - middle);
+        }
     }
 }
 

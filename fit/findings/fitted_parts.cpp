@@ -1,17 +1,20 @@
-#include "fit/findings/fitted_parts.h"
-#include "fit/model/enclosed.h"
-
-#include <fmt/format.h>
+// What a fit came to, in the words of its result: solid, facets, readings, meets.
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/findings/blunder.h"
+#include "fit/findings/describe.h"
+#include "fit/model/enclosed.h"
 #include "stone/solid/checks.h"
 
 namespace culet {
 
 namespace {
+
+// A direction that is nearer to up has no azimuth: radians.
+constexpr double k_level = 1e-9;
 
 void describe_meets(const FitModel& model, const Shape& shape, FitResult& result) {
     std::vector<int> how(shape.points.size(), 0);
@@ -69,11 +72,7 @@ void fill_in_facets(const FitModel& model, const Shape& shape, const Diagnosis& 
         const Vec3& n = shape.normals[f];
         facet.plane = model.frame().outside_plane({n, shape.offsets[f]}, pose);
         facet.inclination = inclination(n, Vec3{0, 0, 1});
-        const double level = std::hypot(n.x, n.y);
-        facet.azimuth =
-            level > 1e-9 ? azimuth(Vec3{std::cos(pose.turn) * n.x - std::sin(pose.turn) * n.y,
-                                        std::sin(pose.turn) * n.x + std::cos(pose.turn) * n.y, 0})
-                         : 0;
+        facet.azimuth = outside_azimuth(n, pose);
         const FacetSigma& sigma = diagnosis.facets[f];
         facet.sigma_inclination = sigma.inclination;
         facet.sigma_azimuth = sigma.azimuth;
@@ -123,16 +122,10 @@ void fill_in_readings(const FitModel& model, const std::vector<Reading>& as_read
 
 }  // namespace
 
-FittedReading as_taken(const Reading& reading) {
-    FittedReading fitted;
-    fitted.id = reading.id;
-    fitted.kind = reading.kind;
-    fitted.of = reading.of;
-    fitted.value = reading.value;
-    fitted.sigma = reading.sigma;
-    fitted.exact = reading.exact;
-    fitted.rounding = reading.rounding;
-    return fitted;
+double outside_azimuth(const Vec3& inside, const Frame::Pose& pose) {
+    const double c = std::cos(pose.turn), s = std::sin(pose.turn);
+    if (!(std::hypot(inside.x, inside.y) > k_level)) return 0;
+    return azimuth(Vec3{c * inside.x - s * inside.y, s * inside.x + c * inside.y, 0});
 }
 
 void fill_in(const FitModel& model, const std::vector<Reading>& as_read, const Shape& shape,
@@ -151,26 +144,6 @@ void fill_in(const FitModel& model, const std::vector<Reading>& as_read, const S
     }
     fill_in_facets(model, shape, diagnosis, pose, result);
     fill_in_readings(model, as_read, diagnosis, weights, result);
-}
-
-void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
-                  FitResult& result) {
-    std::string ids;
-    for (const std::size_t i : left_out) {
-        const Reading& r = readings[i];
-        FittedReading fitted = as_taken(r);
-        fitted.fitted = fitted.residual = fitted.normalized = fitted.redundancy =
-            std::numeric_limits<double>::quiet_NaN();
-        fitted.left_out = "the facet lies level within its uncertainty and has no azimuth";
-        result.readings.insert(result.readings.begin() + std::ptrdiff_t(i), std::move(fitted));
-        ids += (ids.empty() ? "" : ", ") + r.id;
-        if (!r.of.empty()) ids += fmt::format(" (of {})", r.of.front());
-    }
-    result.log.notes.push_back(
-        fmt::format("azimuth {} left out: the facet lies level within its uncertainty, and a level "
-                    "facet has no azimuth",
-                    ids));
-    result.message += "; " + result.log.notes.back();
 }
 
 }  // namespace culet

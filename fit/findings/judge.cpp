@@ -1,13 +1,13 @@
-#include "fit/findings/judge.h"
+// The verdict on a fit: its status and why, in one line.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <set>
 
+#include "fit/findings/describe.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/words.h"
 #include "fit/mesh/come_to_nothing.h"
@@ -19,8 +19,6 @@ namespace {
 
 // Contract with the user: corners lie on their planes to this part of the diameter.
 constexpr double k_planarity = 1e-12;
-// An edge of less, in half diameters, has no length: next to it the steps creep.
-constexpr double k_no_length = 2e-3;
 
 struct Verdict {
     FitStatus status = FitStatus::converged;
@@ -127,11 +125,10 @@ MaybeVerdict unsound_solid(const Fit& fit) {
     if (!must_be_convex || !unsound.empty()) {
         const std::vector<Fault> faults = find_faults(
             fit.result.solid, {.planarity = k_planarity, .must_be_convex = must_be_convex});
-        const std::string fault = faults.empty() ? "" : ": " + faults.front().what;
-        if (!must_be_convex && !faults.empty()) {
-            return no_stone("the fitted stone is not sound" + fault);
+        if (!unsound.empty() || !faults.empty()) {
+            return no_stone("the fitted stone is not " + (unsound.empty() ? "sound" : unsound) +
+                            (faults.empty() ? "" : ": " + faults.front().what));
         }
-        if (!unsound.empty()) return no_stone("the fitted stone is not " + unsound + fault);
     }
     if (checks.planarity_max >
         std::max(k_planarity * diameter(fit.result.solid), coordinate_rounding(fit.result.solid))) {
@@ -139,26 +136,6 @@ MaybeVerdict unsound_solid(const Fit& fit) {
                                     checks.planarity_max, name_of(fit.result.unit)));
     }
     return {};
-}
-
-std::string shortest_edge(const Fit& fit) {
-    const Shape& shape = fit.finished.shape;
-    const Edge* shortest = nullptr;
-    double least = k_no_length;
-    for (const Edge& edge : fit.model.edges().edges) {
-        const double length =
-            glm::length(shape.points[std::size_t(edge.from)] - shape.points[std::size_t(edge.to)]);
-        if (!(length < least)) continue;
-        least = length;
-        shortest = &edge;
-    }
-    if (shortest == nullptr || fit.model.meets().splits) return {};
-    const std::vector<std::string> names = names_of(fit.model, *shortest);
-    return fmt::format(
-        "edge {}|{} (between {}) has come down to {:.2g} {}, where steps creep; draw its ends as "
-        "one corner, or allow the topology to change",
-        names[0], names[1], name_list({names.begin() + 2, names.end()}),
-        least * fit.model.frame().scale(), name_of(fit.result.unit));
 }
 
 MaybeVerdict unsettled(const Fit& fit) {
@@ -169,12 +146,11 @@ MaybeVerdict unsettled(const Fit& fit) {
         }
     }
     if (fit.finished.converged) return {};
-    const std::string edge = shortest_edge(fit);
-    return no_stone(fmt::format("the fit does not settle ({} steps): {}", fit.finished.iterations,
-                                edge.empty()
-                                    ? "some part of the stone is hardly held by the readings; look "
-                                      "at the suspects, read more, or give [fit] a prior"
-                                    : edge));
+    return no_stone(
+        fmt::format("the fit does not settle ({} steps): some part of the stone is hardly held by "
+                    "the readings; "
+                    "look at the suspects, read more, or give [fit] a prior",
+                    fit.finished.iterations));
 }
 
 MaybeVerdict disagreement(const Fit& fit) {

@@ -121,22 +121,6 @@ Multipliers exact_meets(const std::vector<Meet>& meets, const Linearised& linear
                           tested * linear.hard_residuals);
 }
 
-// What is left of them when one meet is let go: given that its planes may miss each other.
-void let_go(Multipliers& exact, const Meet& meet) {
-    Eigen::VectorXd& x = exact.values;
-    Eigen::MatrixXd& v = exact.covariance;
-    const Eigen::Index first = meet.first, count = meet.apart.cols();
-    const Eigen::MatrixXd own = v.block(first, first, count, count);
-    const Eigen::MatrixXd across = product(v.middleCols(first, count), pseudo_inverse(own));
-    const Eigen::VectorXd gone = x.segment(first, count);
-    const Eigen::MatrixXd rows = v.middleRows(first, count);
-    x -= across * gone;
-    v -= product(across, rows);
-    x.segment(first, count).setZero();
-    v.middleRows(first, count).setZero();
-    v.middleCols(first, count).setZero();
-}
-
 // Estimated miss of the plane that is furthest off, and its sigma, from misses along U.
 void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& along,
               const Eigen::MatrixXd& covariance) {
@@ -150,54 +134,55 @@ void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& alo
                                      : std::sqrt(std::max(0.0, variance));
 }
 
-// V^-1 is the covariance of misses: v in [1 / told, 1 / free].
-QuadraticTest score_test(const Multipliers& exact, const Meet& meet) {
-    const Eigen::Index k = meet.apart.cols();
-    return quadratic_test(exact.values.segment(meet.first, k),
-                          exact.covariance.block(meet.first, meet.first, k, k), 1 / k_told,
-                          1 / k_free);
+// What is left of them when one meet is let go: given that its planes may miss each other.
+void let_go(Multipliers& exact, const Meet& meet) {
+    const Eigen::Index first = meet.first, count = meet.apart.cols();
+    Eigen::MatrixXd& v = exact.covariance;
+    const Eigen::MatrixXd rows = v.middleRows(first, count);
+    const Eigen::MatrixXd across =
+        product(v.middleCols(first, count), pseudo_inverse(rows.middleCols(first, count)));
+    exact.values -= across * Eigen::VectorXd(exact.values.segment(first, count));
+    v -= product(across, rows);
+    exact.values.segment(first, count).setZero();
+    v.middleRows(first, count).setZero();
+    v.middleCols(first, count).setZero();
 }
 
-void set_score(const Multipliers& exact, const Meet& meet, const QuadraticTest& test,
-               MeetFinding& finding) {
+// V^-1 is the covariance of misses: v in [1 / told, 1 / free].
+void set_score(const Multipliers& exact, const Meet& meet, MeetFinding& finding) {
     const Eigen::Index k = meet.apart.cols();
-    const Eigen::MatrixXd covariance =
-        inverse_of(exact.covariance.block(meet.first, meet.first, k, k) +
-                   1e-12 * Eigen::MatrixXd::Identity(k, k));
-    set_miss(finding, meet, covariance * exact.values.segment(meet.first, k), covariance);
+    const Eigen::VectorXd pull = exact.values.segment(meet.first, k);
+    const Eigen::MatrixXd v = exact.covariance.block(meet.first, meet.first, k, k);
+    const QuadraticTest test = quadratic_test(pull, v, 1 / k_told, 1 / k_free);
+    const Eigen::MatrixXd covariance = inverse_of(v + 1e-12 * Eigen::MatrixXd::Identity(k, k));
+    set_miss(finding, meet, covariance * pull, covariance);
     finding.chi2 = test.statistic;
     finding.p = test.p;
+    finding.tested = test.tested;
 }
 
 // Every exact meet by itself; then forward selection among them.
 void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double level,
                       double least_chi2, std::vector<MeetFinding>& findings) {
+    std::vector<std::size_t> held;
     for (std::size_t m = 0; m < meets.size(); ++m) {
-        if (!meets[m].has_score) continue;
-        const QuadraticTest test = score_test(exact, meets[m]);
-        set_score(exact, meets[m], test, findings[m]);
-        findings[m].tested = test.tested;
+        if (meets[m].has_score) held.push_back(m);
     }
-    std::vector<bool> gone(meets.size(), false);
-    for (;;) {
-        std::size_t worst = meets.size();
-        QuadraticTest strongest;
-        strongest.p = level;
-        for (std::size_t m = 0; m < meets.size(); ++m) {
-            if (!meets[m].has_score || gone[m]) continue;
-            const QuadraticTest test = score_test(exact, meets[m]);
-            // Of several beyond the reach of p the larger statistic.
-            if (test.p < level &&
-                (test.p < strongest.p || (test.p == 0 && test.statistic > strongest.statistic))) {
-                strongest = test;
-                worst = m;
-            }
+    std::vector<MeetFinding> now = findings;
+    for (bool is_first = true;; is_first = false) {
+        for (const std::size_t m : held) set_score(exact, meets[m], now[m]);
+        if (is_first) findings = now;
+        // Of several beyond the reach of p the larger statistic.
+        const auto worst = std::min_element(held.begin(), held.end(), [&](auto a, auto b) {
+            return std::pair(now[a].p, -now[a].chi2) < std::pair(now[b].p, -now[b].chi2);
+        });
+        if (worst == held.end() || !(now[*worst].p < level) || now[*worst].chi2 <= least_chi2) {
+            return;
         }
-        if (worst == meets.size() || strongest.statistic <= least_chi2) break;
-        set_score(exact, meets[worst], strongest, findings[worst]);
-        findings[worst].contradicted = true;
-        gone[worst] = true;
-        let_go(exact, meets[worst]);
+        findings[*worst] = now[*worst];
+        findings[*worst].contradicted = true;
+        let_go(exact, meets[*worst]);
+        held.erase(worst);
     }
 }
 
@@ -215,23 +200,9 @@ std::vector<Quantity> heights_of(const Shape& shape, const Meet& meet) {
     return heights;
 }
 
-Eigen::VectorXd sigmas_of(const FitModel& model, const Meet& meet) {
-    Eigen::VectorXd sigma(Eigen::Index(meet.facets.size()));
-    for (std::size_t i = 0; i < meet.facets.size(); ++i) {
-        for (const Incidence& incidence : model.meets().incidences) {
-            if (incidence.point != meet.point || incidence.facet != meet.facets[i]) continue;
-            sigma(Eigen::Index(i)) =
-                incidence.sigma > 0
-                    ? incidence.sigma
-                    : model.meets().group_sigmas[model.frame().is_girdle(meet.facets[i])];
-        }
-    }
-    return sigma;
-}
-
 // A soft or released meet, by the misses that came out.
-void test_misses(const FitModel& model, const Shape& shape, const Covariance& all, const Meet& meet,
-                 double level, MeetFinding& finding) {
+void test_misses(const Shape& shape, const Covariance& all, const Meet& meet,
+                 MeetFinding& finding) {
     const std::vector<Quantity> heights = heights_of(shape, meet);
     Eigen::VectorXd offsets(Eigen::Index(heights.size()));
     for (std::size_t i = 0; i < heights.size(); ++i) offsets(Eigen::Index(i)) = heights[i].value;
@@ -244,19 +215,6 @@ void test_misses(const FitModel& model, const Shape& shape, const Covariance& al
     finding.tested = test.tested;
     finding.p = test.p;
     set_miss(finding, meet, along, covariance);
-    if (meet.how != MeetTreatment::soft) return;
-    // A soft meet is contradicted when its misses are too large for the sigma that it was given:
-    // residuals against their own covariance, sigma^2 - what the fit knows.
-    const Eigen::VectorXd sigma = sigmas_of(model, meet);
-    const Eigen::MatrixXd left =
-        transpose_times(u, sigma.cwiseAbs2().asDiagonal() * u) - covariance;
-    const double size = sigma.squaredNorm() / double(sigma.size());
-    const QuadraticTest soft = quadratic_test(along, left, 1e-4 * size, 1e300);
-    finding.contradicted = soft.tested > 0 && soft.p < level;
-    if (finding.contradicted) {
-        finding.chi2 = soft.statistic;
-        finding.p = soft.p;
-    }
 }
 
 MeetFinding untested(const FitModel& model, const Meet& meet) {
@@ -272,19 +230,19 @@ MeetFinding untested(const FitModel& model, const Meet& meet) {
 }  // namespace
 
 std::vector<MeetFinding> test_meets(const FitModel& model, const Shape& shape,
-                                    const Covariance& covariance, const MeetTestOptions& options) {
+                                    const Covariance& covariance, double significance,
+                                    double least_chi2) {
     const std::vector<Meet> meets = meets_of(model, shape, covariance);
     Eigen::Index conditions = 0;
     for (const Meet& meet : meets) conditions += meet.apart.cols();
     if (conditions > k_most_tested) return {};
-    const double level = options.significance / std::max<double>(1, double(meets.size()));
+    const double level = significance / std::max<double>(1, double(meets.size()));
     std::vector<MeetFinding> findings;
     for (const Meet& meet : meets) findings.push_back(untested(model, meet));
-    test_exact_meets(meets, exact_meets(meets, covariance.linear()), level, options.least_chi2,
-                     findings);
+    test_exact_meets(meets, exact_meets(meets, covariance.linear()), level, least_chi2, findings);
     for (std::size_t m = 0; m < meets.size(); ++m) {
         if (meets[m].how == MeetTreatment::exact) continue;
-        test_misses(model, shape, covariance, meets[m], level, findings[m]);
+        test_misses(shape, covariance, meets[m], findings[m]);
     }
     return findings;
 }

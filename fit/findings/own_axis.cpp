@@ -32,8 +32,8 @@ std::string tier_name(const Solid& solid, const std::vector<FacetTier>& drawn,
 }
 
 // One tier's part of the scatter matrix, about the mean of its normals or about nothing.
-struct Scatter {
-    Scatter(const Shape& shape, const std::vector<int>& of, bool about_mean) : facets(of) {
+struct Part {
+    Part(const Shape& shape, const std::vector<int>& of, bool about_mean) : facets(of) {
         for (const int f : facets) {
             if (about_mean) mean += shape.normals[f] / double(facets.size());
         }
@@ -42,93 +42,81 @@ struct Scatter {
             matrix += glm::outerProduct(d, d);
         }
     }
-    double sine_squared(const Shape& shape, const Vec3& axis) const {
-        double sum = 0;
-        for (const int f : facets) {
-            const double c = glm::dot(shape.normals[f], axis);
-            sum += (1 - c * c) / double(facets.size());
-        }
-        return std::max(sum, 1e-6);
-    }
 
     std::vector<int> facets;
     Vec3 mean = Vec3(0);
     glm::dmat3 matrix{0.0};
+    double weight = 1;
 };
+
+LeastEigenvector axis_of(const std::vector<Part>& parts) {
+    glm::dmat3 s(0.0);
+    for (const Part& part : parts) s += part.weight * part.matrix;
+    return least_eigenvector(s);
+}
 
 double trace_of(const glm::dmat3& s) {
     return s[0][0] + s[1][1] + s[2][2];
 }
 
 // The least direction of scatter is told from the next.
-bool has_axis(const std::vector<Scatter>& parts) {
-    glm::dmat3 s(0.0);
-    for (const Scatter& part : parts) s += part.matrix;
+bool has_axis(const std::vector<Part>& parts) {
+    double total = 0;
+    for (const Part& part : parts) total += trace_of(part.matrix);
     // The second least eigenvalue over the sum: by the trace of the pseudo-inverse.
-    const double total = trace_of(s), inverse = trace_of(least_eigenvector(s).pseudo_inverse);
+    const double inverse = trace_of(axis_of(parts).pseudo_inverse);
     return total > 0 && inverse > 0 && 1 / inverse > k_least_gap * total;
 }
 
-// Least squares with each tier weighted by one over its variance about the axis.
-struct WeightedAxis {
-    std::vector<double> weights;  // one for each tier
-    Vec3 direction{0, 0, 1};
-    LeastEigenvector least;
-};
-
-// How much the tiers' inclinations scatter about an axis sets their weights. The floor of a
-// variance is what the readings know of it: equal facets of a design would otherwise get weights
-// without bound.
-std::vector<double> weights_about(const Vec3& axis, const Shape& shape,
-                                  const std::vector<Scatter>& parts) {
+// One over the variance of a tier's inclinations about an axis. The floor of a variance is what the
+// readings know of it: equal facets of a design would otherwise get weights without bound.
+void weigh_about(const Vec3& axis, const Shape& shape, std::vector<Part>& parts) {
     double pooled = 0, count = 0;
-    std::vector<double> squares;
-    for (const Scatter& part : parts) {
-        squares.push_back(glm::dot(axis, part.matrix * axis) / part.sine_squared(shape, axis));
+    std::vector<double> squares, sines;
+    for (const Part& part : parts) {
+        double sine = 0;
+        for (const int f : part.facets) {
+            const double c = glm::dot(shape.normals[f], axis);
+            sine += (1 - c * c) / double(part.facets.size());
+        }
+        sines.push_back(std::max(sine, 1e-6));
+        squares.push_back(glm::dot(axis, part.matrix * axis) / sines.back());
         pooled += squares.back();
         count += double(part.facets.size());
     }
     // Half a tier's worth of the common variance steadies small tiers; a millionth of a degree,
     // perfect ones.
     pooled /= std::max(1.0, count - double(parts.size()) - 2);
-    std::vector<double> weights(parts.size());
     for (std::size_t t = 0; t < parts.size(); ++t) {
         const double n = double(parts[t].facets.size());
-        weights[t] = 1 / ((squares[t] + 0.5 * pooled) / (n - 0.5) + 1e-16);
+        parts[t].weight = 1 / ((squares[t] + 0.5 * pooled) / (n - 0.5) + 1e-16) / sines[t];
     }
-    return weights;
 }
 
 // Iteratively reweighted least squares.
-WeightedAxis weighted_axis(const Shape& shape, const std::vector<Scatter>& parts) {
-    WeightedAxis axis;
-    axis.weights.assign(parts.size(), 1);
+LeastEigenvector weighted_axis(const Shape& shape, std::vector<Part>& parts) {
+    LeastEigenvector least = axis_of(parts);
     for (int round = 0; round < 30; ++round) {
-        glm::dmat3 s(0.0);
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            s += parts[t].matrix * (axis.weights[t] / parts[t].sine_squared(shape, axis.direction));
-        }
-        axis.least = least_eigenvector(s);
-        const double moved = glm::length(axis.least.vector - axis.direction);
-        axis.direction = axis.least.vector;
-        if (round > 0 && moved < 1e-13) break;
-        axis.weights = weights_about(axis.direction, shape, parts);
+        const Vec3 last = least.vector;
+        weigh_about(last, shape, parts);
+        least = axis_of(parts);
+        if (glm::length(least.vector - last) < 1e-13) break;
     }
-    return axis;
+    return least;
 }
 
 // The axis' component along a direction normal to it, as a function of the facets' normals.
-Quantity component_of(const WeightedAxis& axis, const Shape& shape,
-                      const std::vector<Scatter>& parts, const Vec3& along) {
-    const Vec3 back = axis.least.pseudo_inverse * along;
+Quantity component_of(const LeastEigenvector& axis, const Shape& shape,
+                      const std::vector<Part>& parts, const Vec3& along) {
+    const Vec3 back = axis.pseudo_inverse * along;
     Quantity q;
-    for (std::size_t t = 0; t < parts.size(); ++t) {
-        const double w = axis.weights[t] / parts[t].sine_squared(shape, axis.direction);
-        for (int f : parts[t].facets) {
+    for (const Part& part : parts) {
+        for (const int f : part.facets) {
             // d(a) = -(S - l)^+ dS a; the means' own motion drops out.
-            const Vec3 d = shape.normals[f] - parts[t].mean;
-            q.add(Quantity::By::normal, f,
-                  -w * (back * glm::dot(d, axis.direction) + axis.direction * glm::dot(d, back)));
+            const Vec3 d = shape.normals[f] - part.mean;
+            q.add(
+                Quantity::By::normal, f,
+                -part.weight * (back * glm::dot(d, axis.vector) + axis.vector * glm::dot(d, back)));
         }
     }
     return q;
@@ -175,7 +163,7 @@ AxisEstimate own_axis(const FitModel& model, const Shape& shape, const std::vect
     AxisEstimate estimate;
     OwnAxis& axis = estimate.axis;
     axis.sigma = axis.scatter_sigma = std::numeric_limits<double>::infinity();
-    std::vector<Scatter> parts;
+    std::vector<Part> parts;
     for (const Tier& tier : tiers) parts.emplace_back(shape, tier.facets, true);
     axis.basis = "tiers";
     if (parts.empty() || !has_axis(parts)) {
@@ -183,22 +171,23 @@ AxisEstimate own_axis(const FitModel& model, const Shape& shape, const std::vect
         for (std::size_t f = 0; f < shape.normals.size(); ++f) {
             if (model.frame().is_girdle(int(f))) girdle.push_back(int(f));
         }
-        parts = {Scatter(shape, girdle, false)};
+        parts = {Part(shape, girdle, false)};
         axis.basis = "girdle";
         if (girdle.size() < 3 || !has_axis(parts)) {
             axis.basis = "neither tiers of like facets nor a girdle that could tell it";
             return estimate;
         }
     }
-    const WeightedAxis weighted = weighted_axis(shape, parts);
+    const LeastEigenvector weighted = weighted_axis(shape, parts);
     axis.known = true;
-    axis.direction = weighted.direction;
+    axis.direction = weighted.vector;
     axis.tilt = std::atan2(std::hypot(axis.direction.x, axis.direction.y), axis.direction.z);
     axis.azimuth = azimuth(Vec3{axis.direction.x, axis.direction.y, 0});
     // With weights of 1 / variance the matrix is the information on the axis.
-    axis.scatter_sigma = std::sqrt(0.5 * trace_of(weighted.least.pseudo_inverse));
-    estimate.directions = tangents(axis.direction);
-    for (const Vec3& e : estimate.directions) {
+    axis.scatter_sigma = std::sqrt(0.5 * trace_of(weighted.pseudo_inverse));
+    estimate.east = glm::normalize(Vec3{1, 0, 0} - axis.direction.x * axis.direction);
+    estimate.north = glm::cross(axis.direction, estimate.east);
+    for (const Vec3& e : {estimate.east, estimate.north}) {
         estimate.across.push_back(component_of(weighted, shape, parts, e));
     }
     if (covariance) {

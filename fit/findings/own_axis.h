@@ -25,9 +25,9 @@ AxisGroup form_group(const FitModel& model, const Shape& shape);
 /// not pull at it. With fewer than two turns in the form's symmetry: the direction least along the
 /// girdle's normals. `covariance` may be null: sigmas are then infinite.
 struct AxisEstimate {
-    OwnAxis axis;
-    std::vector<Quantity> across;  ///< its components along two directions normal to it
-    std::array<Vec3, 2> directions{};
+    OwnAxis axis;                        ///< up, where it is not known
+    Vec3 east{1, 0, 0}, north{0, 1, 0};  ///< across it; azimuths begin where those about up do
+    std::vector<Quantity> across;        ///< its components along them; none: not known
 };
 AxisEstimate own_axis(const FitModel& model, const Shape& shape, const std::vector<Tier>& tiers,
                       const Covariance* covariance);

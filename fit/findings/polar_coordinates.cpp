@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fit/findings/own_axis.h"
+#include "fit/model/facet_functions.h"
 
 namespace culet {
 
@@ -12,22 +13,13 @@ namespace {
 
 constexpr double k_level_sine = 0.05;
 
-double wrapped(double angle) {
-    return std::remainder(angle, 2 * std::numbers::pi);
-}
-
 }  // namespace
 
 PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
                                    const RowWriter& writer, const std::vector<Tier>& tiers) {
     const AxisEstimate estimate = own_axis(model, shape, tiers, nullptr);
-    const Vec3 axis = estimate.axis.known ? estimate.axis.direction : Vec3{0, 0, 1};
-    // Azimuths about the axis begin where those about up do.
-    const Vec3 east = glm::normalize(Vec3{1, 0, 0} - axis.x * axis);
-    const Vec3 north = glm::cross(axis, east);
-    Vec3 middle(0);
-    for (const Vec3& p : shape.points) middle += p / double(shape.points.size());
-
+    const Vec3 axis = estimate.axis.direction, east = estimate.east, north = estimate.north;
+    const Vec3 middle = middle_of(shape);
     const std::size_t count = shape.normals.size();
     PolarCoordinates c;
     std::vector<Quantity> quantities;
@@ -67,90 +59,72 @@ PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
     }
     c.rows = Eigen::MatrixXd(writer.functions(quantities));
     if (estimate.axis.known) {
-        // The axis itself moves with the facets: d(axis) = w x axis.
+        // The axis itself moves with the facets: towards east by a turn about north.
         const Eigen::MatrixXd moves = writer.functions(estimate.across);
-        for (std::size_t i = 0; i < estimate.across.size(); ++i) {
-            const Vec3 w = glm::cross(axis, estimate.directions[i]);
-            c.rows +=
-                (c.placement.col(0) * glm::dot(w, east) + c.placement.col(1) * glm::dot(w, north)) *
-                moves.row(Eigen::Index(i));
-        }
+        c.rows += c.placement.col(1) * moves.row(0) - c.placement.col(0) * moves.row(1);
     }
     return c;
 }
 
 SymmetricModel symmetric_model(const PolarCoordinates& c, const AxisGroup& group) {
-    const std::size_t count = c.polar.size();
-    const double pi = std::numbers::pi;
-    const double step = 2 * pi / group.order;
-    SymmetricModel model;
-    model.deviations = Eigen::VectorXd::Zero(Eigen::Index(3 * count));
+    const double pi = std::numbers::pi, step = 2 * pi / group.order;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(Eigen::Index(3 * c.polar.size()));
+    SymmetricModel model{none, {}};
     std::vector<Eigen::VectorXd> columns;
-    const auto column = [&]() -> Eigen::VectorXd& {
-        columns.push_back(Eigen::VectorXd::Zero(Eigen::Index(3 * count)));
-        return columns.back();
-    };
-    Eigen::VectorXd plane = Eigen::VectorXd::Zero(Eigen::Index(3 * count));
-    for (const FacetOrbit& orbit : orbits_of(group, count)) {
+    Eigen::VectorXd plane = none;
+    for (const FacetOrbit& orbit : orbits_of(group, c.polar.size())) {
+        const auto mean = [&](const std::vector<double>& of) {
+            double sum = 0;
+            for (const int f : orbit.facets) sum += of[std::size_t(f)];
+            return sum / double(orbit.facets.size());
+        };
         const std::size_t first = std::size_t(orbit.facets.front());
-        double distance = 0, polar = 0;
-        for (int f : orbit.facets) {
-            distance += c.distance[std::size_t(f)] / double(orbit.facets.size());
-            polar += c.polar[std::size_t(f)] / double(orbit.facets.size());
+        const double distance = mean(c.distance), polar = mean(c.polar);
+        Eigen::VectorXd& shared_distance = columns.emplace_back(none);
+        for (const int f : orbit.facets) {
+            model.deviations(3 * f + 2) = c.distance[std::size_t(f)] - distance;
+            shared_distance(3 * f + 2) = 1;
         }
-        Eigen::VectorXd shared_distance = Eigen::VectorXd::Zero(Eigen::Index(3 * count));
-        for (int f : orbit.facets) {
-            const Eigen::Index row = Eigen::Index(3 * f);
-            model.deviations(row + 2) = c.distance[std::size_t(f)] - distance;
-            shared_distance(row + 2) = 1;
-        }
-        column() = shared_distance;
-
-        const Eigen::Index row0 = Eigen::Index(3 * first);
         if (c.level[first] && orbit.facets.size() == 1) {
             if (group.is_trivial()) continue;
-            model.deviations(row0) = c.across[first][0];
-            model.deviations(row0 + 1) = c.across[first][1];
-            if (group.order == 1) {
-                // In a mirror alone it may lean within the plane.
-                Eigen::VectorXd& lean = column();
-                lean(row0) = std::cos(group.plane);
-                lean(row0 + 1) = std::sin(group.plane);
-            }
+            const Eigen::Index row = Eigen::Index(3 * first);
+            model.deviations(row) = c.across[first][0];
+            model.deviations(row + 1) = c.across[first][1];
+            if (group.order > 1) continue;
+            // In a mirror alone it may lean within the plane.
+            Eigen::VectorXd& lean = columns.emplace_back(none);
+            lean(row) = std::cos(group.plane);
+            lean(row + 1) = std::sin(group.plane);
             continue;
         }
         // Facets that lie in a mirror have its azimuth, or stand opposite; others their own.
-        double azimuth0 = c.azimuth[first];
-        if (orbit.own_mirror >= 0) {
-            const double in_plane = group.plane + 0.5 * orbit.mirror.steps * step;
-            azimuth0 = in_plane + pi * std::round((c.azimuth[first] - in_plane) / pi);
-        }
-        Eigen::VectorXd shared_polar = Eigen::VectorXd::Zero(Eigen::Index(3 * count));
-        Eigen::VectorXd own_azimuth = Eigen::VectorXd::Zero(Eigen::Index(3 * count));
+        const bool is_own = orbit.own_mirror < 0;
+        const double in_plane = group.plane + 0.5 * orbit.mirror.steps * step;
+        const double azimuth0 =
+            is_own ? c.azimuth[first]
+                   : in_plane + pi * std::round((c.azimuth[first] - in_plane) / pi);
+        Eigen::VectorXd shared_polar = none, own_azimuth = none;
         for (std::size_t i = 0; i < orbit.facets.size(); ++i) {
             const std::size_t f = std::size_t(orbit.facets[i]);
             const AxisGroup::Element& e = orbit.from_first[i];
             const Eigen::Index row = Eigen::Index(3 * f);
-            const double nominal = e.mirrored ? 2 * group.plane + e.steps * step - azimuth0
-                                              : azimuth0 + e.steps * step;
+            const double nominal =
+                e.steps * step + (e.mirrored ? 2 * group.plane - azimuth0 : azimuth0);
             const double s = c.sine[f];
             model.deviations(row) = c.polar[f] - polar;
-            model.deviations(row + 1) = s * wrapped(c.azimuth[f] - nominal);
+            model.deviations(row + 1) = s * std::remainder(c.azimuth[f] - nominal, 2 * pi);
             shared_polar(row) = 1;
-            if (orbit.own_mirror >= 0) {
-                plane(row + 1) = s;
-            } else {
-                own_azimuth(row + 1) = e.mirrored ? -s : s;
-                if (e.mirrored) plane(row + 1) = 2 * s;
-            }
+            own_azimuth(row + 1) = e.mirrored ? -s : s;
+            if (!is_own || e.mirrored) plane(row + 1) = is_own ? 2 * s : s;
         }
-        column() = shared_polar;
-        if (orbit.own_mirror < 0) column() = own_azimuth;
+        columns.push_back(std::move(shared_polar));
+        if (is_own) columns.push_back(std::move(own_azimuth));
     }
-    if (group.mirrors) column() = plane;
-    model.columns.resize(Eigen::Index(3 * count), Eigen::Index(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k)
+    if (group.mirrors) columns.push_back(std::move(plane));
+    model.columns.resize(none.size(), Eigen::Index(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
         model.columns.col(Eigen::Index(k)) = columns[k];
+    }
     return model;
 }
 

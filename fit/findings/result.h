@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "fit/findings/assessment.h"
 #include "fit/findings/findings.h"
 #include "fit/model/options.h"
 #include "fit/model/undetermined.h"

@@ -18,6 +18,17 @@ const char* name_of(ShapeFinding::Kind kind) {
     return k_names[static_cast<std::size_t>(kind)];
 }
 
+namespace {
+
+using Shapes = ShapeFinding::Kind;
+
+// Half diameters. Longer edges are no news. What is less sure than half a half diameter, or in area
+// than a tenth of its square, is simply not known.
+constexpr double k_short_edge = 0.05, k_unknown_length = 0.5, k_unknown_area = 0.1;
+// Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
+constexpr double k_shut = 1e-5;
+
+// An edge's two sides, then the facets beyond its ends.
 std::vector<std::string> names_of(const FitModel& model, const Edge& edge) {
     const auto name = [&](int f) { return model.stone().solid.facets[std::size_t(f)].name; };
     std::vector<std::string> names{name(edge.left), name(edge.right)};
@@ -28,16 +39,6 @@ std::vector<std::string> names_of(const FitModel& model, const Edge& edge) {
     }
     return names;
 }
-
-namespace {
-
-using Shapes = ShapeFinding::Kind;
-
-// Half diameters. Longer edges are no news. What is less sure than half a half diameter, or in area
-// than a tenth of its square, is simply not known.
-constexpr double k_short_edge = 0.05, k_unknown_length = 0.5, k_unknown_area = 0.1;
-// Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
-constexpr double k_shut = 1e-5;
 
 // Whether holding a corner below a facet keeps this edge, which ends at both, from turning over.
 bool keeps_open(const FitModel& model, const Edge& edge, const ActiveCorner& corner) {
@@ -51,12 +52,13 @@ bool keeps_open(const FitModel& model, const Edge& edge, const ActiveCorner& cor
 
 class OpenShape {
 public:
-    OpenShape(const FitModel& model, const Finished& finished, const FitResult& result)
+    OpenShape(const FitModel& model, const Finished& finished, FitResult& result)
         : model_(model), shape_(finished.shape), outline_(*finished.outline), result_(result) {}
 
     void add_vanishing_edges(const std::vector<ActiveCorner>& held, const Covariance& let_go);
     void add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis);
     void add_open_edges(const Covariance& holding);
+    std::vector<std::string> vanishing_edges() const;
     std::vector<ShapeFinding> take() { return std::move(found_); }
 
 private:
@@ -143,6 +145,15 @@ void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
     }
 }
 
+std::vector<std::string> OpenShape::vanishing_edges() const {
+    std::vector<std::string> edges;
+    for (const ShapeFinding& finding : found_) {
+        if (finding.kind != Shapes::edge_vanishes) continue;
+        edges.push_back(finding.facets[0] + "/" + finding.facets[1]);
+    }
+    return edges;
+}
+
 std::vector<Corner> OpenShape::corners_of(std::size_t facet) const {
     std::vector<Corner> corners;
     for (const int c : outline_.loops[facet]) corners.push_back(outline_.corners[std::size_t(c)]);
@@ -202,22 +213,6 @@ void OpenShape::add_open_edges(const Covariance& holding) {
 
 }  // namespace
 
-std::vector<std::string> edges_kept_open(const FitModel& model,
-                                         const std::vector<ActiveCorner>& held) {
-    std::vector<std::string> edges;
-    for (const ActiveCorner& h : held) {
-        for (const Edge& edge : model.edges().edges) {
-            if (!keeps_open(model, edge, h)) continue;
-            const std::vector<std::string> names = names_of(model, edge);
-            std::string both = names[0] + "/" + names[1];
-            if (std::find(edges.begin(), edges.end(), both) == edges.end()) {
-                edges.push_back(std::move(both));
-            }
-        }
-    }
-    return edges;
-}
-
 bool are_edges_denied(const FitResult& result) {
     const FitFindings& findings = result.findings;
     return !findings.vanishing_edges.empty() &&
@@ -228,9 +223,10 @@ bool are_edges_denied(const FitResult& result) {
 std::vector<ShapeFinding> find_open_shape(const FitModel& model, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
                                           const Diagnosis& diagnosis, const Covariance& holding,
-                                          const FitResult& result) {
+                                          FitResult& result) {
     OpenShape shape(model, finished, result);
     if (!held.empty()) shape.add_vanishing_edges(held, *diagnosis.covariance);
+    result.findings.vanishing_edges = shape.vanishing_edges();
     shape.add_facets(held, diagnosis);
     shape.add_open_edges(holding);
     return shape.take();

@@ -15,18 +15,11 @@ namespace culet {
 /// `holding`: with the held corners as hard equations. Vanishing edges come from corners held below
 /// a neighbour facet, by the force with which the readings pull at them (as in `meet_tests.h`);
 /// open ones from lengths and areas less than twice their standard uncertainty. `result` holds what
-/// keeping the edges costs.
+/// keeping the edges costs, and gets their names.
 std::vector<ShapeFinding> find_open_shape(const FitModel& model, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
                                           const Diagnosis& diagnosis, const Covariance& holding,
-                                          const FitResult& result);
-
-/// An edge's two sides, then the facets beyond its ends.
-std::vector<std::string> names_of(const FitModel& model, const Edge& edge);
-
-/// The edges, as `A/B`, that corners held below a facet keep from turning over.
-std::vector<std::string> edges_kept_open(const FitModel& model,
-                                         const std::vector<ActiveCorner>& held);
+                                          FitResult& result);
 
 /// The readings deny that the edges that are kept have a length at all: chi-square, with one
 /// freedom for each.

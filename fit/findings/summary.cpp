@@ -152,10 +152,6 @@ std::string suspect_words(const FitResult& result, const std::string& id) {
         if (proposal != result.findings.proposals.end()) {
             text += fmt::format(", the others say {:.6g} +- {:.2g}{}", unit * proposal->estimate,
                                 unit * proposal->sigma, slip_words(*proposal));
-        } else if (r.redundancy > 0.01 && !is_relation(r.kind)) {
-            // What the reading would be predicted to be had it not been taken.
-            text += fmt::format(", the others say {:.6g}",
-                                unit * (r.value + r.residual / r.redundancy));
         }
         return text + fmt::format(", off by {:.1f} sigma)", std::abs(r.normalized));
     }

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
 #include "fit/findings/own_axis.h"
 #include "fit/findings/polar_coordinates.h"
-#include "fit/findings/symmetry_conclusion.h"
 #include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "fit/uncertainty/variance_component.h"
 #include "stone/numbers/dense_algebra.h"
+#include "stone/numbers/units.h"
 
 namespace culet {
 
@@ -28,6 +27,8 @@ constexpr double k_told_variance = 0.25;
 constexpr double k_exact = 1e-18;
 // Tested at least to this part, a group counts as determined.
 constexpr double k_enough = 0.5;
+// A column that is less than this across the others repeats them.
+constexpr double k_repeats = 1e-6;
 
 // How many conditions symmetry puts on a shape whose meets are exact: edges less their orbits.
 int edge_conditions(const FitModel& model, const AxisGroup& group) {
@@ -44,8 +45,7 @@ int edge_conditions(const FitModel& model, const AxisGroup& group) {
 }
 
 // Orthonormal columns for the range of a matrix: at most `most`, none below `least`.
-Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least,
-                         Eigen::Index most = std::numeric_limits<int>::max()) {
+Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least, Eigen::Index most) {
     if (matrix.size() == 0) return Eigen::MatrixXd(matrix.rows(), 0);
     const PivotedQr qr(matrix);
     most = std::min({most, matrix.rows(), matrix.cols()});
@@ -54,88 +54,38 @@ Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least,
     return qr.first(rank);
 }
 
-// What the tests of all groups share.
-struct Space {
-    Eigen::MatrixXd placement;  // orthonormal: of the symmetry's axis in the stone
-    Eigen::MatrixXd open;       // orthonormal: what the meets leave open, but for placement
-    Eigen::MatrixXd told;       // of the ways to miss the form's symmetry those that the readings
-    Eigen::VectorXd values;     // tell, uncorrelated; the stone's place along them
-    Eigen::VectorXd variance;   // and its variance
-    Eigen::Index form_freedoms = 0;
-
-    Eigen::MatrixXd without_placement(const Eigen::MatrixXd& matrix) const {
-        return without_span(matrix, placement);
-    }
+// What is told of a stone's planes: three coordinates a facet (polar_coordinates.h), their
+// covariance, and what meets leave open of them, whatever was read (`reach_of`).
+struct Told {
+    PolarCoordinates coordinates;
+    Eigen::MatrixXd covariance, reach;
 };
 
-// Changes of shape that keep a group's symmetry and all meets. A symmetric mean of what the meets
-// leave open is open itself, but for as much as the shape is not symmetric: the number of such
-// changes is known (edges less conditions), which tells them from that.
-Eigen::MatrixXd symmetric_changes(const FitModel& model, const Space& space,
-                                  const Eigen::MatrixXd& columns, int edge_conditions) {
-    const Eigen::MatrixXd symmetric = range_of(space.without_placement(columns), 1e-9);
-    const Eigen::Index most =
-        model.meets().splits ? symmetric.cols() : space.open.cols() - Eigen::Index(edge_conditions);
-    return product(symmetric, range_of(transpose_times(symmetric, space.open), 1e-6,
-                                       std::max<Eigen::Index>(0, most)));
-}
-
-Space space_of(const FitModel& model, const AxisGroup& form, const PolarCoordinates& coordinates,
-               const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& reach) {
-    Space space;
-    space.placement = range_of(coordinates.placement, 1e-9);
-    const Eigen::MatrixXd seen = space.without_placement(reach);
-    // The number of ways that exact meets leave open is known: without it small asymmetry of the
-    // fitted shape itself would show as more.
-    space.open =
-        range_of(space.without_placement(seen.transpose()), 1e-6,
-                 model.meets().splits ? reach.rows() : Eigen::Index(model.edges().edges.size()));
-    const SymmetricModel symmetric = symmetric_model(coordinates, form);
-    const Eigen::MatrixXd changes =
-        symmetric_changes(model, space, symmetric.columns, edge_conditions(model, form));
-    space.form_freedoms = changes.cols();
-    // Across all that is symmetric, reachable or not.
-    const Eigen::MatrixXd columns = range_of(space.without_placement(symmetric.columns), 1e-9);
-    const Eigen::MatrixXd ways =
-        range_of(without_span(space.open, columns), 1e-6, space.open.cols() - changes.cols());
-    if (ways.cols() == 0) return space;
-    const SymmetricEigen eigen = symmetric_eigen(seen_through(ways, covariance));
-    std::vector<Eigen::Index> told;
-    for (Eigen::Index i = 0; i < ways.cols(); ++i) {
-        const double variance = eigen.values(i);
-        if (variance >= k_exact && variance <= k_told_variance) told.push_back(i);
-    }
-    space.told = product(ways, eigen.vectors(Eigen::all, told));
-    space.values = space.told.transpose() * symmetric.deviations;
-    space.variance = eigen.values(told);
-    return space;
-}
-
-// Chi-square of the stone nearest to this one that has the group's symmetry: what a part of the
-// form's group leaves free beyond the form's own parameters is fitted by weighted least squares.
-GroupTest test_group(const FitModel& model, const AxisGroup& group,
-                     const PolarCoordinates& coordinates, const Space& space, double level) {
+// Chi-square of the ways in which the stone misses the group's symmetry, however it is placed.
+GroupTest test_group(const FitModel& model, const AxisGroup& group, const Told& told,
+                     double level) {
     GroupTest test;
     test.group = group.name();
     test.order = group.order;
     test.mirrors = group.mirrors;
     test.mirror_azimuth = std::remainder(group.plane + 0.5 * std::numbers::pi, std::numbers::pi);
-    const Eigen::MatrixXd changes = symmetric_changes(
-        model, space, symmetric_model(coordinates, group).columns, edge_conditions(model, group));
-    test.conditions = static_cast<int>(space.open.cols() - changes.cols());
-    if (space.told.cols() == 0) return test;
-    // Where readings tell nothing of a freedom it is next to nothing here.
-    const Eigen::MatrixXd fitted =
-        range_of(transpose_times(space.told, changes), 1e-4, changes.cols() - space.form_freedoms);
-    const Eigen::VectorXd weights = space.variance.cwiseSqrt().cwiseInverse();
-    Eigen::VectorXd left = space.values.cwiseProduct(weights);
-    if (fitted.cols() > 0) {
-        left = along_completed_basis(weights.asDiagonal() * fitted, std::move(left));
-    }
-    const Eigen::Index over = left.size() - fitted.cols();
-    test.tested = std::min(static_cast<int>(over), test.conditions);
-    test.chi2 = left.tail(over).squaredNorm();
-    test.p = chi2_tail(test.chi2, test.tested);
+    const SymmetricModel symmetric = symmetric_model(told.coordinates, group);
+    Eigen::MatrixXd kept(symmetric.columns.rows(),
+                         symmetric.columns.cols() + told.coordinates.placement.cols());
+    kept << symmetric.columns, told.coordinates.placement;
+    kept = range_of(kept, k_repeats, kept.cols());
+    // Of stones whose meets hold the number of ways is known: what little asymmetry there is in the
+    // fitted shape would show as more.
+    const Eigen::MatrixXd ways =
+        range_of(without_span(told.reach, kept), k_repeats,
+                 model.meets().splits ? told.reach.cols() : edge_conditions(model, group));
+    const QuadraticTest missed =
+        quadratic_test(ways.transpose() * symmetric.deviations, seen_through(ways, told.covariance),
+                       k_exact, k_told_variance);
+    test.conditions = missed.conditions;
+    test.tested = missed.tested;
+    test.chi2 = missed.statistic;
+    test.p = missed.p;
     test.determined = test.tested >= k_enough * test.conditions;
     test.supported = test.tested > 0 && test.p >= level;
     return test;
@@ -228,6 +178,53 @@ std::string cannot_be_tested(const Shape& shape, const Covariance& all) {
                         : "symmetry was not looked for: the stone has no covariance to test it by";
 }
 
+std::string in_degrees(double angle) {
+    return fmt::format("{:.2g}", degrees(angle));
+}
+
+// What a group says in a stone file.
+std::vector<std::string> readings_for(const GroupTest& test, const std::string& how) {
+    std::vector<std::string> readings;
+    if (test.order > 1) {
+        readings.push_back(fmt::format("kind = \"rotation\", of = [\"{}\"], {}", test.order, how));
+    }
+    if (test.mirrors) {
+        readings.push_back(fmt::format("kind = \"mirror\", of = [\"{:.6g}\"], {}",
+                                       degrees(test.mirror_azimuth), how));
+    }
+    return readings;
+}
+
+// Sets `proposed`, `message` and `readings` by the tests of groups.
+void conclude(SymmetryReport& report) {
+    const GroupTest& form = report.groups.front();
+    const auto proposed =
+        std::find_if(report.groups.begin(), report.groups.end(),
+                     [](const GroupTest& test) { return test.supported && test.determined; });
+    const std::string spread =
+        fmt::format("facets within {} degrees of it (sigma {})", in_degrees(report.sigma),
+                    in_degrees(report.sigma_sigma));
+    if (proposed != report.groups.end()) {
+        report.proposed = proposed->group;
+        report.readings = readings_for(*proposed, "exact = true");
+        report.message = fmt::format(
+            "{} is supported: chi2 {:.1f} for {} of {} conditions, p {:.2g}", proposed->group,
+            proposed->chi2, proposed->tested, proposed->conditions, proposed->p);
+        if (proposed == report.groups.begin()) return;
+        report.message += fmt::format("; {} is denied (p {:.2g}), {}", form.group, form.p, spread);
+    } else if (!form.determined) {
+        report.message =
+            fmt::format("the readings leave {} open: they tell of {} of its {} conditions only",
+                        form.group, form.tested, form.conditions);
+    } else {
+        report.message =
+            fmt::format("no exact symmetry: {} is denied (chi2 {:.1f} for {}, p {:.2g}); {}",
+                        form.group, form.chi2, form.tested, form.p, spread);
+        report.readings = readings_for(
+            form, fmt::format("sigma = {:.2g}", std::max(1e-6, degrees(report.sigma))));
+    }
+}
+
 }  // namespace
 
 SymmetryReport symmetry_of(const FitModel& model, const Shape& shape, const Covariance& all,
@@ -240,36 +237,34 @@ SymmetryReport symmetry_of(const FitModel& model, const Shape& shape, const Cova
         form.is_trivial() ? "the stone's form has no symmetry" : cannot_be_tested(shape, all);
     if (!report.message.empty()) return report;
     const std::vector<Tier> tiers = tiers_of(model, shape, form);
-    const PolarCoordinates coordinates =
-        polar_coordinates(model, shape, all.linear().writer, tiers);
-    const FunctionRows rows = coordinates.rows.sparseView();
-    const Eigen::MatrixXd covariance = all.joint(rows);
-    const Eigen::MatrixXd reach = reach_of(all.linear(), rows);
-    if (reach.size() == 0) {
+    Told told{polar_coordinates(model, shape, all.linear().writer, tiers), {}, {}};
+    const FunctionRows rows = told.coordinates.rows.sparseView();
+    told.covariance = all.joint(rows);
+    told.reach = reach_of(all.linear(), rows);
+    if (told.reach.size() == 0) {
         report.message = "the meets could not be analysed";
         return report;
     }
-    const Space space = space_of(model, form, coordinates, covariance, reach);
     for (const AxisGroup& group : subgroups_of(form)) {
-        report.groups.push_back(test_group(model, group, coordinates, space, options.significance));
+        report.groups.push_back(test_group(model, group, told, options.significance));
     }
-    SymmetricModel symmetric = symmetric_model(coordinates, form);
+    SymmetricModel symmetric = symmetric_model(told.coordinates, form);
     std::vector<int> alike;
     for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
         // A single facet is unlike nothing, unless turns must leave it level.
         if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
-        report.tiers.push_back(test_tier(model, orbit, symmetric, covariance, tiers));
+        report.tiers.push_back(test_tier(model, orbit, symmetric, told.covariance, tiers));
         alike.insert(alike.end(), orbit.facets.begin(), orbit.facets.end());
     }
     // Together: a tier alone may be symmetric about an axis of its own.
-    const Eigen::Index placed = coordinates.placement.cols();
+    const Eigen::Index placed = told.coordinates.placement.cols();
     symmetric.columns.conservativeResize(Eigen::NoChange, symmetric.columns.cols() + placed);
-    symmetric.columns.rightCols(placed) = coordinates.placement;
+    symmetric.columns.rightCols(placed) = told.coordinates.placement;
     const VarianceComponent whole =
-        spread_of(free_contrasts(directions_of(alike, symmetric, covariance)));
+        spread_of(free_contrasts(directions_of(alike, symmetric, told.covariance)));
     report.sigma = whole.sigma;
     report.sigma_sigma = whole.sigma_sigma;
-    conclude(report, options.significance / double(report.tiers.size() + 1));
+    conclude(report);
     return report;
 }
 

@@ -58,7 +58,7 @@ Verdict judge_first_suspect(const Problem& given, const Attempt& first, const Pr
     again.statistics.chi2_p = chi2_tail(again.statistics.chi2, again.statistics.dof);
     again.statistics.chi2_limit =
         chi2_quantile(again.log.options.significance, again.statistics.dof);
-    flag_blunders(given.readings, {{at, fitted->fitted, sigma}}, again);
+    flag_blunder(wrong, fitted->fitted, sigma, again);
     return {std::move(again), std::nullopt};
 }
 

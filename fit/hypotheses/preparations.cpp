@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "fit/findings/fitted_parts.h"
+#include "fit/findings/blunder.h"
 #include "fit/hypotheses/unread_size.h"
 #include "fit/readings/level_facets.h"
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "fit/hypotheses/preparations.h"
 #include "fit/study/parts.h"
 
 namespace culet {
@@ -25,17 +26,6 @@ int count(const std::vector<Reading>& readings) {
     return static_cast<int>(std::count_if(readings.begin(), readings.end(), counts));
 }
 
-std::vector<Reading> without(const std::vector<Reading>& readings,
-                             const std::vector<std::size_t>& removed) {
-    std::vector<Reading> rest;
-    for (std::size_t r = 0; r < readings.size(); ++r) {
-        if (std::find(removed.begin(), removed.end(), r) == removed.end()) {
-            rest.push_back(readings[r]);
-        }
-    }
-    return rest;
-}
-
 // The `most` readings that the others tell best already.
 std::vector<std::size_t> most_redundant(const std::vector<Reading>& readings,
                                         const FitResult& fitted, int most) {
@@ -51,12 +41,15 @@ std::vector<std::size_t> most_redundant(const std::vector<Reading>& readings,
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return rounded(a) > rounded(b); });
     if (order.size() > static_cast<std::size_t>(most)) order.resize(static_cast<std::size_t>(most));
+    std::sort(order.begin(), order.end());
     return order;
 }
 
 struct Selection {
     std::vector<Reading> readings;
     FitResult fitted;  // of their true values
+    StudyLimit row;
+    std::vector<StudyError> errors;  // of the draws
 };
 
 // Takes readings away, a few at a time and always those that the others tell best, until `target`
@@ -71,7 +64,7 @@ bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
             if (budget.spent()) return false;
             const auto out = most_redundant(selection.readings, selection.fitted, batch);
             if (out.empty()) return false;
-            Selection next{without(selection.readings, out), {}};
+            Selection next{without(selection.readings, out), {}, {}, {}};
             next.fitted = fit_stone(truth.stone, next.readings, options);
             if (!is_sound(truth.stone, next.fitted) || next.fitted.statistics.rank_defect > 0) {
                 continue;
@@ -84,9 +77,9 @@ bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
     return true;
 }
 
-StudyLimit measured(const StudyTruth& truth, const Selection& selection, const FitOptions& options,
-                    int all, StudyLimit row, int draw, std::uint64_t seed,
-                    std::vector<StudyError>& errors) {
+// One draw.
+void measure(const StudyTruth& truth, const FitOptions& options, int draw, std::uint64_t seed,
+             Selection& selection) {
     const std::vector<Reading> drawn = drawn_readings(truth.readings, seed, draw);
     std::vector<Reading> kept;
     // The same reading has the same error in every row.
@@ -96,30 +89,25 @@ StudyLimit measured(const StudyTruth& truth, const Selection& selection, const F
         kept.push_back(*same);
     }
     const FitResult fitted = fit_stone(truth.stone, kept, options);
-    row.readings = count(selection.readings);
-    row.share = double(row.readings) / std::max(1, all);
-    row.dof = selection.fitted.statistics.dof;
-    ++row.draws;
+    ++selection.row.draws;
     if (is_settled(truth.stone, fitted)) {
-        errors.push_back(error_of(truth, fitted));
+        selection.errors.push_back(error_of(truth, fitted));
     } else {
-        ++row.failed;
+        ++selection.row.failed;
     }
-    return row;
 }
 
-void sum_up(const StudyTruth& truth, const Selection& selection,
-            const std::vector<StudyError>& errors, StudyLimit& row) {
-    const StudyError limit = limit_of(truth, selection.fitted);
+void sum_up(const StudyTruth& truth, Selection& selection) {
+    StudyLimit& row = selection.row;
+    const std::vector<StudyError>& errors = selection.errors;
+    row.readings = count(selection.readings);
+    row.share = double(row.readings) / std::max(1, count(truth.readings));
+    row.dof = selection.fitted.statistics.dof;
+    const StudyError limit = limit_of(truth, selection.fitted), mean = mean_of(errors);
     row.angle_limit = std::sqrt(limit.angle);
     row.offset_limit = std::sqrt(limit.offset);
     if (errors.empty()) return;
     const double n = static_cast<double>(errors.size());
-    StudyError mean;
-    for (const StudyError& e : errors) {
-        mean.angle += e.angle / n;
-        mean.offset += e.offset / n;
-    }
     row.angle_error = std::sqrt(mean.angle);
     row.offset_error = std::sqrt(mean.offset);
     if (!(row.angle_limit > 0)) return;
@@ -170,7 +158,7 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
     const StudyTruth right = truth_of(stone, readings, ideal, true);
     // The optimum that belongs to the truth: no other start is looked for.
     options.start = right.stone.solid;
-    Selection now{right.readings, fit_stone(right.stone, right.readings, options)};
+    Selection now{right.readings, fit_stone(right.stone, right.readings, options), {}, {}};
     const int all = count(right.readings);
     if (all == 0) {
         study.limit_message = "no reading has an uncertainty";
@@ -194,24 +182,20 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         study.limit_message = fmt::format("fewer than {} readings leave parts of the stone open",
                                           count(selections.back().readings));
     }
-    std::vector<StudyLimit> rows(selections.size());
-    std::vector<std::vector<StudyError>> errors(selections.size());
     for (int draw = 0; draw < study.options.draws; ++draw) {
         for (std::size_t s = 0; s < selections.size(); ++s) {
             if (budget.spent()) continue;
-            rows[s] = measured(right, selections[s], options, all, rows[s], draw,
-                               study.options.seed, errors[s]);
+            measure(right, options, draw, study.options.seed, selections[s]);
             budget.report(0.7 + 0.3 * (draw + double(s) / double(selections.size())) /
                                     study.options.draws);
         }
     }
-    for (std::size_t s = 0; s < selections.size(); ++s) {
-        sum_up(right, selections[s], errors[s], rows[s]);
-        if (rows[s].draws == 0) {
-            study.left_out.push_back(
-                fmt::format("limit with {} readings", count(selections[s].readings)));
+    for (Selection& selection : selections) {
+        sum_up(right, selection);
+        if (selection.row.draws > 0) {
+            study.limits.push_back(selection.row);
         } else {
-            study.limits.push_back(rows[s]);
+            study.left_out.push_back(fmt::format("limit with {} readings", selection.row.readings));
         }
     }
 }

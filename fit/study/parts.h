@@ -58,6 +58,7 @@ std::vector<Reading> drawn_readings(const std::vector<Reading>& readings, std::u
 struct StudyError {
     double angle = 0, offset = 0;  ///< mean squares: rad2, unit2
 };
+StudyError mean_of(const std::vector<StudyError>& errors);
 StudyError error_of(const StudyTruth& truth, const FitResult& fitted);
 /// What the covariance of a fit says those mean squares should be.
 StudyError limit_of(const StudyTruth& truth, const FitResult& fitted);

@@ -34,10 +34,8 @@ struct Way {
 };
 
 struct Outcome {
-    double seconds = 0, chi2 = 0;
-    bool sound = false, settled = false;
-    StudyError error;
     FitResult fitted;
+    double seconds = 0;
 };
 
 bool is_symmetry(ReadingKind kind) {
@@ -134,34 +132,30 @@ std::vector<Way> ways(const std::vector<Reading>& readings, const FitOptions& as
     return all;
 }
 
-Outcome outcome_of(const Way& way, const Stone& stone, const StudyTruth& truth,
-                   const std::vector<Reading>& drawn, std::uint64_t seed, int draw) {
+Outcome outcome_of(const Way& way, const Stone& stone, const std::vector<Reading>& drawn,
+                   std::uint64_t seed, int draw) {
     const std::vector<Reading> readings = with_symmetry(drawn, way.symmetry);
     const Stone start = way.shake > 0 ? shaken(stone, way.shake, seed, draw) : stone;
     const double begin = processor_seconds();
-    Outcome outcome;
-    outcome.fitted = fit_stone(start, readings, way.options);
-    outcome.seconds = processor_seconds() - begin;
-    const FitResult& fitted = outcome.fitted;
-    outcome.chi2 = fitted.statistics.chi2;
-    outcome.sound = is_sound(stone, fitted);
-    outcome.settled = is_settled(stone, fitted);
-    if (outcome.sound) outcome.error = error_of(truth, fitted);
-    return outcome;
+    FitResult fitted = fit_stone(start, readings, way.options);
+    return {std::move(fitted), processor_seconds() - begin};
 }
 
-// Both fits of one draw.
-void note(const Outcome& outcome, const Outcome& asked, const StudyTruth& end, Way& way) {
+// Both fits of one draw; `end`: the one as asked, taken for the truth.
+void note(const Outcome& outcome, const FitResult& asked, const StudyTruth& truth,
+          const StudyTruth& end, Way& way) {
+    const FitResult& fitted = outcome.fitted;
     ++way.row.fits;
     way.seconds.push_back(outcome.seconds);
-    if (outcome.sound) {
+    if (is_sound(truth.stone, fitted)) {
         ++way.row.sound;
-        way.errors.push_back(outcome.error);
-        way.left += error_of(end, outcome.fitted).angle;
+        way.errors.push_back(error_of(truth, fitted));
+        way.left += error_of(end, fitted).angle;
     }
-    if (outcome.settled) ++way.row.settled;
-    if (way.same_equations && outcome.settled &&
-        outcome.chi2 <= asked.chi2 + std::max(4.0, 0.05 * asked.chi2)) {
+    if (!is_settled(truth.stone, fitted)) return;
+    ++way.row.settled;
+    const double best = asked.statistics.chi2;
+    if (way.same_equations && fitted.statistics.chi2 <= best + std::max(4.0, 0.05 * best)) {
         ++way.row.best;
     }
 }
@@ -180,11 +174,7 @@ void sum_up(Way& way) {
     way.row.seconds_high = quantile(way.seconds, 0.75);
     if (!way.same_equations) way.row.best = -1;
     if (way.errors.empty()) return;
-    StudyError mean;
-    for (const StudyError& e : way.errors) {
-        mean.angle += e.angle / double(way.errors.size());
-        mean.offset += e.offset / double(way.errors.size());
-    }
+    const StudyError mean = mean_of(way.errors);
     way.row.angle_error = std::sqrt(mean.angle);
     if (way.same_equations) way.row.angle_left = std::sqrt(way.left / double(way.errors.size()));
     way.row.offset_error = std::sqrt(mean.offset);
@@ -200,14 +190,14 @@ void study_settings(const Stone& stone, const std::vector<Reading>& readings, co
         const std::vector<Reading> drawn = drawn_readings(truth.readings, study.options.seed, draw);
         Way plain;
         plain.options = study.options.fit;
-        const Outcome asked = outcome_of(plain, stone, truth, drawn, study.options.seed, draw);
+        const Outcome asked = outcome_of(plain, stone, drawn, study.options.seed, draw);
         const StudyTruth end = truth_of(stone, drawn, asked.fitted);
         for (std::size_t w = 0; w < all.size(); ++w) {
             if (all[w].is_asked_fit) {
-                note(asked, asked, end, all[w]);
+                note(asked, asked.fitted, truth, end, all[w]);
             } else if (!budget.spent()) {
-                note(outcome_of(all[w], stone, truth, drawn, study.options.seed, draw), asked, end,
-                     all[w]);
+                note(outcome_of(all[w], stone, drawn, study.options.seed, draw), asked.fitted,
+                     truth, end, all[w]);
             }
             budget.report(0.5 * (draw + double(w) / double(all.size())) / study.options.draws);
         }

@@ -1,5 +1,6 @@
 // Truth, draws and errors of a study.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -61,15 +62,32 @@ std::map<std::string, StudyTruth::Place> places_of(const Stone& stone, const Fit
 }
 
 bool fixes_azimuth(const Reading& reading) {
-    switch (reading.kind) {
-        case ReadingKind::azimuth:
-        case ReadingKind::width:
-        case ReadingKind::table_width:
-            return true;
-        default:
-            return false;
-    }
+    return reading.kind == ReadingKind::azimuth || reading.kind == ReadingKind::width ||
+           reading.kind == ReadingKind::table_width;
 }
+
+// Mean squares over facets of what they are off, or may be.
+class SumOfFacets {
+public:
+    explicit SumOfFacets(bool azimuths_read) : azimuths_read_(azimuths_read) {}
+    void add(double inclination, double tilt, double turn, double offset) {
+        sum_.offset += offset * offset;
+        ++offsets_;
+        const double level = std::sin(inclination);
+        if (level < k_level) return;
+        if (!is_upright(inclination)) sum_.angle += tilt * tilt;
+        if (azimuths_read_) sum_.angle += level * turn * level * turn;
+        ++angles_;
+    }
+    StudyError mean() const {
+        return {sum_.angle / std::max(1.0, angles_), sum_.offset / std::max(1.0, offsets_)};
+    }
+
+private:
+    bool azimuths_read_;
+    StudyError sum_;
+    double angles_ = 0, offsets_ = 0;
+};
 
 }  // namespace
 
@@ -108,43 +126,33 @@ std::vector<Reading> drawn_readings(const std::vector<Reading>& readings, std::u
 }
 
 StudyError error_of(const StudyTruth& truth, const FitResult& fitted) {
-    StudyError sum;
-    double angles = 0, offsets = 0;
+    SumOfFacets sum(truth.azimuths_read);
     for (const auto& [name, place] : places_of(truth.stone, fitted, truth.from_corner_mean)) {
         const auto found = truth.places.find(name);
         if (found == truth.places.end()) continue;
         const StudyTruth::Place& right = found->second;
-        const double off = place.offset - right.offset;
-        sum.offset += off * off;
-        ++offsets;
-        const double level = std::sin(right.inclination);
-        if (level < k_level) continue;
-        const double tilt =
-            is_upright(right.inclination) ? 0 : place.inclination - right.inclination;
-        const double turn =
-            truth.azimuths_read
-                ? level * std::remainder(place.azimuth - right.azimuth, 2 * std::numbers::pi)
-                : 0;
-        sum.angle += tilt * tilt + turn * turn;
-        ++angles;
+        sum.add(right.inclination, place.inclination - right.inclination,
+                std::remainder(place.azimuth - right.azimuth, 2 * std::numbers::pi),
+                place.offset - right.offset);
     }
-    return {angles > 0 ? sum.angle / angles : 0, offsets > 0 ? sum.offset / offsets : 0};
+    return sum.mean();
 }
 
 StudyError limit_of(const StudyTruth& truth, const FitResult& fitted) {
-    StudyError sum;
-    double angles = 0, offsets = 0;
+    SumOfFacets sum(truth.azimuths_read);
     for (const FittedFacet& f : fitted.facets) {
-        sum.offset += f.sigma_offset * f.sigma_offset;
-        ++offsets;
-        const double level = std::sin(f.inclination);
-        if (level < k_level) continue;
-        const double turn = truth.azimuths_read ? level * f.sigma_azimuth : 0;
-        const double tilt = is_upright(f.inclination) ? 0 : f.sigma_inclination;
-        sum.angle += tilt * tilt + turn * turn;
-        ++angles;
+        sum.add(f.inclination, f.sigma_inclination, f.sigma_azimuth, f.sigma_offset);
     }
-    return {angles > 0 ? sum.angle / angles : 0, offsets > 0 ? sum.offset / offsets : 0};
+    return sum.mean();
+}
+
+StudyError mean_of(const std::vector<StudyError>& errors) {
+    StudyError mean;
+    for (const StudyError& e : errors) {
+        mean.angle += e.angle / double(errors.size());
+        mean.offset += e.offset / double(errors.size());
+    }
+    return mean;
 }
 
 bool is_sound(const Stone& stone, const FitResult& fitted) {

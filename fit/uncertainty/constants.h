@@ -59,7 +59,6 @@ struct SnoopingConstants {
     /// More equations are not searched for an irreducible set that disagrees: the hat matrix and
     /// its updates would take minutes.
     Eigen::Index most_equations = 1500;
-    double least_redundancy = 1e-6;
     double same_part = 1e-6;  ///< in sigmas
 };
 inline constexpr SnoopingConstants k_snooping;

@@ -45,7 +45,7 @@ struct Rest {
 private:
     void leave_out_one(Eigen::Index i) {
         const double own = matrix(i, i);
-        if (own > k_snooping.least_redundancy) {
+        if (own > k_checks.no_redundancy) {
             const Eigen::VectorXd column = matrix.col(i) / own;
             chi2 -= residuals(i) * residuals(i) / own;
             residuals -= column * residuals(i);
@@ -86,7 +86,6 @@ void leave_out_what_can_be_spared(std::vector<int>& left, const Spares& spares) 
 
 std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::MatrixXd matrix,
                                       const std::vector<int>& owner, double level) {
-    if (residuals.size() > k_snooping.most_equations) return {};
     Rest rest{residuals, std::move(matrix), residuals.squaredNorm(), 0};
     rest.dof = rest.matrix.trace();
     const auto fails = [&](const Rest& r) {
@@ -103,7 +102,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
         double part = 0;
         for (const Eigen::Index i : mine) {
             const double r = rest.matrix(i, i);
-            if (r > k_snooping.least_redundancy)
+            if (r > k_checks.no_redundancy)
                 part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
         }
         // Readings that only one another check take the same part but for rounding.

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <numbers>
+#include <numeric>
 
 namespace culet {
 
@@ -19,22 +20,26 @@ double cross(const Vec2d& a, const Vec2d& b) {
 }
 
 // Andrew's monotone chain (1979), counter-clockwise. Corners within rounding of an edge are none.
-std::vector<Vec2d> hull_of(std::vector<Vec2d> points, double size) {
-    std::sort(points.begin(), points.end(), [](const Vec2d& a, const Vec2d& b) {
-        return std::pair(a.x, a.y) < std::pair(b.x, b.y);
+std::vector<int> hull_of(const std::vector<Vec2d>& points, double size) {
+    const auto at = [&](int p) -> const Vec2d& { return points[std::size_t(p)]; };
+    std::vector<int> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+        return std::pair(at(a).x, at(a).y) < std::pair(at(b).x, at(b).y);
     });
-    std::vector<Vec2d> hull;
+    std::vector<int> hull;
     for (int pass = 0; pass < 2; ++pass) {
         const std::size_t begin = hull.size();
-        for (const Vec2d& p : points) {
-            while (hull.size() >= begin + 2 && cross(hull.back() - hull[hull.size() - 2],
-                                                     p - hull.back()) <= 1e-12 * size * size) {
+        for (const int p : order) {
+            while (hull.size() >= begin + 2 &&
+                   cross(at(hull.back()) - at(hull[hull.size() - 2]), at(p) - at(hull.back())) <=
+                       1e-12 * size * size) {
                 hull.pop_back();
             }
             hull.push_back(p);
         }
         hull.pop_back();
-        std::reverse(points.begin(), points.end());
+        std::reverse(order.begin(), order.end());
     }
     return hull;
 }
@@ -67,9 +72,10 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
         points.push_back({glm::dot(frame.x, v), glm::dot(frame.y, v)});
     }
     if (points.size() < 3) return widths;
-    const std::vector<Vec2d> hull = hull_of(std::move(points), diameter(solid));
-    if (hull.size() < 3) return widths;
-    widths.corners = static_cast<int>(hull.size());
+    widths.outline = hull_of(points, diameter(solid));
+    if (widths.outline.size() < 3) return {};
+    std::vector<Vec2d> hull;
+    for (const int p : widths.outline) hull.push_back(points[std::size_t(p)]);
     const auto extent = [&](const Vec2d& direction) {
         double low = INFINITY, high = -INFINITY;
         for (const Vec2d& p : hull) {
@@ -87,6 +93,7 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
         // Of equal widths (to rounding) the first: the answer must not turn on the last digit.
         if (const double width = extent(across); width < widths.least * (1 - 1e-12)) {
             widths.least = width;
+            widths.least_edge = i;
             widths.least_azimuth = half_turn(across);
             widths.length = extent(edge / length);
         }
@@ -94,6 +101,7 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
             const Vec2d between = hull[j] - hull[i];
             if (const double width = glm::length(between); width > widths.largest * (1 + 1e-12)) {
                 widths.largest = width;
+                widths.largest_between = {i, j};
                 widths.largest_azimuth = half_turn(between);
             }
         }

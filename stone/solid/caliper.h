@@ -1,6 +1,7 @@
 #pragma once
 // What a caliper reads of a stone that stands on its table: widths in plan.
 
+#include <array>
 #include <vector>
 
 #include "stone/solid/solid.h"
@@ -12,8 +13,11 @@ struct CaliperWidths {
     double least = 0, largest = 0;
     double mean = 0;  ///< over all directions: perimeter of the outline / pi (Cauchy 1832)
     double least_azimuth = 0, largest_azimuth = 0;
-    double length = 0;  ///< across the least width
-    int corners = 0;    ///< of the outline in plan
+    double length = 0;         ///< across the least width
+    std::vector<int> outline;  ///< the solid's vertices on the outline in plan, counter-clockwise
+    std::size_t least_edge =
+        0;  ///< from this one of `outline`: on it lies a jaw of the least width
+    std::array<std::size_t, 2> largest_between{};  ///< of `outline`
     /// As the trade has it: length and mean within 5 % of the least width.
     bool round() const;
 };

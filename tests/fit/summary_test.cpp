@@ -50,12 +50,11 @@ TEST(Summary, NamesTheLeastSureFacets) {
     EXPECT_THAT(lines, Not(Contains(HasSubstr("r0"))));
 }
 
-// Without its own reading of 43.4 the facet would come to 43.4 - 4.5 / 0.5 = 34.4: the residual is
-// the redundancy's part of the error.
 TEST(Summary, SaysWhatTheOthersSayOfASuspect) {
     FitResult r = result();
     r.status = FitStatus::contradictory;
     r.findings.suspects = {"r0"};
+    r.findings.proposals = {{"r0", true, radians(34.4), radians(0.1), {}, 0, {}}};
     EXPECT_THAT(fit_summary(r), Contains(says("r0", "inclination", "P1", "43.4", "34.4", "12.3")));
 }
 

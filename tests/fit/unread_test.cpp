@@ -91,7 +91,7 @@ TEST(Unread, NumberedFacetsAreGroupedByTheirForm) {
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
     EXPECT_THAT(result.findings.undetermined_words,
                 Contains("nothing measured fixes the inclinations of the pavilion facets " +
-                         mains.front() + " to " + mains.back()));
+                         fmt::format("{}", fmt::join(mains, ", "))));
 }
 
 // A goniometer whose zero was put to the wrong mark: widths are not to blame.

@@ -202,7 +202,7 @@ TEST(Caliper, OfARoundGirdleOfFlats) {
     EXPECT_NEAR(w.mean, 6.5 * std::sin(step) / step, 1e-12);
     EXPECT_NEAR(std::remainder(w.largest_azimuth, 2 * step), 0, 1e-9);
     EXPECT_NEAR(std::abs(std::remainder(w.least_azimuth, 2 * step)), step, 1e-9);
-    EXPECT_EQ(w.corners, 16);
+    EXPECT_EQ(w.outline.size(), 16u);
     EXPECT_TRUE(w.round());
 }
 
