@@ -7,6 +7,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
 #include "render/planner/light_edge_scan.h"
+#include "render/planner/policy.h"
 #include "render/planner/wavelengths.h"
 #include "render/reference/surroundings.h"
 
@@ -14,24 +15,8 @@ namespace culet {
 
 namespace {
 
-constexpr std::size_t k_first_pixels = 48, k_most_pixels = 3072;
-// Lights that are so many times as bright as the picture are looked for where the picture lacks
-// them, and more pixels are looked at first: of those where a light may be seen, some see it.
-constexpr double k_bright = 8;
-constexpr std::size_t k_first_pixels_of_bright = 96;
-// Below this tolerance more in proportion: so much rarer are pixels that matter.
-constexpr double k_checked_tolerance = 0.03, k_most_times_as_many = 10;
-// Every pixel has this share of a mean chance at least: none counts more than two and a half times.
-constexpr double k_even_share = 0.4;
-// Outliers are pixels that have so many times the mean.
-constexpr double k_times_the_mean = 30;
 // That the stone fills by so much at least.
 constexpr float k_filled = 0.5f;
-// Of the rest, what goes to where a light's edge may be.
-constexpr double k_share_of_edges = 0.5;
-
-// Contrast is looked at in so many pixels, about.
-constexpr double k_contrast_pixels = 65536;
 
 // A place from 0 to side - 1: fractions of a number's multiples, in 32 bits.
 int place_in(int side, std::uint32_t number, std::uint32_t multiple) {
@@ -51,7 +36,7 @@ Contrast contrast_of(const Picture& picture, int windows, double filled) {
     Contrast found;
     if (picture.coverage.empty()) return found;
     const int width = picture.width / windows, height = picture.height;
-    const int side = static_cast<int>(std::sqrt(std::clamp(filled / k_contrast_pixels, 1.0, 1e6)));
+    const int side = static_cast<int>(std::sqrt(std::clamp(filled / 65536, 1.0, 1e6)));
     std::uint32_t number = 0;
     for (int top = 0; top < height; top += side) {
         for (int left = 0; left < width; left += side, ++number) {
@@ -114,13 +99,13 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
             edges.push_back(scan.near(pixel.x, pixel.y));
             sum_of_edges += edges.back();
         }
-        const double times =
-            std::clamp(k_checked_tolerance / scene.settings.tolerance, 1.0, k_most_times_as_many);
-        chosen.first = static_cast<std::size_t>(times * k_first_pixels_of_bright);
+        // Of those where a light may be seen, some see it; the rarer the finer the tolerance.
+        chosen.first = static_cast<std::size_t>(
+            2 * k_first_pixels * std::clamp(0.03 / scene.settings.tolerance, 1.0, 10.0));
     }
     // Chances, 1 in the mean, and their sums; then the golden ratio's multiples, evenly spread over
     // these.
-    const double of_edges = sum_of_edges > 0 ? k_share_of_edges * (1 - k_even_share) : 0,
+    const double of_edges = sum_of_edges > 0 ? (1 - k_even_share) / 2 : 0,
                  of_contrast = 1 - k_even_share - of_edges,
                  by_edge = sum_of_edges > 0 ? of_edges * count / sum_of_edges : 0,
                  by_root = contrast.sum > 0 ? of_contrast * count / contrast.sum : 0;
@@ -172,7 +157,7 @@ std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int 
         sum += light;
         ++count;
     });
-    const double least = std::max(share, k_times_the_mean / count) * sum;
+    const double least = std::max(share, 30 / count) * sum;
     each([&](std::size_t pixel, double light) {
         if (light > least) found.push_back({pixel, light});
     });

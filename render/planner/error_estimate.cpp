@@ -1,45 +1,16 @@
 #include "render/planner/error_estimate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
+#include "render/planner/policy.h"
 #include "render/planner/wavelengths.h"
 #include "render/work/work_meter.h"
 
 namespace culet {
-
-namespace {
-
-constexpr std::size_t k_noise_pixels = 48;
-constexpr double k_standard_errors = 3;
-constexpr std::size_t k_step = 4;  // times as many pixels at the next look, at most
-// Sides of the truth's grids, one after the other. Grids of different sides are off independently.
-constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
-// Of a picture whose error, less a standard error, is this share of what it may be, no estimate is
-// sought any further; less two, where that costs no more than this share of what it may. Few pixels
-// that are off by much are often met too often.
-constexpr double k_hopeless = 0.97, k_doubtful_share = 0.25;
-// Noise that is more than this share of the difference hides what the picture is off by; finding it
-// out may cost so many times as much as usual, because no other picture could be shown to be near
-// enough, either.
-constexpr double k_noisy = 0.5, k_noisy_price = 12;
-// What the mean of N rays is off by falls about as N^-0.6; and of what a bound may be, what it
-// should be by that to be sought.
-constexpr double k_noise_power = 0.6, k_likely_room = 0.95;
-// What the truth's paths are cut at, as a share of the tolerance.
-constexpr double k_cut_share = 0.01;
-// Outliers are pixels that have this share of the tolerance of the picture's light; so many do at
-// most.
-constexpr double k_outlier_share = 1.0 / 24;
-constexpr std::size_t k_most_outliers = 96;
-// What finding out about a single picture may cost: about two seconds of a processor.
-constexpr double k_most_ns_at_once = 2e9;
-
-}  // namespace
 
 double ErrorEstimate::error() const {
     return std::sqrt(std::max(0.0, difference * difference - noise * noise));
@@ -58,7 +29,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
     // Other random paths than the picture's.
     limits_.seed = scene_.settings.seed + 1;
     limits_.depth = scene_.settings.depth > 0 ? scene_.settings.depth : k_deepest;
-    limits_.cut_weight = branches ? tree_cut(tolerance) : std::max(k_cut_share * tolerance, 1e-7);
+    limits_.cut_weight = branches ? tree_cut(tolerance) : std::max(k_truth_cut * tolerance, 1e-7);
     limits_.split_weight = tree_split(tolerance);
     limits_.roulette = branches;
     work_ = work_along_paths(plan);
@@ -68,13 +39,9 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
 
 // No grid that the scene asks for, whose picture would share the truth's rays.
 int ErrorEstimator::grid(std::size_t level) const {
-    int side = k_sides[level];
+    int side = k_truth_sides[level];
     if (side * side == scene_.settings.samples) side += level == 0 ? 2 : 1;
     return side * side;
-}
-
-bool ErrorEstimator::takes_grid(int side) {
-    return std::find(k_sides.begin(), k_sides.end(), side) != k_sides.end();
 }
 
 int ErrorEstimator::samples() const {
@@ -84,25 +51,14 @@ int ErrorEstimator::samples() const {
 }
 
 void ErrorEstimator::take_more() {
-    if (levels_.size() == k_sides.size()) return;
+    if (levels_.size() == k_truth_sides.size()) return;
     Level more;
     more.samples = grid(levels_.size());
     levels_.push_back(more);
 }
 
-double ErrorEstimator::more_ns() const {
-    if (levels_.size() == k_sides.size() || !(rays_drawn_ > 0))
-        return std::numeric_limits<double>::infinity();
-    return static_cast<double>(levels_.front().rgb.size()) * grid(levels_.size()) *
-           price_ns(work_) / rays_drawn_;
-}
-
-double ErrorEstimator::pixel_ns() const {
-    return rays_drawn_ > 0 ? price_ns(work_) * samples() / rays_drawn_ : 0;
-}
-
-double ErrorEstimator::bands_of_a_ray() const {
-    return static_cast<double>(nodes_) / turns_for(levels_.front().samples, nodes_);
+double ErrorEstimator::band_ns() const {
+    return work_.rays > 0 ? price_ns(work_) / work_.rays : 0;
 }
 
 PilotDrawing ErrorEstimator::draw(const StonePixels& pixels, int samples) {
@@ -116,22 +72,20 @@ PilotDrawing ErrorEstimator::draw(const StonePixels& pixels, int samples) {
 }
 
 double ErrorEstimator::noise_of_16() {
-    if (!noise_of_16_) noise_of_16_ = drawn_noise_of_16();
-    return *noise_of_16_;
-}
-
-double ErrorEstimator::drawn_noise_of_16() {
-    const PilotDrawing drawing = draw(some_.stretch(0, k_noise_pixels), levels_[0].samples);
+    if (noise_of_16_) return *noise_of_16_;
+    const PilotDrawing drawing = draw(some_.stretch(0, k_first_pixels), levels_[0].samples);
     double squares = 0, sum = 0;
     for (double halves : drawing.halves_apart) {
         sum += halves;
         squares += halves * halves;
     }
+    noise_of_16_ = 0;
     if (!(drawing.few_rays > 0)) return 0;
     // Few pixels easily miss the reflexes that are off most: one and a half standard errors more.
     const double count = static_cast<double>(drawing.halves_apart.size());
     const double spread = std::sqrt(std::max(0.0, squares * count - sum * sum) / count) / sum;
-    return (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
+    noise_of_16_ = (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
+    return *noise_of_16_;
 }
 
 void ErrorEstimator::draw_up_to(std::size_t count) {
@@ -185,18 +139,30 @@ double ErrorEstimator::noise_of(const Level& level) const {
     return level.halves / level.radiance / k_halves_over_noise;
 }
 
-CheckedSample ErrorEstimator::sample(std::size_t pixels) const {
+double ErrorEstimator::without_effects(const std::array<bool, k_effect_count>& effects,
+                                       int pixels) {
+    Scene without = scene_;
+    without.settings.effects_auto = false;
+    without.settings.effects = effects;
+    const OpticalSetup whole = make_optical_setup(scene_, nodes_),
+                       left = make_optical_setup(without, nodes_);
+    bool leaves_out = false;
+    for (int e = 0; e < k_effect_count; ++e)
+        leaves_out |= whole.on(static_cast<Effects>(e)) && !left.on(static_cast<Effects>(e));
+    if (!leaves_out) return 0;
     const Level& level = levels_.front();
-    const std::size_t count = std::min(pixels, level.rgb.size());
-    CheckedSample sample;
-    sample.pixels = chosen_.pixels.stretch(0, count);
-    sample.counts.assign(chosen_.counts.begin(), chosen_.counts.begin() + static_cast<long>(count));
-    sample.truth.assign(level.rgb.begin(), level.rgb.begin() + static_cast<long>(count));
-    sample.limits = limits_;
-    sample.rays = level.samples;
-    sample.nodes = nodes_;
-    sample.noise = noise_of(level);
-    return sample;
+    without.settings.wavelength_turns = turns_for(level.samples, nodes_);
+    const StonePixels some = chosen_.pixels.stretch(0, static_cast<std::size_t>(pixels));
+    const std::vector<Rgb> seen =
+        draw_pilot(without, some, limits_, level.samples, nodes_, *progress_).rgb;
+    double errors = 0, sizes = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        errors += chosen_.counts[i] * apart(seen[i], level.rgb[i]);
+        sizes += chosen_.counts[i] * mean_of(level.rgb[i]);
+    }
+    if (!(sizes > 0)) return 0;
+    const double off = errors / sizes, noise = noise_of(level);
+    return std::sqrt(std::max(0.0, off * off - noise * noise));
 }
 
 ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
@@ -262,53 +228,6 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     return estimate;
 }
 
-// Of so many pixels and grids, those that are not drawn yet.
-double ErrorEstimator::rays_for(std::size_t pixels, std::size_t levels) const {
-    double rays = 0;
-    for (std::size_t l = 0; l < levels; ++l) {
-        const bool there = l < levels_.size();
-        const double have = there ? static_cast<double>(levels_[l].rgb.size()) : 0;
-        rays += std::max(0.0, static_cast<double>(pixels) - have) *
-                (there ? levels_[l].samples : grid(l));
-    }
-    return rays;
-}
-
-// The cheapest way to look that is likely to end it, were the picture better than what was found by
-// so many of its standard errors: more pixels narrow the standard error, more rays lessen the
-// noise.
-std::optional<ErrorEstimator::Look> ErrorEstimator::next_look(const ErrorEstimate& estimate,
-                                                              double room,
-                                                              double standard_errors) const {
-    const double error = std::max(0.0, estimate.error() - standard_errors * estimate.spread);
-    std::optional<Look> best;
-    const double rays_before = samples();
-    double rays = rays_before;
-    for (std::size_t levels = levels_.size();; ++levels) {
-        const double noise = estimate.noise * std::pow(rays_before / rays, k_noise_power),
-                     difference = std::hypot(error, noise);
-        for (std::size_t pixels = static_cast<std::size_t>(estimate.pixels);;) {
-            const double spread = estimate.spread * (difference / estimate.difference) *
-                                  std::sqrt(estimate.pixels / static_cast<double>(pixels));
-            const double skewness = estimate.skewness * (difference / estimate.difference) *
-                                    (estimate.pixels / static_cast<double>(pixels));
-            if (difference + k_standard_errors * spread + skewness <= k_likely_room * room) {
-                const double drawn = rays_for(pixels, levels);
-                // What is there already was not enough.
-                if (drawn > 0 || pixels != static_cast<std::size_t>(estimate.pixels)) {
-                    if (!best || drawn < best->rays) best = Look{pixels, levels, drawn};
-                    break;
-                }
-            }
-            if (pixels >= chosen_.pixels.at.size()) break;
-            pixels = std::min(2 * pixels, chosen_.pixels.at.size());
-        }
-        if (levels == k_sides.size()) break;
-        rays += grid(levels);
-    }
-    return best;
-}
-
 void ErrorEstimator::choose(const Picture& picture, FrameRenderer* frames) {
     chosen_ = choose_check_pixels(scene_, picture, some_, *progress_, frames);
     // A small light has an image at each wavelength. Where these part, few wavelengths bring too
@@ -334,21 +253,28 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
     ErrorEstimate estimate = look(picture, std::max(chosen_.first, known));
     for (int more = 1; more < k_looks && estimate.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.
-        const bool noisy = estimate.noise > k_noisy * estimate.difference;
-        const bool doubtful = !noisy && estimate.error() - estimate.spread > k_hopeless * room;
-        if (doubtful && estimate.error() - 2 * estimate.spread > k_hopeless * room) break;
-        const std::optional<Look> next = next_look(estimate, room, doubtful ? 2 : 1);
-        if (!next) break;
-        // On the way there it may be found out to be hopeless, or that a pixel that is off by much
-        // is rarer than it seemed: what counts is the price of the next step.
-        const std::size_t wanted =
-            std::min(next->pixels, k_step * static_cast<std::size_t>(estimate.pixels));
-        const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0;
-        const double share = noisy ? k_noisy_price : doubtful ? k_doubtful_share : 1;
-        if (rays_for(wanted, next->levels) * ray_ns > share * most_ns) break;
-        while (levels_.size() < next->levels) take_more();
+        const bool noisy = estimate.noise > 0.5 * estimate.difference;
+        // Were the picture better than what was found by one standard error: where its error and
+        // the noise leave room, more pixels narrow the standard error; else more rays lessen the
+        // noise. On the way there it may be found out to be hopeless, or that a pixel that is off
+        // by much is rarer than it seemed: what counts is the price of the next step.
+        const double error = std::max(0.0, estimate.error() - estimate.spread),
+                     rest = 0.95 * room - std::hypot(error, estimate.noise);
+        if (!noisy && error > room) break;
+        const double pixels = estimate.pixels, all = static_cast<double>(chosen_.pixels.at.size());
+        const bool rays = pixels >= all || (rest <= 0 && estimate.noise > error);
+        if (rays && (levels_.size() == k_truth_sides.size() || !(estimate.noise > 0))) break;
+        double wanted = rays ? pixels : std::min(4 * pixels, all);
+        if (!rays && rest > 0)
+            wanted = std::min(
+                wanted,
+                pixels * std::max(2.0, std::pow((estimate.bound - estimate.difference) / rest, 2)));
+        const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0,
+                     drawn = rays ? pixels * grid(levels_.size()) : (wanted - pixels) * samples();
+        if (drawn * ray_ns > (noisy ? k_noisy_price : 1) * most_ns) break;
+        if (rays) take_more();
         try {
-            estimate = look(picture, wanted);
+            estimate = look(picture, static_cast<std::size_t>(wanted));
         } catch (const OverAllowance&) {
             break;  // what was found before stands
         }
@@ -359,15 +285,15 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
 ErrorEstimate estimate_error(const Scene& scene, const Picture& picture, const Progress& progress) {
     Scene window = scene;
     if (window.camera.optics.two_windows) window.camera.width /= 2;
-    const StonePixels some = stone_pixels(window, k_noise_pixels);
+    const StonePixels some = stone_pixels(window, k_first_pixels);
     if (some.at.empty()) {
         ErrorEstimate none;
         none.bound = std::numeric_limits<double>::quiet_NaN();
         return none;
     }
     const double tolerance = scene.settings.tolerance;
-    return ErrorEstimator(window, some, tolerance, progress)
-        .estimate(picture, tolerance, k_most_ns_at_once);
+    // About two seconds of a processor.
+    return ErrorEstimator(window, some, tolerance, progress).estimate(picture, tolerance, 2e9);
 }
 
 }  // namespace culet

@@ -17,6 +17,7 @@
 // One picture is looked at `k_looks` times at most, with a bound each.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -44,27 +45,6 @@ struct ErrorEstimate {
     double seen() const { return std::max(error(), 0.5 * difference); }
 };
 
-/// Below this tolerance pictures and the truth take more wavelengths and follow larger trees.
-constexpr double k_fine_tolerance = 0.02;
-/// Trees that branch play roulette below this weight, and above the other follow both branches: the
-/// quickest way to little noise is to follow few branches where few rays do.
-constexpr double tree_cut(double tolerance) {
-    return tolerance < k_fine_tolerance ? 0.01 : 0.04;
-}
-constexpr double tree_split(double tolerance) {
-    return tolerance < k_fine_tolerance ? 0.3 : 0.6;
-}
-
-/// Pixels of a check, as the truth's fewest rays show them.
-struct CheckedSample {
-    StonePixels pixels;
-    std::vector<double> counts;  ///< of each, 1 in the mean
-    std::vector<Rgb> truth;
-    PathLimits limits;
-    int rays = 0, nodes = 0;  ///< a pixel; wavelengths
-    double noise = 0;         ///< about what these rays are off by
-};
-
 class ErrorEstimator {
 public:
     static constexpr int k_looks = 5;
@@ -77,15 +57,9 @@ public:
 
     /// What 16 rays of the truth are off by, as some pixels show it, which are drawn for it.
     double noise_of_16();
-    /// With about twice as many; what was drawn counts.
-    void take_more();
     int samples() const;
-    /// Price of taking more (price.h), at the pixels that were drawn.
-    double more_ns() const;
-    /// Price of a pixel with these (price.h), as what was drawn shows it.
-    double pixel_ns() const;
-    /// Wavelengths that an eye ray of the fewest carries, where each has its own way.
-    double bands_of_a_ray() const;
+    /// Price (price.h) of one eye ray in one band, as what was drawn shows it.
+    double band_ns() const;
 
     /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
     /// picture is certainly too far off, or the next step would be worth more than `most_ns`.
@@ -93,16 +67,13 @@ public:
     ErrorEstimate estimate(const Picture& picture, double room, double most_ns,
                            FrameRenderer* frames = nullptr);
 
-    /// The truth at the first `pixels` of the last estimate, and how it was drawn.
-    CheckedSample sample(std::size_t pixels) const;
-    const Scene& scene() const { return scene_; }
+    /// What effects that a picture leaves out change at the first `pixels` of the last estimate, by
+    /// the truth's own rays, beyond their noise.
+    double without_effects(const std::array<bool, k_effect_count>& effects, int pixels);
     /// Another picture has more to tell of where to look: pixels are chosen anew, and drawn.
     void look_elsewhere();
     /// A light is so bright that its image in a few pixels counts. After `estimate`.
     bool sees_sun() const { return chosen_.sun; }
-
-    /// A picture must not have this square of rays in its pixels: the truth has such a grid.
-    static bool takes_grid(int side);
 
 private:
     // Rays of one grid in each of the first pixels, and in the outliers of some picture.
@@ -112,22 +83,14 @@ private:
         double halves = 0, radiance = 0, cut = 0;  // sums over the first, as they count
     };
     int grid(std::size_t level) const;
-    double drawn_noise_of_16();
     void choose(const Picture& picture, FrameRenderer* frames);
     PilotDrawing draw(const StonePixels& pixels, int samples);
+    void take_more();
     void draw_up_to(std::size_t count);
     Rgb truth(std::vector<Rgb> Level::*of, std::size_t pixel) const;
     void find_outliers(const Picture& picture);
     double noise_of(const Level& level) const;
     ErrorEstimate look(const Picture& picture, std::size_t wanted);
-    // How many pixels and grids, and how many rays that draws.
-    struct Look {
-        std::size_t pixels = 0, levels = 0;
-        double rays = 0;
-    };
-    double rays_for(std::size_t pixels, std::size_t levels) const;
-    std::optional<Look> next_look(const ErrorEstimate& estimate, double room,
-                                  double standard_errors) const;
 
     Scene scene_;
     StonePixels some_;

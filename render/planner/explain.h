@@ -15,6 +15,10 @@ ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
 /// is measured too, and is part of the bound.
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
 
+/// Lines of the plan that are no effects: depth, wavelengths, samples, light_edges,
+/// environment_filter and objects, for its settings. `user`: as the scene has them.
+void set_resolutions(ScenePlan& plan, const Scene& scene, const RenderSettings& user);
+
 /// One line an item.
 std::string explain(const ScenePlan& plan);
 /// The same as JSON, one object.

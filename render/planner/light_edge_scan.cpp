@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "render/beams/frame_renderer.h"
+#include "render/planner/policy.h"
 #include "render/planner/wavelengths.h"
 #include "render/setup/a_priori.h"
 #include "stone/solid/solid.h"
@@ -15,29 +16,6 @@
 namespace culet {
 
 namespace {
-
-// By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
-constexpr int k_cell = 3;
-constexpr double k_scan_tolerance = 0.1;
-// Pixels across the stone that do: in larger pictures what is seen is larger, too.
-constexpr double k_across = 200;
-constexpr int k_scanned_pixels = 1000;
-// Those that may be off by most are looked at at more wavelengths, with rims that fill the steps
-// between them.
-struct Closer {
-    std::size_t cells;
-    int wavelengths;
-};
-const std::vector<Closer> k_closer{{512, 8}, {96, 29}};
-const std::vector<double> k_few_nm{460, 560}, k_one_nm{550};
-// Paths below this weight are left to the estimate's even choice; where there is a sun, those that
-// show less than is bright of it, but not such as would take too long to find.
-constexpr double k_cut_weight = 0.01, k_least_cut_weight = 1e-4;
-// Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays leave
-// apart by the index and twice, the inverse of the angle's cosine.
-constexpr double k_widened = 2;
-// Cells of a map of directions: wider than any stone's colours leave apart.
-constexpr int k_map_width = 64, k_map_height = 32;
 
 // The same view in pixels that are so many times as large; the last ones may reach beyond it.
 Camera coarser(const Camera& camera, int times) {
@@ -56,11 +34,12 @@ Camera coarser(const Camera& camera, int times) {
     return result;
 }
 
-// The brightest texel about each direction, where it has this radiance.
+// The brightest texel about each direction, where it has this radiance. Cells are wider than any
+// stone's colours leave apart.
 std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map, double least) {
     auto found = std::make_shared<EnvironmentMap>();
-    found->width = std::min(map.width, k_map_width);
-    found->height = std::min(map.height, k_map_height);
+    found->width = std::min(map.width, 64);
+    found->height = std::min(map.height, 32);
     found->rgb.assign(3 * static_cast<std::size_t>(found->width * found->height), 0.0f);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
@@ -120,12 +99,12 @@ Lights light_rims(const Lights& all, const Vec3& stone, double width, double lea
     return rims;
 }
 
-LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const Progress& progress,
-                             FrameRenderer* frames) {
+namespace {
+
+// One way of unpolarised, unabsorbed light.
+Scene plainly(const Scene& whole, const Brightness& bright, bool disperses) {
     Scene scene = whole;
     RenderSettings& settings = scene.settings;
-    const bool disperses =
-        settings.effects_auto || settings.effects[static_cast<std::size_t>(Effects::dispersion)];
     settings.effects_auto = false;
     settings.effects.fill(false);
     settings.effects[static_cast<std::size_t>(Effects::dispersion)] = disperses;
@@ -133,16 +112,72 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     settings.coherence = false;
     // A preview's regions lie beside those that show a sun.
     settings.engine = bright.sun() ? k_beam_engine : k_preview_engine;
-    settings.tolerance = k_scan_tolerance;
     settings.cut_weight =
-        bright.sun() ? std::max(bright.least / bright.most, k_least_cut_weight) : k_cut_weight;
+        bright.sun() ? std::max(bright.least / bright.most, k_cut_weight / 100) : k_cut_weight;
+    settings.wavelengths_nm = disperses ? std::vector<double>{460, 560} : std::vector<double>{550};
     scene.camera.aperture_radius = 0;
     scene.camera.optics = {};
+    return scene;
+}
+
+// Of each cell that shows any light the pixel that shows most.
+void find_brightest(const Picture& picture, int columns, int rows, StonePixels& at,
+                    std::vector<double>& seen) {
+    std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns * rows));
+    std::vector<float> most(best.size(), 0.0f);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const float* rgb = picture.at(x, y);
+            const float here = (std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2])) / 3;
+            const std::size_t cell = static_cast<std::size_t>(y / k_cell * columns + x / k_cell);
+            if (!(here > most[cell])) continue;
+            most[cell] = here;
+            best[cell] = {x, y};
+        }
+    }
+    for (std::size_t cell = 0; cell < most.size(); ++cell) {
+        if (!(most[cell] > 0)) continue;
+        at.at.push_back(best[cell]);
+        seen.push_back(static_cast<double>(most[cell]));
+    }
+}
+
+// Once more with the scene's wavelengths and lights, at those that show most.
+void look_closer(const Scene& scene, const StonePixels& at, std::size_t cells,
+                 std::vector<double>& seen, const Progress& progress) {
+    std::vector<std::size_t> order(seen.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
+    order.resize(std::min(order.size(), cells));
+    StonePixels some;
+    for (const std::size_t i : order) some.at.push_back(at.at[i]);
+    const std::vector<double> found = mean_spectra(scene, some, progress);
+    // Of what may be there, those of which nothing more is known have as much as these.
+    double possible = 0, actual = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        possible += seen[order[k]];
+        actual += found[k];
+    }
+    if (possible > 0)
+        for (double& cell : seen) cell *= std::min(1.0, actual / possible);
+    for (std::size_t k = 0; k < order.size(); ++k) seen[order[k]] = found[k];
+}
+
+}  // namespace
+
+LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const Progress& progress,
+                             FrameRenderer* frames) {
+    const bool disperses = whole.settings.effects_auto ||
+                           whole.settings.effects[static_cast<std::size_t>(Effects::dispersion)];
+    Scene scene = plainly(whole, bright, disperses);
     const Vec3 middle = centroid(scene.stone.solid);
     const IndexSpans spans = index_spans(scene);
     const double apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
+    // Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays
+    // leave apart by the index and twice, the inverse of the angle's cosine.
     const auto pixel = [&] {
-        return k_widened * spans.mean * pixel_on_stone(scene) /
+        return 2 * spans.mean * pixel_on_stone(scene) /
                std::max(glm::length(scene.camera.position - middle), 1e-300);
     };
     // A map's brightest texels are the same whatever the width.
@@ -157,21 +192,17 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     // A pixel of each cell: by beams the one in which most is seen, else any.
     StonePixels at;
     std::vector<double> seen;
-    int times = 1;
+    int times = 1, rows = 0;
     double step = k_cell;  // of a cell, in these pixels
-    int rows = 0;
-    settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
     light(apart + pixel());
     if (refused_by_beams(scene).empty()) {
         const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
         times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
         // Beams that fill little of a pixel are not split: of smaller pictures, as little of the
         // stone.
-        settings.tolerance = k_scan_tolerance * std::pow(std::min(1.0, across / k_across), 2);
-        if (times > 1) {
-            scene.camera = coarser(scene.camera, times);
-            light(apart + pixel());
-        }
+        scene.settings.tolerance = 0.1 * std::pow(std::min(1.0, across / k_across), 2);
+        if (times > 1) scene.camera = coarser(scene.camera, times);
+        light(apart + pixel());
         std::optional<FrameRenderer> own;
         if (frames == nullptr) {
             frames = &own.emplace(scene);
@@ -182,24 +213,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
         const Picture& picture = frames->draw(false).picture;
         columns_ = picture.width / k_cell + 1;
         rows = picture.height / k_cell + 1;
-        std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns_ * rows));
-        std::vector<float> most(best.size(), 0.0f);
-        for (int y = 0; y < picture.height; ++y) {
-            for (int x = 0; x < picture.width; ++x) {
-                const float* rgb = picture.at(x, y);
-                const float here = (std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2])) / 3;
-                const std::size_t cell =
-                    static_cast<std::size_t>(y / k_cell * columns_ + x / k_cell);
-                if (!(here > most[cell])) continue;
-                most[cell] = here;
-                best[cell] = {x, y};
-            }
-        }
-        for (std::size_t cell = 0; cell < most.size(); ++cell) {
-            if (!(most[cell] > 0)) continue;
-            at.at.push_back(best[cell]);
-            seen.push_back(static_cast<double>(most[cell]));
-        }
+        find_brightest(picture, columns_, rows, at, seen);
     } else {
         at = stone_pixels(scene, k_scanned_pixels);
         if (at.at.empty()) return;
@@ -209,29 +223,20 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
         light(apart + step * pixel());
         seen = mean_spectra(scene, at, progress);
     }
-    for (const Closer& closer : disperses ? k_closer : std::vector<Closer>{}) {
-        std::vector<std::size_t> order(seen.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
-        order.resize(std::min(order.size(), closer.cells));
-        StonePixels some;
-        for (const std::size_t i : order) some.at.push_back(at.at[i]);
-        settings.wavelengths_nm = even_wavelengths(closer.wavelengths);
-        light(2 * apart / closer.wavelengths + step * pixel());
-        const std::vector<double> found = mean_spectra(scene, some, progress);
-        // Of what may be there, those of which nothing more is known have as much as these.
-        double possible = 0, actual = 0;
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            possible += seen[order[k]];
-            actual += found[k];
-        }
-        if (possible > 0) {
-            for (double& cell : seen) cell *= std::min(1.0, actual / possible);
-        }
-        for (std::size_t k = 0; k < order.size(); ++k) seen[order[k]] = found[k];
+    for (const auto& [cells, wavelengths] : k_closer) {
+        if (!disperses) break;
+        // Rims that fill the steps between the wavelengths.
+        scene.settings.wavelengths_nm = even_wavelengths(wavelengths);
+        light(2 * apart / wavelengths + step * pixel());
+        look_closer(scene, at, cells, seen, progress);
     }
-    // With what is in the cells beside it.
+    spread(at, seen, step, rows);
+    side_ = step * times;
+}
+
+// With what is in the cells beside it.
+void LightEdgeScan::spread(const StonePixels& at, const std::vector<double>& seen, double step,
+                           int rows) {
     cells_.assign(static_cast<std::size_t>(columns_ * rows), 0.0f);
     for (std::size_t i = 0; i < at.at.size(); ++i) {
         const int column = static_cast<int>(at.at[i].first / step),
@@ -243,7 +248,6 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
             }
         }
     }
-    side_ = step * times;
 }
 
 double LightEdgeScan::near(int x, int y) const {

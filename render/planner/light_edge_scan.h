@@ -45,6 +45,8 @@ public:
     double near(int x, int y) const;
 
 private:
+    void spread(const StonePixels& at, const std::vector<double>& seen, double step, int rows);
+
     int columns_ = 0;
     double side_ = 1;           // of a cell, in pixels
     std::vector<float> cells_;  // row by row

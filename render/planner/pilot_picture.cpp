@@ -21,10 +21,8 @@ namespace culet {
 
 namespace {
 
-// Points along the longer side, to find the stone: as many as are wanted of it, or where they do
-// not find enough, the finest.
-constexpr int k_least_looked_at = 16, k_most_looked_at = 64;
-constexpr double k_share_of_stone = 0.3;  // of a usual picture
+// Points along the longer side, to find the stone.
+constexpr int k_looked_at = 64;
 
 struct Window {
     double x0, y0, x1, y1;
@@ -86,17 +84,10 @@ StonePixels stone_pixels(const Scene& scene, int wanted) {
     };
     const Window whole{0, 0, width, height};
     const double side = std::max(width, height);
-    const int along = std::clamp(static_cast<int>(std::sqrt(wanted / k_share_of_stone)) + 1,
-                                 k_least_looked_at, k_most_looked_at);
-    double step = std::max(1.0, side / along);
+    double step = std::max(1.0, side / k_looked_at);
     StonePixels pixels = look(whole, step);
-    const auto too_few = [&] { return static_cast<int>(pixels.at.size()) < wanted && step > 1; };
-    if (too_few() && along < k_most_looked_at) {
-        step = std::max(1.0, side / k_most_looked_at);
-        pixels = look(whole, step);
-    }
     if (pixels.at.empty()) return pixels;
-    if (too_few()) {
+    if (static_cast<int>(pixels.at.size()) < wanted && step > 1) {
         // A small stone: once more, where it is.
         Window window{width, height, 0, 0};
         for (const auto& [x, y] : pixels.at) {
@@ -106,7 +97,7 @@ StonePixels stone_pixels(const Scene& scene, int wanted) {
             window.y1 = std::max(window.y1, std::min(height, y + step));
         }
         const double around = std::max(window.x1 - window.x0, window.y1 - window.y0);
-        step = std::max(1.0, around / k_most_looked_at);
+        step = std::max(1.0, around / k_looked_at);
         pixels = look(window, step);
     }
     pixels.at = spread_evenly(pixels.at);

@@ -1,33 +1,30 @@
 #pragma once
 // From a scene and a tolerance to a picture whose error is known, in this folder:
 //
-// - `planner`: which effects a picture needs, by what is known beforehand, then by a pilot of the
-//   scene with each of them left out (`pilot_picture`); `resolutions` and `explain` tell it.
+// - `planner`: which effects a picture needs, by what is known beforehand (`known_effects`), then
+//   by one pilot an effect, the scene with and without it (`effect_pilots`, `pilot_picture`);
+//   `explain` tells it.
 // - `refinement`: pictures of these effects from coarse to fine (`refinement_levels`), each held
 //   against the truth until one is near enough.
 // - `error_estimate`: the truth is the reference with everything on, at few pixels that
 //   `check_pixels` and, for small bright lights, `light_edge_scan` choose; a mean with three
 //   standard errors is the bound.
 // - `time_budget`: where there is no tolerance, as fine as a given amount of counted work allows.
+// - `policy.h`: the constants.
 
 #include <chrono>
+#include <initializer_list>
 #include <limits>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "render/colour/colour_error.h"
 #include "render/engine/scene_plan.h"
 #include "render/planner/error_estimate.h"
 #include "render/planner/pilot_picture.h"
 #include "render/setup/optical_setup.h"
-#include "render/work/price.h"
 
 namespace culet {
 
-// Rays in each pixel of a pilot; of the tolerance, the weight below which its paths are cut.
-constexpr int k_pilot_rays = 4;
-constexpr double k_pilot_cut = 0.03;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* k_merged_waves = "the two waves are merged";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
@@ -35,6 +32,9 @@ constexpr const char* k_same_light = "the light is the same from everywhere: not
 /// Whether `render` first draws a crystal's two waves merged: what that is off by, a pilot of few
 /// rays shows as far too much, because it shifts light within the pixel.
 bool tried_with_merged_waves(const Scene& scene);
+
+/// Why effects are on or off, as far as that is known without drawing: the lines of `plan`.
+void say_what_is_known(const Scene& scene, ScenePlan& plan);
 
 class Planner {
 public:
@@ -59,52 +59,51 @@ public:
     }
 
 private:
+    // With an effect and without, at the pilot's pixels, and the price of a pixel of each.
+    struct Pilot {
+        PilotDrawing with, without;
+        ColourError error;
+        double price_with = 0, price_without = 0;
+    };
     PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
     bool on(Effects effect) const { return plan_.items[static_cast<std::size_t>(effect)].on; }
-
-    // The scene with the effects that are on, less one.
-    Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
-    Scene at_pilot_wavelengths(Scene scene) const;
+    void leave_out(Effects effect, std::string why);
+    Scene with_effects(std::initializer_list<Effects> less) const;
+    Scene piloted(std::initializer_list<Effects> less = {}) const;
     PathLimits limits() const;
-    PilotDrawing draw(const Scene& scene, int samples) const;
-    // Of one eye ray.
-    PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
-    bool leaves_out(PlanItem& line, const ColourError& error, bool exact, double bound,
-                    double share);
+    PilotDrawing draw(const Scene& scene) const;
+    double price_of(const Scene& scene, const PilotDrawing& drawing) const;
+    Pilot pilot(const Scene& with, const Scene& without, std::optional<PilotDrawing> drawn) const;
+    void write(const Pilot& pilot, PlanItem& line) const;
 
-    void begin();
-    void finish();
-    void say_what_is_known();
+    ScenePlan run(bool weigh);
     void find_pixels();
-    void settle_effects();
+    void drop_what_changes_nothing();
     bool costs_less_than_pilots();
     void weigh_effects();
-    void settle_without_pilot();
-    void drop_what_changes_nothing();
-    void choose_effects();
     void try_without(Effects effect, double share);
+    ColourError colours_apart() const;
+    void decide(PlanItem& line, const ColourError& error, double bound, double share);
     void bound_coherence();
-    void try_without_dispersion();
     void bound_depth();
-    void measure_what_the_scene_forbids();
     void choose_first_picture();
     void estimate_times();
+    void measure_what_the_scene_forbids();
 
     Scene scene_;                // of one window
     const RenderSettings user_;  // as the scene has them
     const Progress& progress_;
-    double tolerance_;
-    bool merged_waves_;
-    Leave leave_;
+    const double tolerance_;
+    const Leave leave_;
+    const int rays_;  // of a pilot's pixel
     ScenePlan plan_;
     StonePixels pixels_;                       // of the pilots
     std::optional<ErrorEstimator> estimator_;  // of others
     bool branches_ = false;                    // trees of light paths double
-    double spent_ = 0;                         // of the tolerance, by bounds
     double left_out_ = 0;                      // what effects that are left out are likely off by
     PilotDrawing first_;                       // with the effects that are on, without dispersion
-    PathWork work_, whole_;  // of one of its eye rays; the same with everything on
-    double machine_ = 1;     // nanoseconds of this one over those of price.h
+    double whole_price_ = 0;                   // of its pixel, with everything on
+    double machine_ = 1;                       // nanoseconds of this one over those of price.h
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -9,21 +9,15 @@
 
 namespace culet {
 
-namespace {
-
-// Coarse enough for a second, fine enough to see what it will be.
-constexpr double k_tolerance = 0.1, k_cut = 0.02;
-
-}  // namespace
-
 RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
     require_renderable(scene);
     Scene quick = scene;
     RenderSettings& settings = quick.settings;
     settings.meter = nullptr;
     settings.allowed_ns = 0;
-    settings.tolerance = k_tolerance;
-    settings.cut_weight = settings.split_weight = k_cut;
+    // Coarse enough for a second, fine enough to see what it will be.
+    settings.tolerance = 0.1;
+    settings.cut_weight = settings.split_weight = 0.02;
     settings.crystal_beams = CrystalBeams::merged;
     settings.effects_auto = false;
     for (const Effects effect : {Effects::dispersion, Effects::polarization, Effects::aperture})

@@ -5,31 +5,14 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/engine/engine.h"
-#include "render/planner/cause_pilot.h"
+#include "render/planner/explain.h"
 #include "render/planner/planner.h"
-#include "render/planner/resolutions.h"
+#include "render/planner/policy.h"
 #include "render/work/work_meter.h"
 
 namespace culet {
 
 namespace {
-
-// Of all effects that are to be drawn; where a crystal's two waves are merged for a try.
-constexpr int k_most_drawings = 7, k_most_merged = 3;
-// What is off by this share still is no better than what was drawn before: then the truth is
-// suspected, whose few rays may be noisier than they look, where noise is such a share of the
-// difference; a smaller one where finding out costs no more than this share of the picture's price.
-constexpr double k_no_better = 0.8, k_suspect = 0.25, k_suspect_cheaply = 0.1,
-                 k_cheap_suspicion = 0.25;
-constexpr int k_more_grids = 2;
-// Of the tolerance, or of what a picture is off by, what effects that were left out may be off by
-// before they come back.
-constexpr double k_misjudged = 0.7;
-// The next step of a check may take this share of the picture's price before a finer one is drawn,
-// which takes longer. After the reference there is no other way.
-constexpr double k_check_share = 1.5, k_last_check_share = 6, k_least_check_ns = 3e7;
-// Of what is left of a limit, what the reference may take before its check.
-constexpr double k_share_for_reference = 0.8;
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -64,29 +47,12 @@ RenderResult Refinement::draw_with(const RenderSettings& settings) {
     return frames_->take();
 }
 
-ErrorEstimate Refinement::held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
-                                             double price, double most_ns, double error_before) {
-    const double tolerance = scene_.settings.tolerance;
-    FrameRenderer* frames = frames_ ? &*frames_ : nullptr;
-    ErrorEstimate estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
-    for (int more = 0; more < k_more_grids && error_before > 0; ++more) {
-        if (estimate.bound <= tolerance || estimate.error() <= k_no_better * error_before) break;
-        const bool cheap = estimator.more_ns() <= k_cheap_suspicion * price;
-        if (estimate.noise < (cheap ? k_suspect_cheaply : k_suspect) * estimate.difference) break;
-        estimator.take_more();
-        estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
-    }
-    return estimate;
-}
-
 // What was left out is known once the truth's own rays have shown it at the pixels of the check.
-bool Refinement::misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
+bool Refinement::misjudged(const ErrorEstimate& estimate, ErrorEstimator& estimator,
                            const RenderSettings& settings, SoFar& so_far) const {
     if (estimate.pixels > so_far.pixels_without) {
         so_far.pixels_without = estimate.pixels;
-        CausePilot pilot(estimator.scene(), settings,
-                         estimator.sample(static_cast<std::size_t>(estimate.pixels)), progress_);
-        so_far.off_without = pilot.without_effects();
+        so_far.off_without = estimator.without_effects(settings.effects, estimate.pixels);
     }
     return so_far.off_without > k_misjudged * std::min(scene_.settings.tolerance, estimate.seen());
 }
@@ -112,11 +78,11 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
     const bool merged = plan.item(name_of(Effects::birefringence)).why == k_merged_waves;
     const int most = merged ? k_most_merged : k_most_drawings;
     std::optional<RefinementLevel> level = levels.first();
-    if (meter->limited() && !drawn_by_beams(level->settings) &&
-        !levels.fit(*level, k_share_for_reference * meter->left()))
-        throw OverAllowance();
+    if (meter->limited() && !drawn_by_beams(level->settings)) {
+        level = levels.within(*level, k_share_of_rest * meter->left());
+        if (!level) throw OverAllowance();
+    }
     so_far.seconds = plan.seconds_planning;
-    double error_before = 0;
     for (int drawing = 1; level; ++drawing) {
         const bool beams = drawn_by_beams(level->settings);
         // What paths take is known well; what beams take they find out.
@@ -129,18 +95,16 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
         const auto start = Clock::now();
         const double share = beams && drawing < most ? k_check_share : k_last_check_share;
         const ErrorEstimate estimate =
-            held_against_truth(result, estimator, level->price_ns,
-                               std::max(k_least_check_ns, share * level->price_ns), error_before);
+            estimator.estimate(result.picture, tolerance, std::max(3e7, share * level->price_ns),
+                               frames_ ? &*frames_ : nullptr);
         const bool blind = beams && levels.may_miss_the_sun(level->settings);
         so_far.near_enough = estimate.bound <= tolerance && !blind;
         std::optional<RefinementLevel> other;
         // Once the work allowed is done, the picture counts as it is.
         if (!so_far.near_enough && !meter->over()) {
             so_far.misjudged = misjudged(estimate, estimator, level->settings, so_far);
-            if (!so_far.misjudged && drawing < most)
-                other = levels.after(*level, estimate, drawing > 1);
+            if (!so_far.misjudged && drawing < most) other = levels.after(*level, estimate);
         }
-        error_before = estimate.error();
         if (blind) estimator.look_elsewhere();
         stats.error_bound = estimate.bound + plan.bound_of_depth;
         stats.checked_pixels = estimate.pixels;
@@ -159,7 +123,7 @@ RefinedPicture Refinement::draw(ScenePlan plan, ErrorEstimator& estimator) {
     if (window.camera.optics.two_windows) window.camera.width /= 2;
     SoFar so_far;
     try {
-        refine(plan, estimator, RefinementLevels(window, plan, estimator, progress_), so_far);
+        refine(plan, estimator, RefinementLevels(window, plan, estimator), so_far);
     } catch (const OverAllowance&) {
         if (!so_far.best) throw;
         so_far.misjudged = false;

@@ -45,9 +45,7 @@ private:
     void refine(const ScenePlan& plan, ErrorEstimator& estimator, const RefinementLevels& levels,
                 SoFar& so_far);
     RenderResult draw_with(const RenderSettings& settings);
-    ErrorEstimate held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
-                                     double price, double most_ns, double error_before);
-    bool misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
+    bool misjudged(const ErrorEstimate& estimate, ErrorEstimator& estimator,
                    const RenderSettings& settings, SoFar& so_far) const;
 
     const Scene& scene_;

@@ -7,6 +7,7 @@
 
 #include "render/engine/engine.h"
 #include "render/planner/pilot_picture.h"
+#include "render/planner/policy.h"
 #include "render/planner/quick_picture.h"
 #include "render/planner/wavelengths.h"
 #include "render/reference/prepared_scene.h"
@@ -16,19 +17,6 @@
 namespace culet {
 
 namespace {
-
-// The first tolerance, and what the next one is of what was reached, at the finest: at another
-// tolerance a picture is another one, with two waves instead of one, or lights looked for. What
-// that takes cannot be told from far away. Steps that would gain less than the last are not made.
-constexpr double k_first_tolerance = 0.2, k_finer = 2, k_least_step = 1.25;
-// Work rises about as so a power of one over the tolerance.
-constexpr double k_power = 1.5;
-// Of what is left, what the next picture, or the rays, may take by what is known.
-constexpr double k_share_of_rest = 0.8;
-
-constexpr int k_counted_pixels = 256, k_first_samples = 16, k_most_samples = 4096;
-// Guesses from the one before: rays share the wavelengths, so that work is not in proportion.
-constexpr int k_most_guesses = 4;
 
 // Spread evenly (Roberts 2018, R2).
 StonePixels some_pixels(const Camera& camera) {
@@ -60,18 +48,19 @@ Pilot pilot_with(Scene scene, int samples, const Progress& progress) {
             drawing.few_rays / k_halves_over_noise};
 }
 
-// 0: not even one.
+// 0: not even one. Each guess from the one before: rays share the wavelengths, so that work is not
+// in proportion.
 int samples_within(const Scene& scene, double allowed_ns, const Progress& progress) {
-    int samples = k_first_samples, within = 0;
-    for (int guess = 0; guess < k_most_guesses; ++guess) {
+    int samples = 16, within = 0;
+    for (int guess = 0; guess < 4; ++guess) {
         const Pilot pilot = pilot_with(scene, samples, progress);
         if (pilot.ns <= allowed_ns) within = std::max(within, samples);
         // The mean of random rays is off by one over the root of their number; a single one does
         // not tell. Without noise there are edges still.
         const double enough =
-            samples > 1 ? std::max(samples * std::pow(pilot.noise / scene.settings.tolerance, 2),
-                                   static_cast<double>(k_first_samples))
-                        : k_most_samples;
+            samples > 1
+                ? std::max(samples * std::pow(pilot.noise / scene.settings.tolerance, 2), 16.0)
+                : k_most_samples;
         const double likely = std::min(
             {samples * allowed_ns / pilot.ns, enough, static_cast<double>(k_most_samples)});
         // A square number is a regular grid.
@@ -116,9 +105,9 @@ RenderResult draw_within_allowance(const Scene& scene, const Progress& progress,
         const double left = allowed - spent, reached = std::max(bound, finest);
         if (!(bound <= tolerance && left > 0)) break;
         const double affordable =
-            reached * std::pow(std::max(took, 1.0) / (k_share_of_rest * left), 1 / k_power);
-        tolerance = std::max({reached / k_finer, affordable, finest});
-        more = (tolerance == finest && reached > finest) || reached / tolerance >= k_least_step;
+            reached * std::pow(std::max(took, 1.0) / (k_share_of_rest * left), 1 / k_power_of_work);
+        tolerance = std::max({reached / 2, affordable, finest});
+        more = (tolerance == finest && reached > finest) || reached / tolerance >= 1.25;
     }
     if (!best) {
         // Not even a coarse one: as coarse as it gets, and nobody knows how near.

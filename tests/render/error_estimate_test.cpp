@@ -15,7 +15,6 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
-#include "render/planner/cause_pilot.h"
 #include "render/planner/check_pixels.h"
 #include "render/planner/light_edge_scan.h"
 #include "render/planner/planner.h"
@@ -364,60 +363,40 @@ TEST(ErrorEstimate, SaysWhatWasLeftOutWhereThePilotMissedIt) {
     EXPECT_GT(most, 50 * sum / static_cast<double>(pixels));
 }
 
-// A pilot at the estimate's pixels against all pixels of the stone, drawn with the same choice by
-// the very rays: means of few pixels are off by three of their standard errors at most, which the
-// spread of so many checks' pixels tells.
-TEST(CausePilot, FindsWhatSingleChoicesAreOffBy) {
+// At the estimate's pixels against all pixels of the stone, drawn without the same effect: means of
+// few pixels are off by three of their standard errors at most. Glints make single pixels differ by
+// about twice their mean.
+TEST(ErrorEstimate, FindsWhatEffectsThatAreLeftOutChange) {
     const Progress quiet;
-    Scene scene = plan_scene_of("diamond", "princess", "lamp", 100).scene;
+    Scene scene = plan_scene_of("garnet_almandine", "princess", "lamp", 100).scene;
     scene.settings.tolerance = 0.1;
     scene.settings.effects_auto = true;
+    Scene without = scene;
+    without.settings.effects_auto = false;
+    without.settings.effects.fill(true);
+    without.settings.effects[static_cast<std::size_t>(Effects::absorption)] = false;
+    without.settings.engine = "preview";
+    without.settings.wavelengths_nm = even_wavelengths(3);
+    const Picture picture = FrameRenderer(without).draw().picture;
     const StonePixels all = all_stone_pixels(scene);
     ErrorEstimator estimator(scene, all, scene.settings.tolerance, quiet);
-    RenderSettings drawn = scene.settings;
-    drawn.effects_auto = false;
-    drawn.effects.fill(true);
-    drawn.effects[static_cast<std::size_t>(Effects::polarization)] = false;
-    drawn.engine = "preview";
-    Scene preview = scene;
-    preview.settings = drawn;
-    preview.settings.wavelengths_nm = even_wavelengths(3);
-    const Picture picture = FrameRenderer(preview).draw().picture;
     // A bound that is asked to be a little smaller each time takes more pixels.
-    double bound = 1e9;
-    while (estimator.sample(100000).truth.size() < 192)
-        bound = estimator.estimate(picture, 0.95 * bound, 1e10).bound;
-    const CheckedSample some = estimator.sample(100000);
-    ASSERT_GE(some.truth.size(), 192u);
-    EXPECT_EQ(estimator.sample(50).truth.size(), 50u);
-    CausePilot pilot(estimator.scene(), drawn, some, quiet);
+    ErrorEstimate estimate = estimator.estimate(picture, 1e9, 1e12);
+    for (int more = 0; more < 20 && estimate.pixels < 192; ++more)
+        estimate = estimator.estimate(picture, 0.95 * estimate.bound, 1e12);
+    ASSERT_GE(estimate.pixels, 192);
+    const double found = estimator.without_effects(without.settings.effects, estimate.pixels);
 
-    // The same of every pixel, each once.
-    CheckedSample whole = some;
-    whole.pixels = all;
-    whole.counts.assign(all.at.size(), 1.0);
-    Scene turns = estimator.scene();
-    turns.settings.wavelength_turns = turns_for(some.rays, some.nodes);
-    whole.truth = draw_pilot(turns, all, some.limits, some.rays, some.nodes).rgb;
-    whole.noise = some.noise;
-    CausePilot truth(estimator.scene(), drawn, whole, quiet);
-    const double spread = 3 / std::sqrt(static_cast<double>(some.truth.size()));
-    const auto near = [spread](double found, double expected, double noise) {
-        // Glints make single pixels differ by about twice their mean.
-        EXPECT_NEAR(found, expected, 2 * spread * std::hypot(expected, noise));
-    };
-    near(pilot.at_cut(0.1), truth.at_cut(0.1), 0);
-    near(pilot.at_cut(0.01), truth.at_cut(0.01), 0);
-    near(pilot.at_wavelengths(even_wavelengths(3)), truth.at_wavelengths(even_wavelengths(3)),
-         some.noise);
-    near(pilot.without_effects(), truth.without_effects(), some.noise);
-    EXPECT_GT(truth.at_cut(0.1), 2 * truth.at_cut(0.01));
-    // By the truth's own cut and wavelengths the rays are the truth's.
-    EXPECT_EQ(pilot.at_cut(pilot.least_cut()), 0);
-    EXPECT_EQ(pilot.at_wavelengths(even_wavelengths(pilot.wavelengths())), 0);
-    drawn.effects.fill(true);
-    drawn.effects[static_cast<std::size_t>(Effects::coherence)] = false;
-    EXPECT_EQ(CausePilot(estimator.scene(), drawn, some, quiet).without_effects(), 0)
+    without.settings.wavelengths_nm.clear();
+    PathLimits limits;
+    limits.depth = k_deepest;
+    limits.cut_weight = 1e-3;
+    const auto drawn = [&](const Scene& which) { return draw_pilot(which, all, limits, 16).rgb; };
+    const double expected = colour_error(drawn(without), drawn(scene)).radiance;
+    EXPECT_GT(expected, 0.1) << "it is worth looking for";
+    EXPECT_NEAR(found, expected, 6 / std::sqrt(estimate.pixels) * expected + 0.5 * estimate.noise);
+    without.settings.effects.fill(true);
+    EXPECT_EQ(estimator.without_effects(without.settings.effects, estimate.pixels), 0)
         << "nothing is left out";
 }
 

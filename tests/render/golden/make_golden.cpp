@@ -1,15 +1,21 @@
 // Makes the pictures anew that golden_test.cpp holds others against. Look at them before they are
-// committed.
+// committed. Arguments: only these scenes, by auto alone.
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
 #include "tests/render/golden/golden_picture.h"
 
-int main() {
+int main(int argc, char** argv) {
     using namespace culet::test;
     constexpr std::uint64_t k_pictures = 16, k_first_seed = 101;
     for (const std::string& scene : golden_scenes()) {
+        const bool named = std::find(argv + 1, argv + argc, scene) != argv + argc;
+        if (argc > 1 && !named) continue;
         for (const char* engine : {"auto", "reference"}) {
+            if (argc > 1 && engine == std::string("reference")) continue;
             std::vector<culet::Picture> pictures;
             for (std::uint64_t k = 0; k < k_pictures; ++k)
                 pictures.push_back(drawn(scene, engine, k_first_seed + k));
