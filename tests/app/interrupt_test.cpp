@@ -82,8 +82,9 @@ TEST_F(Interrupt, EveryEngineEndsSoon) {
 TEST_F(Interrupt, WhatIsPlannedEndsSoon) {
     for (const std::string scene : {"scene.toml", "map.toml", "crystal.toml"}) {
         for (const double stop_at : {0.4, 1.0, 3.0}) {
+            // Takes half a minute: no picture is done before the last stop.
             expect_soon({"render", file(scene), "-o", file("picture.exr"), "--set",
-                         "camera.size=[400,400]"},
+                         "camera.size=[400,400]", "--tolerance", "0.003"},
                         stop_at);
         }
     }
