@@ -98,7 +98,7 @@ void Symmetries::add_extras(const std::vector<Reading>& readings, Shape& shape) 
     first_extra_.assign(readings.size(), -1);
     for (std::size_t r = 0; r < readings.size(); ++r) {
         const Reading& reading = readings[r];
-        if (reading.kind != ReadingKind::rotation && reading.kind != ReadingKind::mirror) continue;
+        if (!is_symmetry(reading)) continue;
         first_extra_[r] = static_cast<int>(shape.extras.size());
         if (reading.kind == ReadingKind::rotation) {
             shape.extras.insert(shape.extras.end(), {0.0, 0.0});
