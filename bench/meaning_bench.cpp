@@ -247,7 +247,7 @@ int main(int argc, char** argv) {
             }
             const Photo photo = photographed(stone, camera, seed_of(seed, 556, draw));
             CameraModel seen = options.camera;
-            const AlignedPair pair = aligned(photo, {}, picture, {.largest = options.largest});
+            const AlignedPair pair = aligned(photo, picture, options.largest);
             if (pair.enough()) set_blur_and_noise(seen, pair.pictures);
             trials.push_back({kind, sigma, own, kind == "right", photo, seen, camera, {}, {}});
         };

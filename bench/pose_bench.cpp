@@ -47,14 +47,13 @@ void print(const Trial& trial, const std::string& label) {
     const FoundPose& pose = trial.pose;
     fmt::print(
         "{}  off {:6.3f} deg (99 % {:.3f}) {:5.2f} px ({:.2f}) scale {:+.4f}  outline {:.2f} crown "
-        "{:.2f} px z {:4.1f} met {}/{} {:.2f} chance {:.2f} odds {:.1f} misfit {:.2f} by-edges "
+        "{:.2f} px z {:4.1f} met {}/{} chance {:.2f} odds {:.1f} misfit {:.2f} by-edges "
         "{:.3f} by-groups {:.3f} facets {:.3f} {:.4f} D {:.0f}  {:.1f} s {} {}{}\n",
         label, trial.angle, degrees(pose.sigmas.angle_99), trial.shift, pose.sigmas.shift_99_px,
         trial.scale, pose.outline_px, pose.crown_px, pose.support_z, pose.evidence.met,
-        pose.evidence.looked, pose.evidence.met_share, pose.evidence.chance_share,
-        pose.evidence.log_odds, pose.evidence.misfit, degrees(pose.angle_by_edges),
-        degrees(pose.angle_by_groups), degrees(pose.facet_error), pose.facet_offset,
-        pose.diameter_px, trial.seconds,
+        pose.evidence.looked, pose.evidence.chance_share, pose.evidence.log_odds,
+        pose.evidence.misfit, degrees(pose.angle_by_edges), degrees(pose.angle_by_groups),
+        degrees(pose.facet_error), pose.facet_offset, pose.diameter_px, trial.seconds,
         trial.wrong     ? "WRONG"
         : !trial.usable ? "refused"
         : trial.held    ? "held"
@@ -70,13 +69,13 @@ void print(const Trial& trial, const std::string& label) {
 }
 
 Trial one_trial(const Settings& settings, Fault fault, int seed) {
-    const PosePhotograph made = pose_photograph(settings.photographs, seed, fault);
+    PosePhotograph made = pose_photograph(settings.photographs, seed, fault);
     PoseOptions options;
     options.threads = settings.photographs.threads;
     options.both_chiralities = fault == Fault::mirrored;
     if (settings.limit_deg > 0) options.limits.angle = radians(settings.limit_deg);
     if (settings.limit_px > 0) options.limits.shift_px = settings.limit_px;
-    if (settings.with_mask) options.mask = made.coverage;
+    if (settings.with_mask) made.photo.mask = made.coverage;
     const double before = clocks().cpu;
     Trial trial;
     trial.pose = find_pose(made.photo, made.model, made.start, options);

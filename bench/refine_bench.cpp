@@ -193,7 +193,6 @@ void run(const Options& o, int seed) {
         const Photo drawn = o.exact > 0 ? renderer.draw_exactly(shot, o.exact) : renderer.picture();
         photographs.push_back({fmt::format("photo-{}", k),
                                photographed(drawn, camera, std::uint64_t(10 * seed + k)),
-                               {},
                                o.true_pose ? std::optional(shot.camera) : std::nullopt});
     }
     const FitInput input = input_of(*read, o.deg);

@@ -1,5 +1,5 @@
 // Compares a photograph with a render of the same stone: compare PHOTO RENDER.exr
-#include "compare/scores/compare.h"
+#include "compare/calibration/picture_comparison.h"
 
 #include <cstdio>
 #include <exception>

@@ -153,11 +153,9 @@ Witness witness_of(const RefinePhotograph& given, const Scene& scene, const Refi
     return of_photograph(given.name, [&] {
         Scene own = scene;
         if (given.camera) own.camera = *given.camera;
-        const Scene posed =
-            photograph_scene(given.photo, given.mask, own, options.find_pose && !given.camera,
-                             options.threads, progress);
-        Witness witness{
-            &given, PhotographEvidence(given.photo, given.mask, posed, options.threads), {}, {}};
+        const Scene posed = photograph_scene(given.photo, own, options.find_pose && !given.camera,
+                                             options.threads, progress);
+        Witness witness{&given, PhotographEvidence(given.photo, posed, options.threads), {}, {}};
         witness.finding.rms_before = witness.evidence.fit_of(scene.stone.solid).rms;
         witness.reading.id = given.name;
         witness.reading.kind = ReadingKind::photograph;

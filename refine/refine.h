@@ -20,7 +20,6 @@ namespace culet {
 struct RefinePhotograph {
     std::string name;  ///< its reading's id
     Photo photo;
-    std::vector<float> mask = {};  ///< as for `align`; empty: found in the picture
     /// Where it was taken from, in the scene; none: near the scene's camera.
     std::optional<Camera> camera = {};
 };

@@ -7,13 +7,12 @@
 #include "app/program/file_kinds.h"
 #include "app/program/report_viewer.h"
 #include "app/program/terminal.h"
+#include "compare/calibration/picture_comparison.h"
 #include "compare/calibration/scene_comparison.h"
 #include "compare/calibration/several.h"
-#include "compare/calibration/within_readings.h"
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
 #include "compare/report/several_page.h"
-#include "compare/scores/compare.h"
 #include "render/scene/scene_io.h"
 #include "stone/solid_input.h"
 #include "stone/text/errors.h"
@@ -50,21 +49,8 @@ private:
     bool made_ = false;
 };
 
-// Masks of what is left out, one upon the other.
-std::vector<float> ignored_of(const std::vector<std::string>& files, const Photo& photo) {
-    std::vector<float> all;
-    for (const std::string& file : files) {
-        const std::vector<float> mask = read_mask(file, photo.width, photo.height);
-        if (all.empty()) all.resize(mask.size(), 0.0f);
-        for (std::size_t i = 0; i < mask.size(); ++i) all[i] = std::max(all[i], mask[i]);
-    }
-    return all;
-}
-
-CompareOptions options_of(const CompareArguments& a, const Photo& photo) {
+CompareOptions options_of(const CompareArguments& a) {
     CompareOptions options;
-    if (!a.mask.empty()) options.mask = read_mask(a.mask, photo.width, photo.height);
-    options.ignored = ignored_of(a.ignored, photo);
     options.simulated = a.simulated;
     options.seed = a.common.seed;
     options.threads = a.common.threads;
@@ -96,10 +82,11 @@ Report report_of(const CompareArguments& a, const std::string& photo, const Comp
 }
 
 Compared compare_with_render(const CompareArguments& a, const std::string& version) {
-    const Photo photo = read_photo(a.pictures.front()), render = read_photo(a.against());
+    const Photo photo = read_photo(a.pictures.front(), a.mask, a.ignored),
+                render = read_photo(a.against());
     Compared result;
-    result.comparison = compare_with_bands(photo, render, options_of(a, photo),
-                                           progress_line("comparing", a.common.quiet));
+    result.comparison =
+        compare(photo, render, options_of(a), progress_line("comparing", a.common.quiet));
     result.json = scores_json(result.comparison, {a.pictures.front(), a.against(), a.mask});
     result.report = report_of(a, a.pictures.front(), result.comparison, result.json, version);
     return result;
@@ -114,9 +101,9 @@ struct SceneExtras {
 Compared compare_with_scene(const CompareArguments& a, const std::string& photo_file,
                             const Scene& scene, const SceneExtras& extras,
                             const std::string& version) {
-    const Photo photo = read_photo(photo_file);
+    const Photo photo = read_photo(photo_file, a.mask, a.ignored);
     SceneCompareOptions options;
-    options.compare = options_of(a, photo);
+    options.compare = options_of(a);
     options.find_pose = !a.keep_pose;
     options.calibrate = a.calibrate;
     options.budget_seconds = a.budget;

@@ -49,11 +49,8 @@ std::vector<RefinePhotograph> photographs_of(const RefineArguments& a) {
         while (!names.insert(name).second) name += "'";
         RefinePhotograph& photograph = photographs.emplace_back();
         photograph.name = name;
-        photograph.photo = read_photo(a.files[i]);
+        photograph.photo = read_photo(a.files[i], a.masks.empty() ? "" : a.masks[i - 1]);
         say_notes(a.files[i], photograph.photo.notes, a.common.quiet);
-        if (a.masks.empty()) continue;
-        photograph.mask =
-            read_mask(a.masks[i - 1], photograph.photo.width, photograph.photo.height);
     }
     return photographs;
 }

@@ -28,9 +28,8 @@ struct RegisterArguments {
     bool mirrored = false, not_mirrored = false;
 };
 
-PoseOptions options_of(const RegisterArguments& a, const Photo& photo) {
+PoseOptions options_of(const RegisterArguments& a) {
     PoseOptions options;
-    if (!a.mask.empty()) options.mask = read_mask(a.mask, photo.width, photo.height);
     options.facet_error = radians(a.facet_error_deg);
     options.search = radians(a.search_deg);
     options.focal_error = a.focal_error / 100;
@@ -74,10 +73,10 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
 int run_register(const RegisterArguments& a) {
     require_kind(a.photo, {FileKind::picture}, "culet register", {});
     require_kind(a.scene, {FileKind::scene}, "culet register", a.common.set);
-    const Photo photo = read_photo(a.photo);
+    const Photo photo = read_photo(a.photo, a.mask);
     say_notes(a.photo, photo.notes, a.common.quiet);
     const Scene scene = read_scene(a.scene, a.common.set);
-    const PoseOptions options = options_of(a, photo);
+    const PoseOptions options = options_of(a);
     for (const std::string& file : {a.out, a.overlay, a.json}) require_writable(file);
     const FoundPose pose = find_pose(photo, scene.stone.solid, scene.camera, options,
                                      progress_line("registering", a.common.quiet));

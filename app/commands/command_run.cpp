@@ -10,10 +10,10 @@
 #include "app/program/options.h"
 #include "app/program/report_viewer.h"
 #include "app/program/terminal.h"
+#include "compare/calibration/picture_comparison.h"
 #include "compare/photo/rendered_photo.h"
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
-#include "compare/scores/compare.h"
 #include "fit/fit.h"
 #include "render/image/exposure.h"
 #include "render/image/image_io.h"
@@ -114,11 +114,8 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
         if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_allowance_ns;
     }
     if (!job.photo.empty()) {
-        input.photo = read_photo(job.photo);
+        input.photo = read_photo(job.photo, job.mask);
         if (!job.picture.empty()) input.picture = read_photo(job.picture);
-        if (!job.mask.empty()) {
-            input.compare_options.mask = read_mask(job.mask, input.photo.width, input.photo.height);
-        }
         input.compare_options.simulated = job.simulated;
         input.compare_options.seed = common.seed;
     }

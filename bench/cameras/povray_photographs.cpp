@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
                     Scene plain = scene;
                     plain.lights = synthetic::named_lights("ring");
                     plain.settings.engine = "preview";
-                    options.mask = render(plain).picture.coverage;
+                    photo.mask = render(plain).picture.coverage;
                 }
                 const Camera start = synthetic::disturbed(
                     scene.camera, sitter.model, radians(uniform(0, 30)), uniform(0.8, 1.2), random);

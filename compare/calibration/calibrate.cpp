@@ -9,8 +9,7 @@
 #include "compare/calibration/chance.h"
 #include "compare/calibration/other_worlds.h"
 #include "compare/calibration/photo_blur.h"
-#include "compare/scores/aligned_pair.h"
-#include "compare/scores/score_list.h"
+#include "compare/scores/scored_pair.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -55,15 +54,18 @@ CalibrationDraw Draws::photograph(const WorldDraw& job, const Photo& stone,
     }
     const Photo& soft_picture = soft_pictures_[which];
     const auto seed = seed_of(job.seed, 11, static_cast<std::uint64_t>(1e4 * job.facet_error_deg));
-    const Photo photo = photographed(stone, camera, seed);
-    result.scores = calibration_scores(photo, soft_picture, options_);
+    const auto taken = [&] {
+        Photo photo = photographed(stone, camera, seed);
+        photo.ignored = options_.ignored;
+        return calibration_scores(photo, soft_picture, options_);
+    };
+    result.scores = taken();
     const bool none = std::none_of(result.scores.begin(), result.scores.end(),
                                    [](const auto& s) { return s.has_value(); });
     if (none && camera.outline_from_background) {
         // Too dark at its border to be found there: told by the coverage instead.
         camera.outline_from_background = false;
-        result.scores =
-            calibration_scores(photographed(stone, camera, seed), soft_picture, options_);
+        result.scores = taken();
     }
     return result;
 }
@@ -77,25 +79,19 @@ std::vector<CalibrationDraw> Draws::draw(const WorldDraw& job) const {
 
 }  // namespace
 
-std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
-                                  const Photo& soft_picture, const Alignment& how,
+std::vector<Score> scores_against(const Photo& photo, const Photo& soft_picture, double largest,
                                   const FacetTilts* tilts) {
-    const AlignedPair pair = aligned(photo, mask, soft_picture, how);
+    const AlignedPair pair = aligned(photo, soft_picture, largest);
     if (!pair.enough()) return {};
-    const MatchedPictures part = part_of(pair.pictures, part_to_score(pair.pictures));
-    const WaveletBank wavelets = wavelet_bank(part.mask.size(), part.diameter);
-    Measures measures = measures_of(part, wavelets);
-    measures.calibrating = true;
-    if (tilts != nullptr) measures.facet_error_deg = tilts->facet_error_deg(pair);
-    return scores_of(measures);
+    CalibratedScoring calibrated;
+    if (tilts != nullptr) calibrated.facet_error_deg = tilts->facet_error_deg(pair);
+    return scores_of(MeasuredPair(pair, &calibrated).measures);
 }
 
 std::vector<std::optional<double>> calibration_scores(const Photo& photo, const Photo& soft_picture,
                                                       const CalibrateOptions& options) {
     std::vector<std::optional<double>> values;
-    for (const Score& score :
-         scores_against(photo, {}, soft_picture,
-                        {.largest = options.largest, .ignored = options.ignored}, options.tilts)) {
+    for (const Score& score : scores_against(photo, soft_picture, options.largest, options.tilts)) {
         values.push_back(score.value);
     }
     if (values.empty()) values.resize(score_kinds().size());

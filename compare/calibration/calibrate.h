@@ -24,7 +24,7 @@ struct CalibrateOptions {
     double view_sigma = 0;  ///< as in WorldsAsked
     std::uint64_t seed = 1;
     int threads = 0;       ///< 0: all processors; the result does not depend on it
-    double largest = 256;  ///< as in `Alignment`
+    double largest = 256;  ///< as for `aligned`
     /// In the frame of the model's picture; over a half is left out. Empty: nothing is.
     std::vector<float> ignored{};
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
@@ -53,8 +53,7 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
 /// nulls; without `tilts` theirs is missing. The picture must be as soft as the photograph
 /// (photo_blur.h): against a sharp one the blur alone outweighs facet errors under a tenth of a
 /// degree.
-std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
-                                  const Photo& soft_picture, const Alignment& how,
+std::vector<Score> scores_against(const Photo& photo, const Photo& soft_picture, double largest,
                                   const FacetTilts* tilts);
 
 /// The scores of one photograph against the model's picture, softened by the camera's point spread,

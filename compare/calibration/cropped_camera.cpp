@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/registration/frame.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -83,6 +84,12 @@ Camera cropped_to_stone(const Camera& camera, const Solid& solid, double diamete
         result.fov = 2 * std::atan(half);
     }
     return result;
+}
+
+Camera camera_for(const Photo& photo, const Camera& camera, const Solid& solid, double largest) {
+    const double across = stone_diameter_px(photo);
+    return cropped_to_stone(camera, solid, across > 0 ? std::min(across, largest) : largest,
+                            k_stone_margin);
 }
 
 }  // namespace culet

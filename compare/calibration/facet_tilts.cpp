@@ -6,12 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "compare/calibration/facet_error.h"
-#include "compare/calibration/photo_blur.h"
-#include "compare/calibration/stone_samples.h"
-#include "compare/photo/resampling.h"
 #include "stone/numbers/units.h"
 #include "stone/solid/checks.h"
 #include "stone/text/errors.h"
@@ -25,61 +21,47 @@ namespace {
 constexpr double k_step_deg = 0.15;
 // Of the root of light, beside what is not straight: 10000 electrons make 0.005 of noise in it.
 constexpr double k_least_noise = 0.01;
+constexpr double k_blur = k_sample_blur * k_samples_across;
 
 }  // namespace
 
 cv::Mat FacetTilts::seen_finely(const Photo& picture, double psf_px) const {
-    return fine_picture(picture, camera_, psf_px, k_sample_blur * k_samples_across / reduction_);
+    return samples_.fine_picture(picture, camera_, psf_px, k_blur);
 }
 
 cv::Mat FacetTilts::at_samples(const Photo& picture) const {
-    return resampled(seen_finely(picture, camera_.psf_px), first_rows(model_from_sample_),
-                     mask_.size(), Kernel::cubic, Beyond::nearest);
+    return samples_.at_samples(seen_finely(picture, camera_.psf_px));
 }
 
-std::optional<Photo> FacetTilts::lay_samples(const Scene& model, const Scene& small,
-                                             const DraftRenderer& renderer,
-                                             const CameraModel& camera) {
-    camera_ = camera;
-    reduction_ = sample_reduction(model);
-    model_from_sample_ = model_from_samples(model, small);
-    std::optional<Photo> first = renderer.sketch(small);
-    if (!first) return std::nullopt;
-    cv::Mat distance;
-    cv::distanceTransform(inside_of(*first), distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-    mask_ = distance > k_inside * k_samples_across;
-    if (cv::countNonZero(mask_) < AlignedPair::k_least_pixels) return std::nullopt;
+bool FacetTilts::lay_samples(const Scene& model, const DraftRenderer& renderer) {
+    if (!is_convex(model.stone.solid)) return false;
+    samples_ = StoneSamples(model, renderer);
+    if (!samples_.sketch) return false;
+    mask_ = samples_.outline_distance > k_inside * k_samples_across;
+    if (cv::countNonZero(mask_) < AlignedPair::k_least_pixels) return false;
     // Of the picture itself, not of its sketch.
     picture_ = at_samples(renderer.picture());
-    return first;
+    return true;
 }
 
 FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
-                       TiltVariance kept) {
-    if (!is_convex(model.stone.solid)) return;
-    lay_samples(model, sampled_scene(model), renderer, camera);
+                       TiltVariance kept)
+    : camera_(camera) {
+    if (!lay_samples(model, renderer)) return;
     if (static_cast<std::size_t>(cv::countNonZero(mask_)) == kept.samples()) {
         variance_ = std::move(kept);
     }
 }
 
 FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
-                       int threads, const Progress& progress) {
+                       int threads, const Progress& progress)
+    : camera_(camera) {
+    if (!lay_samples(model, renderer)) return;
     const Solid& solid = model.stone.solid;
-    if (!is_convex(solid)) return;
-    const Scene small = sampled_scene(model);
-    const auto first = lay_samples(model, small, renderer, camera);
-    if (!first) return;
-    CameraModel reduced = camera;
-    reduced.psf_px *= reduction_;
-    // What is outside is another's ground.
-    const cv::Mat inside = inside_of(*first);
     const auto seen = [&](const Photo& sketch) {
-        cv::Mat root = root_light(exposed(sketch, reduced), 1);
-        root.setTo(0, ~inside);
-        return softened(root, k_sample_blur * k_samples_across);
+        return samples_.sketched(sketch, camera_, k_blur);
     };
-    const cv::Mat untilted = seen(*first);
+    const cv::Mat untilted = seen(*samples_.sketch);
     const std::size_t tilts = 2 * solid.facets.size();
     TiltModel parts;
     parts.changes.resize(tilts);
@@ -87,7 +69,7 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     const auto column = [&](std::size_t tilt) {
         cv::Mat either[2];
         for (const int side : {0, 1}) {
-            Scene scene = small;
+            Scene scene = samples_.scene;
             const auto solid_there = with_facet_tilted(solid, tilt / 2, static_cast<int>(tilt % 2),
                                                        radians(side ? -k_step_deg : k_step_deg));
             if (solid_there) scene.stone.solid = *solid_there;
@@ -111,7 +93,7 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     for (double& n : parts.noise) n = std::sqrt(n);
     const cv::Mat fine = seen_finely(renderer.picture(), camera.psf_px),
                   softer = seen_finely(renderer.picture(), k_softer * camera.psf_px);
-    for (const cv::Mat& nuisance : nuisances_of(fine, softer, model_from_sample_, mask_.size())) {
+    for (const cv::Mat& nuisance : nuisances_of(fine, softer, samples_)) {
         parts.nuisances.push_back(samples_of(nuisance, mask_));
     }
     variance_ = TiltVariance(parts);
@@ -120,15 +102,10 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
 std::optional<double> FacetTilts::facet_error_deg(const AlignedPair& pair,
                                                   const Photo* picture) const {
     if (!usable() || !pair.enough()) return std::nullopt;
-    const MatchedPictures& pictures = pair.pictures;
-    const cv::Mat seen =
-        softened(root_light(pictures.photo, pictures.white), k_sample_blur * pictures.diameter);
-    const cv::Matx23d close_up_from_sample =
-        first_rows(close_up_from_model(pair.frame) * model_from_sample_);
-    cv::Mat difference =
-        resampled(seen, close_up_from_sample, mask_.size(), Kernel::cubic, Beyond::nearest) -
-        (picture != nullptr ? at_samples(*picture) : picture_);
-    difference.setTo(0, resampled_mask(pictures.mask, close_up_from_sample, mask_.size()) == 0);
+    const SampledPhoto photo(pair, samples_);
+    cv::Mat difference = photo.at_samples(mask_.size(), k_sample_blur) -
+                         (picture != nullptr ? at_samples(*picture) : picture_);
+    photo.keep_usable(difference);
     // Each of a facet's two tilts has half the facet error's variance.
     const auto rms = variance_.rms(samples_of(difference, mask_));
     return rms ? std::optional(std::sqrt(2.0) * *rms) : std::nullopt;

@@ -7,8 +7,8 @@
 
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/simulated_camera.h"
+#include "compare/calibration/stone_samples.h"
 #include "compare/calibration/tilt_variance.h"
-#include "compare/scores/aligned_pair.h"
 #include "stone/progress/progress.h"
 
 namespace culet {
@@ -53,19 +53,16 @@ public:
                                           const Photo* picture = nullptr) const;
 
 private:
-    /// Where the samples lie, and the model's picture there; its first sketch, nothing when there
-    /// is nothing to be told.
-    std::optional<Photo> lay_samples(const Scene& model, const Scene& small,
-                                     const DraftRenderer& renderer, const CameraModel& camera);
+    /// The model's picture on its samples; false when there is nothing to be told.
+    bool lay_samples(const Scene& model, const DraftRenderer& renderer);
 
-    /// A picture through a lens, as fine as it is drawn; the same at the samples' places.
+    /// A picture through a lens, as fine as it is drawn.
     cv::Mat seen_finely(const Photo& picture, double psf_px) const;
     cv::Mat at_samples(const Photo& picture) const;
 
-    cv::Matx33d model_from_sample_;  // pixels' centres at whole numbers
-    cv::Mat mask_;                   // CV_8U: the samples
+    StoneSamples samples_;
+    cv::Mat mask_;  // CV_8U: those that are used
     CameraModel camera_;
-    double reduction_ = 1;
     cv::Mat picture_;  // CV_32F: the model's picture at the samples' places, as the camera sees it
     TiltVariance variance_;
 };

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double k_searched_across =
     160;  // pixels of the stone: what is blurred by 2 % needs no more
-constexpr double k_searched_margin = 0.18;
 // Reflexes a few degrees off still overlap where both are blurred by 4 % of the diameter; the last
 // steps look at finer ones.
 constexpr double k_wide_blur = 0.04, k_fine_blur = 0.02;
@@ -61,10 +60,8 @@ private:
     double agreement(const Camera& camera, double blur) const {
         Scene scene = scene_;
         scene.camera =
-            cropped_to_stone(camera, scene.stone.solid, k_searched_across, k_searched_margin);
-        const AlignedPair pair =
-            aligned(photo_, search_.mask, renderer_.draw(scene),
-                    {.largest = k_searched_across, .ignored = search_.ignored});
+            cropped_to_stone(camera, scene.stone.solid, k_searched_across, k_stone_margin);
+        const AlignedPair pair = aligned(photo_, renderer_.draw(scene), k_searched_across);
         if (!pair.enough()) return -1;
         return zncc(pair.pictures, blur).value_or(-1);
     }

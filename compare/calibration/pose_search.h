@@ -11,9 +11,7 @@
 namespace culet {
 
 struct PoseSearch {
-    double reach = 0;              ///< radians that the view may be off by
-    std::vector<float> mask{};     ///< of the photograph, as for `aligned`
-    std::vector<float> ignored{};  ///< likewise
+    double reach = 0;  ///< radians that the view may be off by
     int threads = 0;
 };
 

@@ -28,7 +28,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_margin = 0.18;                               // of the diameter, around the stone
 constexpr double k_tolerance = 0.03;                            // of the pictures that are compared
 constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;  // of the progress: their ends
 constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // of the calibration's
@@ -73,8 +72,7 @@ std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
 // photograph and in its calibration.
 void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& photo,
                         const DraftRenderer& fine, double allowed_ns, double view_sigma,
-                        const SceneCompareOptions& options, const CompareOptions& how,
-                        const Progress& progress) {
+                        const SceneCompareOptions& options, const Progress& progress) {
     Scene model = with_coarse_environment(result.scene);
     const CalibrationPlan plan =
         plan_calibration(model, fine, options.draws, allowed_ns, photo.photometric);
@@ -85,8 +83,8 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
     calibration.draws = plan.rounds;
     calibration.null_draws = 3 * plan.rounds;
     calibration.view_sigma = view_sigma;
-    calibration.seed = how.seed;
-    calibration.threads = how.threads;
+    calibration.seed = options.compare.seed;
+    calibration.threads = options.compare.threads;
     calibration.largest = options.largest;
     calibration.ignored = ignored_in_model(pair.frame, result.render);
     calibration.start = options.start;
@@ -103,7 +101,7 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
     pair = with_render(std::move(pair), softened(result.render, camera.psf_px));
     const CalibratedScoring scoring{camera.psf_px, tilts.facet_error_deg(pair, &result.render)};
     Comparison& comparison = result.comparison;
-    comparison = scored(pair, photo, result.render, how,
+    comparison = scored(pair, photo, result.render, options.compare,
                         part_of(progress, k_bar_for_tilts, k_bar_for_scores), &scoring);
 
     Calibration made = kept ? std::move(kept->calibration)
@@ -138,9 +136,8 @@ struct Standpoint {
 void search_further(const Photo& photo, const Scene& scene, const SceneCompareOptions& options,
                     SceneComparison& result, Standpoint& stand, const Progress& progress) {
     FoundPose& pose = *result.pose;
-    const double across = std::min(options.largest, stone_diameter_px(photo, options.compare.mask));
     Scene model = with_coarse_environment(scene);
-    model.camera = cropped_to_stone(pose.camera, model.stone.solid, across, k_margin);
+    model.camera = camera_for(photo, pose.camera, model.stone.solid, options.largest);
     const DraftRenderer renderer =
         DraftRenderer(model, k_search_tolerance, k_for_search * stand.budget_ns)
             .coarser(model, k_search_cut);
@@ -148,8 +145,6 @@ void search_further(const Photo& photo, const Scene& scene, const SceneCompareOp
         model.camera = from;
         return search_pose(photo, model, renderer,
                            {.reach = std::clamp(reach, k_sure_to_calibrate, k_farthest_search),
-                            .mask = options.compare.mask,
-                            .ignored = options.compare.ignored,
                             .threads = options.compare.threads},
                            part);
     };
@@ -194,7 +189,6 @@ Standpoint find_standpoint(const Photo& photo, const Scene& scene,
         return stand;
     }
     PoseOptions pose_options;
-    pose_options.mask = options.compare.mask;
     pose_options.threads = options.compare.threads;
     result.pose =
         find_pose(photo, scene.stone.solid, scene.camera, pose_options, part_of(progress, 0, 0.5));
@@ -204,7 +198,7 @@ Standpoint find_standpoint(const Photo& photo, const Scene& scene,
         result.pose_used = true;
         stand.camera = pose.camera;
         stand.sigma = std::hypot(pose.sigmas.turn[0], pose.sigmas.turn[1]) / std::sqrt(2.0);
-    } else if (stone_diameter_px(photo, options.compare.mask) > 0) {
+    } else if (stone_diameter_px(photo) > 0) {
         search_further(photo, scene, options, result, stand, part_of(progress, 0.5, 1));
     } else {
         stand.note = pose.trouble + "; the scene's own camera was taken instead";
@@ -218,15 +212,9 @@ SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
                                    const SceneCompareOptions& options, const Progress& progress) {
     SceneComparison result;
     result.scene = scene;
-    CompareOptions how = options.compare;
-    how.largest = options.largest;
     const Standpoint stand =
         find_standpoint(photo, scene, options, result, part_of(progress, 0, k_bar_for_pose));
-    result.scene.camera = stand.camera;
-    const double across = stone_diameter_px(photo, how.mask);
-    const double diameter = std::min(across > 0 ? across : options.largest, options.largest);
-    result.scene.camera =
-        cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
+    result.scene.camera = camera_for(photo, stand.camera, scene.stone.solid, options.largest);
     const DraftRenderer renderer(result.scene, k_tolerance, k_for_picture * stand.budget_ns);
     result.scene.settings = renderer.settings();
     result.stats = renderer.stats();
@@ -239,17 +227,16 @@ SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
                                 part_of(progress, k_bar_for_pose, drawn))
                 .bands;
     }
-    const AlignedPair pair =
-        aligned(photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
+    const AlignedPair pair = aligned(photo, result.render, options.largest);
     const Progress rest = part_of(progress, drawn, 1);
     if (options.calibrate && pair.comparable()) {
         const double left =
             (1 - k_for_picture) * stand.budget_ns - fixed_ns(photo) - stand.worked_ns;
         compare_calibrated(result, pair, photo, renderer,
-                           stand.budget_ns > 0 ? std::max(left, 1.0) : 0, stand.sigma, options, how,
+                           stand.budget_ns > 0 ? std::max(left, 1.0) : 0, stand.sigma, options,
                            rest);
     } else {
-        result.comparison = scored(pair, photo, result.render, how, rest);
+        result.comparison = scored(pair, photo, result.render, options.compare, rest);
     }
     result.comparison.within = within_readings(pair, photo, result.render);
     result.comparison.pose_note = stand.note;

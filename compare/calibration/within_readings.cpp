@@ -9,9 +9,7 @@
 #include "compare/calibration/simulated_camera.h"
 #include "compare/registration/frame.h"
 #include "compare/scores/aligned_pair.h"
-#include "compare/scores/scored_pair.h"
 #include "render/colour/colour.h"
-#include "stone/text/errors.h"
 
 namespace culet {
 
@@ -96,16 +94,6 @@ std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Pho
     if (result.pixels == 0) return std::nullopt;
     result.within_one /= result.pixels;
     result.within_two /= result.pixels;
-    return result;
-}
-
-Comparison compare_with_bands(const Photo& photo, const Photo& render,
-                              const CompareOptions& options, const Progress& progress) {
-    const AlignedPair pair = aligned(photo, options.mask, render,
-                                     {.largest = options.largest, .ignored = options.ignored});
-    if (progress && !progress(0.1)) throw Interrupted();
-    Comparison result = scored(pair, photo, render, options, progress);
-    result.within = within_readings(pair, photo, render);
     return result;
 }
 

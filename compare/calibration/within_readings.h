@@ -8,14 +8,10 @@ namespace culet {
 struct AlignedPair;  // compare/scores/aligned_pair.h
 
 /// Of a pair that was laid on each other; nothing where the render has no bands (Photo::bands), or
-/// nothing is to be compared.
+/// nothing is to be compared. The bands are blurred as the photograph is, and widened by its noise
+/// and by the steps of its file; pixels that the camera clipped are left out. What the registration
+/// is off by is not in them.
 std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Photo& photo,
                                               const Photo& render);
-
-/// `compare`, and where the render has bands (Photo::bands) `Comparison::within`. The bands are
-/// blurred as the photograph is, and widened by its noise and by the steps of its file; pixels that
-/// the camera clipped are left out. What the registration is off by is not in them.
-Comparison compare_with_bands(const Photo& photo, const Photo& render,
-                              const CompareOptions& options = {}, const Progress& progress = {});
 
 }  // namespace culet

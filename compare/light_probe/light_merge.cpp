@@ -253,9 +253,8 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
     const std::size_t texels = static_cast<std::size_t>(width) * (width / 2);
     merged.map.rgb.assign(3 * texels, 0);
     merged.coverage.assign(texels, 0);
-    merged.over_exposed.assign(texels, 0);
     merged.disagreement.assign(texels, std::numeric_limits<float>::quiet_NaN());
-    std::vector<double> sum(3 * texels, 0), weight(texels, 0), over(texels, 0);
+    std::vector<double> sum(3 * texels, 0), weight(texels, 0);
     // A view's luminance; below 0 where it is too near a rim to say who is right.
     std::vector<std::vector<float>> levels(views.size(), std::vector<float>(texels, -1));
     double mean = 0;
@@ -270,7 +269,6 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
             const double q = map.quality[i];
             if (q <= 0) continue;
             weight[i] += q;
-            over[i] += q * map.over[i];
             for (std::size_t c = 0; c < 3; ++c) sum[3 * i + c] += q * gains[v] * map.rgb[3 * i + c];
             merged.coverage[i] =
                 1 - (1 - merged.coverage[i]) * (1 - static_cast<float>(q > k_seen ? q : 0));
@@ -281,7 +279,6 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
         if (weight[i] <= 0) continue;
         for (std::size_t c = 0; c < 3; ++c)
             merged.map.rgb[3 * i + c] = static_cast<float>(sum[3 * i + c] / weight[i]);
-        merged.over_exposed[i] = static_cast<float>(over[i] / weight[i]);
         mean += luminance(&merged.map.rgb[3 * i]) / static_cast<double>(texels);
     }
     if (mean > 0) {
@@ -308,7 +305,7 @@ MergedLight coarsened(const MergedLight& light, int factor) {
     for (int y = 0; y < result.map.height; ++y) {
         for (int x = 0; x < result.map.width; ++x) {
             std::array<double, 3> rgb{};
-            double omega = 0, coverage = 0, over = 0, stops = 0, known = 0;
+            double omega = 0, coverage = 0, stops = 0, known = 0;
             for (int j = factor * y; j < factor * (y + 1); ++j) {
                 const double w = lat_long_solid_angle(j, fine.width, fine.height);
                 for (int i = factor * x; i < factor * (x + 1); ++i) {
@@ -316,7 +313,6 @@ MergedLight coarsened(const MergedLight& light, int factor) {
                     omega += w;
                     for (std::size_t c = 0; c < 3; ++c) rgb[c] += w * fine.rgb[3 * at + c];
                     coverage += w * light.coverage[at];
-                    over += w * light.over_exposed[at];
                     if (!std::isfinite(light.disagreement[at])) continue;
                     stops += w * light.disagreement[at];
                     known += w;
@@ -324,7 +320,6 @@ MergedLight coarsened(const MergedLight& light, int factor) {
             }
             for (const double v : rgb) result.map.rgb.push_back(static_cast<float>(v / omega));
             result.coverage.push_back(static_cast<float>(coverage / omega));
-            result.over_exposed.push_back(static_cast<float>(over / omega));
             result.disagreement.push_back(known > 0 ? static_cast<float>(stops / known)
                                                     : std::numeric_limits<float>::quiet_NaN());
         }

@@ -13,7 +13,6 @@ struct MergedLight {
     EnvironmentMap map;               ///< lat-long, radiance as the ball shows it
     std::vector<float> coverage;      ///< a texel: 0 not seen .. 1 seen in the ball's middle
     std::vector<float> disagreement;  ///< stops between two views; NaN where fewer than two see it
-    std::vector<float> over_exposed;  ///< 0..1: share of the texel's light that was clipped
     double filled_sr = 0;             ///< solid angle that no view shows, filled from around it
 };
 

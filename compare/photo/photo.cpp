@@ -57,9 +57,7 @@ std::vector<float> bands_of(const Picture& picture) {
     return bands;
 }
 
-}  // namespace
-
-Photo read_photo(const std::filesystem::path& file) {
+Photo read_unmasked(const std::filesystem::path& file) {
     if (has_raw_extension(file)) return read_raw(file);
     ReadPicture read = read_picture(file);
     if (static_cast<double>(read.picture.pixels()) > k_max_photo_pixels) {
@@ -108,6 +106,21 @@ Photo read_photo(const std::filesystem::path& file) {
     if (negative > 0)
         photo.notes.push_back(fmt::format("{} negative samples{} count as 0", negative,
                                           read.was_encoded ? " (colours outside of sRGB)" : ""));
+    return photo;
+}
+
+}  // namespace
+
+Photo read_photo(const std::filesystem::path& file, const std::filesystem::path& mask,
+                 const std::vector<std::string>& ignored) {
+    Photo photo = read_unmasked(file);
+    if (!mask.empty()) photo.mask = read_mask(mask, photo.width, photo.height);
+    for (const std::string& one : ignored) {
+        const std::vector<float> also = read_mask(one, photo.width, photo.height);
+        photo.ignored.resize(also.size(), 0.0f);
+        for (std::size_t i = 0; i < also.size(); ++i)
+            photo.ignored[i] = std::max(photo.ignored[i], also[i]);
+    }
     return photo;
 }
 

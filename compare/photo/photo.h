@@ -15,6 +15,12 @@ struct Photo {
     std::vector<float> rgb;  ///< linear light; finite, not negative
     /// 0..1 for each pixel: how much of it the stone covers; empty when the file has no alpha.
     std::vector<float> coverage;
+    /// Painted by hand (`read_mask`), one value a pixel: over a half is the stone; empty: it is
+    /// found in the picture.
+    std::vector<float> mask;
+    /// Likewise: over a half is left out of every comparison (dust, inclusions, a holder); empty:
+    /// nothing is.
+    std::vector<float> ignored;
     /// Linear value at which the camera clips: 1 for integer files; 0: it does not (EXR, HDR).
     double saturation = 0;
     /// One variance (of the linear value) a sample, from a merged series; empty: not known.
@@ -38,8 +44,10 @@ struct Photo {
 /// is followed or noted; without a word, integers are sRGB and floats are linear), or a camera's
 /// raw file (raw_file.h). A JPEG is not photometric: cameras write them through a tone curve of
 /// their own, phones through one that differs from place to place. Throws InputError for a file
-/// that is missing, broken, or of more than `k_max_photo_pixels`.
-Photo read_photo(const std::filesystem::path& file);
+/// that is missing, broken, or of more than `k_max_photo_pixels`. `mask`, `ignored`: files of
+/// Photo::mask and Photo::ignored, these one upon the other; may be empty.
+Photo read_photo(const std::filesystem::path& file, const std::filesystem::path& mask = {},
+                 const std::vector<std::string>& ignored = {});
 
 /// What the camera noted, without the picture. Throws InputError for a file that is missing or, a
 /// raw file, broken.

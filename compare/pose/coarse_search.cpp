@@ -114,7 +114,7 @@ std::vector<CoarseView> all_climbed(const Target& target, const std::vector<Coar
 
 CoarseView score_view(const Target& target, const StoneView& start) {
     const FittedOutline fitted = fit_outline(target.wire, target.shape, start, target.focal_px);
-    CoarseView result{fitted.view, -1e300, fitted.rms};
+    CoarseView result{fitted.view, -1e300};
     const double diameter = target.shape.diameter;
     if (!(fitted.rms < 0.2 * diameter)) return result;
     double variance = 0;

@@ -13,8 +13,7 @@ namespace culet {
 
 struct CoarseView {
     StoneView view;
-    double score = 0;        ///< higher is better: log-likelihood, about
-    double outline_rms = 0;  ///< pixels
+    double score = 0;  ///< higher is better: log-likelihood, about
 };
 
 /// What a wireframe is laid over: one photograph, as it is or mirrored.

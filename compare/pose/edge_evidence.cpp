@@ -109,7 +109,7 @@ CrownEvidence crown_evidence(const EdgePicture& picture, const cv::Mat& stone,
                              const std::vector<WirePoint>& points, double diameter_px) {
     CrownEvidence evidence;
     std::vector<EdgeRun> runs = crown_runs(points);
-    double places = 0, hits = 0, length = 0, met_length = 0, squares = 0, count = 0;
+    double places = 0, hits = 0, length = 0, squares = 0, count = 0;
     for (EdgeRun& run : runs) {
         const MetLine line = line_along(picture, run.points);
         run.met = !line.places.empty();
@@ -123,12 +123,10 @@ CrownEvidence crown_evidence(const EdgePicture& picture, const cv::Mat& stone,
         places += run.places;
         hits += run.hits;
         length += run.length;
-        if (run.met) met_length += run.length;
         ++evidence.looked;
         evidence.met += run.met ? 1 : 0;
     }
     if (runs.empty()) return evidence;
-    evidence.met_share = met_length / length;
     evidence.misfit = count > 0 ? std::sqrt(squares / count) : 0;
     const double everywhere = (hits + 1) / (places + 2);
     const double seen =

@@ -68,14 +68,12 @@ EdgeMap::EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px,
         cv::resize(colour, picture, {}, scale_, scale_, cv::INTER_AREA);
         cv::resize(mask, stone, picture.size(), 0, 0, cv::INTER_AREA);
     }
-    width_ = picture.cols;
-    height_ = picture.rows;
     cv::Mat shown = encoded(picture);
     cv::GaussianBlur(shown, shown, {0, 0}, 0.8, 0.8, cv::BORDER_REPLICATE);
     const Gradient gradient = gradient_of(shown);
     const float least = static_cast<float>(least_edge(gradient.strength, stone));
     const double reach_px = std::max(2.0, reach * diameter_px * scale_);
-    double sum_squares = 0, area = 0;
+    double sum_squares = 0;
     for (int direction = 0; direction < k_edge_directions; ++direction) {
         const auto k = static_cast<std::size_t>(direction);
         const double angle = direction * std::numbers::pi / k_edge_directions;
@@ -85,8 +83,8 @@ EdgeMap::EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px,
         const float least_cosine =
             static_cast<float>(std::cos(0.75 * std::numbers::pi / k_edge_directions));
         cv::Mat far(picture.size(), CV_8U, cv::Scalar(255));
-        for (int y = 1; y + 1 < height_; ++y) {
-            for (int x = 1; x + 1 < width_; ++x) {
+        for (int y = 1; y + 1 < picture.rows; ++y) {
+            for (int x = 1; x + 1 < picture.cols; ++x) {
                 if (gradient.strength.at<float>(y, x) < least) continue;
                 const float cosine =
                     gradient.x.at<float>(y, x) * nx + gradient.y.at<float>(y, x) * ny;
@@ -100,9 +98,8 @@ EdgeMap::EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px,
         chance_[k] = static_cast<float>(cv::mean(near_[k], stone > 127)[0]);
         cv::Mat off = near_[k] - static_cast<double>(chance_[k]);
         sum_squares += cv::mean(off.mul(off), stone > 127)[0];
-        area += 1;
     }
-    spread_ = std::sqrt(std::max(1e-12, sum_squares / area));
+    spread_ = std::sqrt(std::max(1e-12, sum_squares / k_edge_directions));
 }
 
 }  // namespace culet

@@ -53,7 +53,6 @@ private:
     std::array<cv::Mat, k_edge_directions> near_;
     std::array<float, k_edge_directions> chance_{};
     double scale_ = 1, spread_ = 0;
-    int width_ = 0, height_ = 0;
 };
 
 }  // namespace culet

@@ -32,8 +32,8 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     EdgeSupport support;
     // Every so many points are enough for shares.
     const std::size_t every = std::max<std::size_t>(1, points.size() / 1500);
-    Share crown, outline;
-    double outline_squares = 0;
+    Share crown;
+    double outlines = 0, outline_squares = 0;  // points that are met, and their distances
     std::vector<Share> shifted(k_shifts);
     const double step = 2.0 * static_cast<double>(every);
     const double independent = std::max(k_independent_px, k_independent_share * diameter_px);
@@ -43,13 +43,12 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     for (std::size_t i = 0; i < points.size(); i += every) {
         const WirePoint& point = points[i];
         if (point.outline) {
-            outline.points += 1;
             // The outermost edge is the outline's; a wide search, so that a bad fit shows.
             const auto found = edges_across(picture, point, 0.02 * diameter_px);
             double nearest = 0.02 * diameter_px;
             for (const FoundEdge& edge : found) nearest = std::min(nearest, std::abs(edge.offset));
             if (found.empty()) continue;
-            outline.met += 1;
+            ++outlines;
             outline_squares += nearest * nearest;
             continue;
         }
@@ -68,8 +67,7 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
         }
     }
     support.met = crown.share();
-    support.outline_met = outline.share();
-    if (outline.met > 0) support.outline_rms = std::sqrt(outline_squares / outline.met);
+    const double outline_rms = outlines > 0 ? std::sqrt(outline_squares / outlines) : 0;
     if (crown.points == 0) return support;
     double sum = 0, squares = 0, shifts = 0;
     for (const Share& share : shifted) {
@@ -80,17 +78,17 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     }
     support.chance = sum / shifts;
     const double variance = std::max(0.0, squares / shifts - support.chance * support.chance);
-    support.witnesses = std::max(1.0, crown.points * std::min(1.0, step / independent));
+    const double witnesses = std::max(1.0, crown.points * std::min(1.0, step / independent));
     const double chance = std::clamp(support.chance, 0.02, 0.98);
-    support.spread = std::sqrt(variance + chance * (1 - chance) / support.witnesses);
-    support.z = (support.met - support.chance) / support.spread;
+    const double spread = std::sqrt(variance + chance * (1 - chance) / witnesses);
+    support.z = (support.met - support.chance) / spread;
     // Every point meets with the share that all of them do, or with that of chance.
     const double met = std::clamp(support.met, 0.02, 0.98);
     const double gain =
         met * std::log(met / chance) + (1 - met) * std::log((1 - met) / (1 - chance));
-    support.log_likelihood = support.witnesses * (met > chance ? gain : -gain);
+    support.log_likelihood = witnesses * (met > chance ? gain : -gain);
     const double outline_sigma = 0.4 + 0.0015 * diameter_px;
-    const double off = support.outline_rms / outline_sigma;
+    const double off = outline_rms / outline_sigma;
     support.log_likelihood -= 0.5 * 16 * off * off;
     return support;
 }

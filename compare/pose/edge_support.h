@@ -7,13 +7,9 @@
 namespace culet {
 
 struct EdgeSupport {
-    double met = 0;          ///< share of the crown's points that have an edge near
-    double chance = 0;       ///< the same where the wireframe is shifted
-    double spread = 0;       ///< standard deviation of that among shifts
-    double z = 0;            ///< (met - chance) / spread
-    double witnesses = 0;    ///< about how many independent points that is
-    double outline_met = 0;  ///< share of the outline's
-    double outline_rms = 0;  ///< of the distances to the outline's edges, pixels
+    double met = 0;     ///< share of the crown's points that have an edge near
+    double chance = 0;  ///< the same where the wireframe is shifted
+    double z = 0;       ///< (met - chance) over the latter's standard deviation among shifts
     /// Logarithm of how much likelier the photograph is with this wireframe than by chance.
     double log_likelihood = 0;
 };

@@ -256,8 +256,9 @@ void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose&
 FoundPose searched(PoseTask& task, const Photo& photo) {
     FoundPose pose;
     double saturation = 0;
-    const cv::Mat colour = exposed(photo, saturation);
-    const Silhouette silhouette = silhouette_of(photo, task.options, colour);
+    StoneSource source = stone_source(photo);
+    source.colour = exposed(photo, saturation);
+    const Silhouette silhouette = silhouette_of(source);
     pose.outline_source = silhouette.source;
     pose.diameter_px = silhouette.diameter;
     pose.camera = task.start;
@@ -269,7 +270,7 @@ FoundPose searched(PoseTask& task, const Photo& photo) {
         return pose;
     }
     if (!silhouette.warning.empty()) pose.warnings.push_back(silhouette.warning);
-    make_sides(task, colour, silhouette.mask, saturation);
+    make_sides(task, source.colour, silhouette.mask, saturation);
     task.prior_focal_px = task.sides[0]->start.focal_px();
     std::vector<Candidate> candidates = coarse_candidates(task);
     choose(task, candidates, pose);
@@ -280,7 +281,7 @@ FoundPose searched(PoseTask& task, const Photo& photo) {
 
 FoundPose find_pose(const Photo& photo, const Solid& solid, const Camera& start,
                     const PoseOptions& given, const Progress& progress) {
-    require_suitable(photo, solid, start, given);
+    require_suitable(photo, solid, start);
     PoseOptions options = given;
     const Camera camera = start_for(start, photo.width, photo.height, options);
     PoseTask task{WireSolid(solid), {}, camera, options, progress, {}};

@@ -38,9 +38,8 @@ struct PoseLimits {
 };
 
 struct PoseOptions {
-    std::vector<float> mask;  ///< of the photo, from `read_mask`; empty: found in the picture
-    double search = 0.61;     ///< the start's view may be off by this angle (35 degrees) ...
-    bool all_turns = true;    ///< ... besides any turn about the stone's z axis
+    double search = 0.61;   ///< the start's view may be off by this angle (35 degrees) ...
+    bool all_turns = true;  ///< ... besides any turn about the stone's z axis
     /// Try the photograph mirrored left to right, too. Of a stone that looks alike in a mirror the
     /// facets' errors alone tell which it is, and a small picture does not show them.
     bool both_chiralities = false;
@@ -81,7 +80,6 @@ struct TriedPose {
 /// What whole edges of the crown say (edge_evidence.h).
 struct CrownEvidence {
     int looked = 0, met = 0;  ///< crown edges
-    double met_share = 0;     ///< of their length
     double chance_share = 0;  ///< of their length, laid elsewhere
     /// Natural logarithm of how much likelier what is met is with the stone's edges there than by
     /// chance. Edges are independent witnesses; that many places were tried is not in it.

@@ -107,7 +107,7 @@ std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side,
     std::vector<SeenView> images;
     for (const glm::dmat3& symmetry : task.symmetries) {
         const bool mirrors = glm::determinant(symmetry) < 0;
-        SeenView image{side, {view, 0, 0}};
+        SeenView image{side, {view, 0}};
         StoneView& there = image.coarse.view;
         there.turn = view.turn * glm::transpose(symmetry);
         if (mirrors) {

@@ -33,8 +33,7 @@ PhotoSide::PhotoSide(const cv::Mat& colour, const cv::Mat& mask, double saturati
     start = stone_view(camera, middle);
 }
 
-void require_suitable(const Photo& photo, const Solid& solid, const Camera& start,
-                      const PoseOptions& options) {
+void require_suitable(const Photo& photo, const Solid& solid, const Camera& start) {
     if (start.cone)
         throw InputError("a conoscope shows directions, not the stone: no pose to find");
     if (start.optics.two_windows)
@@ -45,7 +44,7 @@ void require_suitable(const Photo& photo, const Solid& solid, const Camera& star
     }
     const auto pixels =
         static_cast<std::size_t>(photo.width) * static_cast<std::size_t>(photo.height);
-    if (!options.mask.empty() && options.mask.size() != pixels)
+    if (!photo.mask.empty() && photo.mask.size() != pixels)
         throw InputError("the mask has another size than the photograph");
 }
 
@@ -74,20 +73,6 @@ Camera start_for(const Camera& start, int width, int height, PoseOptions& option
     options.principal_point_error =
         std::hypot(options.principal_point_error, k_of_the_cut * cut / width);
     return camera;
-}
-
-Silhouette silhouette_of(const Photo& photo, const PoseOptions& options, const cv::Mat& colour) {
-    const auto as_plane = [&](const std::vector<float>& values) {
-        return cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(values.data()));
-    };
-    if (!options.mask.empty()) return silhouette_from_coverage(as_plane(options.mask), "mask");
-    if (!photo.coverage.empty()) {
-        const cv::Mat coverage = as_plane(photo.coverage);
-        double least = 0, most = 0;
-        cv::minMaxLoc(coverage, &least, &most);
-        if (least < 0.5 && most > 0.5) return silhouette_from_coverage(coverage, "coverage");
-    }
-    return silhouette_from_background(colour);
 }
 
 cv::Mat exposed(const Photo& photo, double& saturation) {

@@ -10,7 +10,7 @@
 #include "compare/pose/edge_support.h"
 #include "compare/pose/find_pose.h"
 #include "compare/pose/refine_view.h"
-#include "compare/registration/silhouette.h"
+#include "compare/registration/frame.h"
 
 namespace culet {
 
@@ -37,15 +37,12 @@ struct PoseTask {
 };
 
 /// Throws InputError for what no pose can be found of.
-void require_suitable(const Photo& photo, const Solid& solid, const Camera& start,
-                      const PoseOptions& options);
+void require_suitable(const Photo& photo, const Solid& solid, const Camera& start);
 
 /// The start with the photograph's size. Of the start's shape, the photograph is the same picture
 /// with more or fewer pixels. Of another it was cropped: unless the start has a principal point,
 /// where that is and how long the lens is are known less well then, and `options` say so.
 Camera start_for(const Camera& start, int width, int height, PoseOptions& options);
-
-Silhouette silhouette_of(const Photo& photo, const PoseOptions& options, const cv::Mat& colour);
 
 /// Brought to a common exposure: its bright parts near 1; `saturation` is where it clips then.
 cv::Mat exposed(const Photo& photo, double& saturation);

@@ -116,8 +116,4 @@ PicturePoint Projection::operator()(const Vec3& point) const {
             view_.sight.y + (view_.at.y - view_.sight.y + view_.scale * there.y) / depth};
 }
 
-PicturePoint seen_at(const StoneView& view, const Vec3& point) {
-    return Projection(view)(point);
-}
-
 }  // namespace culet

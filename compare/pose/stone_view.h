@@ -57,10 +57,7 @@ glm::dmat3 rotation_by(const Vec3& w);
 /// Angle of the rotation.
 double angle_of(const glm::dmat3& rotation);
 
-/// Picture point of a point of the stone.
-PicturePoint seen_at(const StoneView& view, const Vec3& point);
-
-/// The same for many points of one view.
+/// Picture points of points of the stone.
 class Projection {
 public:
     explicit Projection(const StoneView& view);

@@ -45,10 +45,9 @@ struct EvidenceFit {
 class PhotographEvidence {
 public:
     /// `scene`: with the camera of the photograph's pose, and the stone as it is known at first;
-    /// convex. `mask`: as for `align`. Throws InputError as `render` does, where the photograph's
+    /// convex. Throws InputError as `render` does, where the photograph's
     /// stone is not the scene's by its outline, and where the scene can only be drawn by rays.
-    PhotographEvidence(const Photo& photo, const std::vector<float>& mask, const Scene& scene,
-                       int threads);
+    PhotographEvidence(const Photo& photo, const Scene& scene, int threads);
     ~PhotographEvidence();
     PhotographEvidence(PhotographEvidence&&) noexcept;
 

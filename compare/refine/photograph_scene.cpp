@@ -12,20 +12,18 @@ namespace culet {
 
 namespace {
 
-constexpr double k_margin = 0.18;  // around the stone, of the diameter
 constexpr double k_largest = 256;  // pixels across: samples are 192
 // How sure a pose must be, 99 %: refining finds what is left of it.
 constexpr double k_pose_angle = radians(4.0), k_pose_shift = 0.01;
 
 }  // namespace
 
-Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const Scene& scene,
-                       bool find, int threads, const Progress& progress) {
+Scene photograph_scene(const Photo& photo, const Scene& scene, bool find, int threads,
+                       const Progress& progress) {
     Scene result = scene;
-    const double across = stone_diameter_px(photo, mask);
+    const double across = stone_diameter_px(photo);
     if (find) {
         PoseOptions options;
-        options.mask = mask;
         options.threads = threads;
         options.limits.angle = k_pose_angle;
         options.limits.shift_px = std::max(1.0, k_pose_shift * across);
@@ -44,8 +42,7 @@ Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const
         }
         result.camera = pose.camera;
     }
-    const double diameter = across > 0 ? std::min(across, k_largest) : k_largest;
-    result.camera = cropped_to_stone(result.camera, scene.stone.solid, diameter, k_margin);
+    result.camera = camera_for(photo, result.camera, scene.stone.solid, k_largest);
     return result;
 }
 

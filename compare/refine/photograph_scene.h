@@ -11,7 +11,7 @@ namespace culet {
 
 /// Cut to the stone, at most 256 pixels across. `find_pose`: the pose is found in the photograph;
 /// else the scene's camera stands where it says. Throws InputError where it cannot be found.
-Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const Scene& scene,
-                       bool find_pose, int threads, const Progress& progress = {});
+Scene photograph_scene(const Photo& photo, const Scene& scene, bool find_pose, int threads,
+                       const Progress& progress = {});
 
 }  // namespace culet

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 
-#include "compare/calibration/photo_blur.h"
-#include "compare/calibration/stone_samples.h"
 #include "compare/refine/plane_moves.h"
 #include "stone/text/errors.h"
 
@@ -18,11 +16,9 @@ namespace {
 constexpr double k_angle_step = radians(0.1);  // of the set-up
 
 cv::Mat sketched(const SketchedStone& stone, const Solid& solid, const SetUp& set_up) {
-    const Photo sketch =
-        *stone.renderer.sketch(set_up_scene(stone.sampled, solid, set_up, stone.middle));
-    cv::Mat root = root_light(exposed(sketch, stone.camera), 1);
-    root.setTo(0, ~stone.inside);
-    return softened(root, stone.blur);
+    return stone.samples.sketched(
+        *stone.renderer.sketch(set_up_scene(stone.samples.scene, solid, set_up, stone.middle)),
+        stone.camera, stone.blur);
 }
 
 }  // namespace

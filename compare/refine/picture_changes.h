@@ -5,8 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "compare/calibration/draft_renderer.h"
-#include "compare/calibration/simulated_camera.h"
+#include "compare/calibration/stone_samples.h"
 #include "compare/refine/set_up.h"
 #include "stone/numbers/units.h"
 #include "stone/progress/progress.h"
@@ -20,12 +19,11 @@ constexpr double k_move_step = radians(0.15);
 /// What a sketch is made of.
 struct SketchedStone {
     const DraftRenderer& renderer;
-    const Scene& sampled;  ///< the camera of the samples
+    const StoneSamples& samples;
     const Solid& solid;
     SetUp set_up;
     Vec3 middle{0};      ///< about which the set-up turns
-    CameraModel camera;  ///< of the samples
-    cv::Mat inside;      ///< CV_8U: what is outside is another's ground
+    CameraModel camera;  ///< of the photograph
     double blur = 1;     ///< samples
 };
 

@@ -17,11 +17,6 @@ constexpr double k_margin = 0.15;    // of the diameter, around the stone
 constexpr double k_worth_it = 0.85;  // reductions weaker than this are not made
 constexpr int k_empty_border = 4;    // so that an outline never runs out of the close-up
 
-struct Source {
-    cv::Mat colour, coverage;  // coverage may be empty
-    std::string coverage_name;
-};
-
 cv::Mat reduced(const cv::Mat& picture, double scale) {
     if (scale >= 1 || picture.empty()) return picture;
     const cv::Size size(std::max(1, static_cast<int>(std::lround(picture.cols * scale))),
@@ -31,9 +26,8 @@ cv::Mat reduced(const cv::Mat& picture, double scale) {
     return result;
 }
 
-Silhouette silhouette_of(const cv::Mat& colour, const cv::Mat& coverage, const std::string& name) {
-    if (!coverage.empty()) return silhouette_from_coverage(coverage, name);
-    return silhouette_from_background(colour);
+StoneSource reduced(const StoneSource& source, double scale) {
+    return {reduced(source.colour, scale), reduced(source.coverage, scale), source.coverage_name};
 }
 
 struct Place {
@@ -42,11 +36,10 @@ struct Place {
     std::string trouble;
 };
 
-Place find_stone(const Source& source) {
+Place find_stone(const StoneSource& source) {
     const double scale = std::min(
         1.0, static_cast<double>(k_search_size) / std::max(source.colour.cols, source.colour.rows));
-    const Silhouette silhouette = silhouette_of(
-        reduced(source.colour, scale), reduced(source.coverage, scale), source.coverage_name);
+    const Silhouette silhouette = silhouette_of(reduced(source, scale));
     Place place;
     place.trouble = silhouette.trouble;
     place.diameter = silhouette.diameter / scale;
@@ -76,15 +69,16 @@ cv::Mat bordered(const cv::Mat& picture) {
     return result;
 }
 
-CloseUp close_up(const Source& source, const Cut& cut) {
+CloseUp close_up(const StoneSource& source, const Cut& cut) {
     CloseUp result;
-    const cv::Mat colour = reduced(source.colour(cut.box), cut.scale);
-    const cv::Mat coverage =
-        source.coverage.empty() ? cv::Mat() : reduced(source.coverage(cut.box), cut.scale);
+    StoneSource part = source;
+    part.colour = source.colour(cut.box);
+    if (!source.coverage.empty()) part.coverage = source.coverage(cut.box);
+    part = reduced(part, cut.scale);
     // Whole pixels of the reduced picture: the true factor differs a little from the asked one.
-    result.scale = static_cast<double>(colour.cols) / cut.box.width;
-    result.silhouette = silhouette_of(colour, coverage, source.coverage_name);
-    result.colour = bordered(colour);
+    result.scale = static_cast<double>(part.colour.cols) / cut.box.width;
+    result.silhouette = silhouette_of(part);
+    result.colour = bordered(part.colour);
     const int b = k_empty_border;
     cv::copyMakeBorder(result.silhouette.mask, result.silhouette.mask, b, b, b, b,
                        cv::BORDER_CONSTANT, cv::Scalar(0));
@@ -93,11 +87,13 @@ CloseUp close_up(const Source& source, const Cut& cut) {
     return result;
 }
 
-// The part of a mask of the photo that a close-up shows. A pixel that the mask touches at all is
-// in it.
-cv::Mat cut_out(const std::vector<float>& mask, const Photo& photo, const CloseUp& shown) {
-    const cv::Mat whole(photo.height, photo.width, CV_32F, const_cast<float*>(mask.data()));
-    cv::Mat touched = whole > 0.5f;
+cv::Mat plane_of(const std::vector<float>& values, const Photo& photo) {
+    return cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(values.data()));
+}
+
+// What is left out, as a close-up shows it. A pixel that it touches at all is in it.
+cv::Mat ignored_in(const Photo& photo, const CloseUp& shown) {
+    cv::Mat touched = plane_of(photo.ignored, photo) > 0.5f;
     if (shown.scale < 1) {
         const int reach = 2 * static_cast<int>(std::ceil(0.5 / shown.scale)) + 1;
         cv::dilate(touched, touched, cv::Mat::ones(reach, reach, CV_8U));
@@ -113,22 +109,6 @@ cv::Mat cut_out(const std::vector<float>& mask, const Photo& photo, const CloseU
         }
     }
     return result;
-}
-
-Source source_of(const Photo& photo, const std::vector<float>& mask) {
-    Source source;
-    source.colour = colour_of(photo);
-    const bool painted = !mask.empty();
-    const std::vector<float>& coverage = painted ? mask : photo.coverage;
-    // An alpha of 1 everywhere says nothing about the stone.
-    const bool says_something =
-        painted || std::any_of(coverage.begin(), coverage.end(), [](float c) { return c < 0.5f; });
-    if (!coverage.empty() && says_something) {
-        source.coverage =
-            cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(coverage.data()));
-        source.coverage_name = painted ? "mask" : "coverage";
-    }
-    return source;
 }
 
 // A map that is a shift by whole pixels to within a thousandth of a pixel is made just that: it
@@ -160,15 +140,33 @@ cv::Point2d CloseUp::in_picture(const cv::Point2d& p) const {
     return {(p.x + 0.5) / scale - 0.5 + corner.x, (p.y + 0.5) / scale - 0.5 + corner.y};
 }
 
-double stone_diameter_px(const Photo& photo, const std::vector<float>& mask) {
-    const Place place = find_stone(source_of(photo, mask));
+StoneSource stone_source(const Photo& photo) {
+    StoneSource source{colour_of(photo), {}, {}};
+    const bool painted = !photo.mask.empty();
+    const std::vector<float>& coverage = painted ? photo.mask : photo.coverage;
+    // An alpha of 1 everywhere says nothing about the stone.
+    const bool says_something =
+        painted || std::any_of(coverage.begin(), coverage.end(), [](float c) { return c < 0.5f; });
+    if (says_something) {
+        source.coverage = plane_of(coverage, photo);
+        source.coverage_name = painted ? "mask" : "coverage";
+    }
+    return source;
+}
+
+Silhouette silhouette_of(const StoneSource& source) {
+    if (source.coverage.empty()) return silhouette_from_background(source.colour);
+    return silhouette_from_coverage(source.coverage, source.coverage_name);
+}
+
+double stone_diameter_px(const Photo& photo) {
+    const Place place = find_stone(stone_source(photo));
     return place.trouble.empty() ? place.diameter : 0;
 }
 
-Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
-            const Alignment& how) {
+Frame align(const Photo& photo, const Photo& render, double largest) {
     Frame frame;
-    const Source photo_source = source_of(photo, mask), render_source = source_of(render, {});
+    const StoneSource photo_source = stone_source(photo), render_source = stone_source(render);
     const Place photo_place = find_stone(photo_source), render_place = find_stone(render_source);
     frame.photo_diameter_px = photo_place.diameter;
     frame.render_diameter_px = render_place.diameter;
@@ -177,9 +175,9 @@ Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& ren
                                                           : "photo: " + photo_place.trouble;
         return frame;
     }
-    const double diameter = std::min({photo_place.diameter, render_place.diameter, how.largest});
+    const double diameter = std::min({photo_place.diameter, render_place.diameter, largest});
     frame.photo = close_up(photo_source, cut_of(photo_place, photo_source.colour.size(), diameter));
-    if (!how.ignored.empty()) frame.photo.ignored = cut_out(how.ignored, photo, frame.photo);
+    if (!photo.ignored.empty()) frame.photo.ignored = ignored_in(photo, frame.photo);
     frame.render_cut = cut_of(render_place, render_source.colour.size(), diameter);
     const CloseUp near = close_up(render_source, frame.render_cut);
     frame.render_outline = near.silhouette.source;

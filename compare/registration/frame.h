@@ -10,6 +10,16 @@
 
 namespace culet {
 
+/// Where a picture shows its stone: under the painted mask, else by its coverage, else before the
+/// background.
+struct StoneSource {
+    cv::Mat colour;             ///< CV_32FC3, linear: the photo's own pixels
+    cv::Mat coverage;           ///< CV_32F; empty: the background tells
+    std::string coverage_name;  ///< "mask" or "coverage"
+};
+StoneSource stone_source(const Photo& photo);
+Silhouette silhouette_of(const StoneSource& source);
+
 /// The part of a picture around its stone, perhaps reduced. A point p of the close-up lies at
 /// (p + 0.5) / scale - 0.5 + corner in the picture.
 struct CloseUp {
@@ -41,22 +51,15 @@ struct Frame {
     cv::Matx23d cut_from_photo;
 };
 
-struct Alignment {
-    double largest = 640;  ///< pixels that the stone is across at most
-    /// One value a pixel of the photo; over a half is not compared. Empty: all is.
-    std::vector<float> ignored{};
-};
-
-/// `mask` may be empty, else one value a pixel of the photo (1: stone). The stone is compared at
-/// the smaller of its two sizes, and at `largest` pixels across at most: sizes within 15 % are left
-/// alone, so that pictures of one size are not resampled but for the registration.
-Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
-            const Alignment& how = {});
+/// The stone is compared at the smaller of its two sizes, and at `largest` pixels across at most:
+/// sizes within 15 % are left alone, so that pictures of one size are not resampled but for the
+/// registration.
+Frame align(const Photo& photo, const Photo& render, double largest);
 
 /// Another picture of the render's size and outline, moved as the render was.
 cv::Mat moved_as_render(const Frame& frame, const Photo& picture);
 
 /// The stone's diameter in the photo, pixels, as `align` finds it; 0 where it finds none.
-double stone_diameter_px(const Photo& photo, const std::vector<float>& mask);
+double stone_diameter_px(const Photo& photo);
 
 }  // namespace culet

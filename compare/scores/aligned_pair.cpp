@@ -93,10 +93,9 @@ void match_exposure(AlignedPair& pair) {
 
 }  // namespace
 
-AlignedPair aligned(const Photo& photo, const std::vector<float>& mask, const Photo& render,
-                    const Alignment& how) {
+AlignedPair aligned(const Photo& photo, const Photo& render, double largest) {
     AlignedPair pair;
-    pair.frame = align(photo, mask, render, how);
+    pair.frame = align(photo, render, largest);
     pair.photo_saturation = photo.saturation;
     pair.render_saturation = render.saturation;
     match_exposure(pair);

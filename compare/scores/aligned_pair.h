@@ -25,10 +25,10 @@ struct AlignedPair {
 };
 
 /// Aligns by the outlines, then compares what lies inside both by two pixels, or by half a per cent
-/// of a large stone: there the outlines' error lives; and what `how` does not say to leave out.
-/// With too few pixels no gain is solved. `mask`: as for `align`.
-AlignedPair aligned(const Photo& photo, const std::vector<float>& mask, const Photo& render,
-                    const Alignment& how);
+/// of a large stone: there the outlines' error lives; and what the photo does not ignore.
+/// With too few pixels no gain is solved. The one way from a photograph and a render to pictures of
+/// one raster: `photo` with its mask and what is left out, `largest` as for `align`.
+AlignedPair aligned(const Photo& photo, const Photo& render, double largest = 640);
 
 /// The pair with another picture in the render's place, of the same size and outline: as a lens
 /// would show it, say. Its place is the same; the gain is solved anew.

@@ -111,18 +111,17 @@ ReflexCount counted(const ReflexMatch& match, const cv::Point& corner) {
 }
 
 // One row of scores a draw; the gain is solved anew, as it was for the render itself.
-void add_null(const MatchedPictures& pictures, const WaveletBank& wavelets, const cv::Mat& usable,
-              const cv::Mat& outline, const CompareOptions& options, const Progress& progress,
-              bool calibrating, Comparison& result) {
+void add_null(const MeasuredPair& close, const cv::Mat& usable, const cv::Mat& outline,
+              const CompareOptions& options, const Progress& progress, Comparison& result) {
     const std::vector<Rotation> draws =
-        draw_rotations(pictures, outline, std::max(20, options.null_draws), options.seed);
+        draw_rotations(close.pictures, outline, std::max(20, options.null_draws), options.seed);
     std::vector<std::vector<std::optional<double>>> rows(draws.size());
     const auto measure_draw = [&](std::size_t k) {
-        MatchedPictures other = rotated(pictures, draws[k]);
+        MatchedPictures other = rotated(close.pictures, draws[k]);
         const cv::Mat other_usable = other.mask & usable;
         multiply_channels(other.render, solve_gain(other.photo, other.render, other_usable));
-        Measures measures = measures_of(other, wavelets);
-        measures.calibrating = calibrating;
+        Measures measures = measures_of(other, close.wavelets);
+        measures.calibrating = close.measures.calibrating;
         for (const Score& s : scores_of(measures)) rows[k].push_back(s.value);
     };
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
@@ -159,6 +158,16 @@ std::string sentence_of(const ReflexCount& reflexes) {
                             reflexes.coloured);
     }
     return text;
+}
+
+MeasuredPair::MeasuredPair(const AlignedPair& pair, const CalibratedScoring* calibrated)
+    : part(part_to_score(pair.pictures)),
+      pictures(part_of(pair.pictures, part)),
+      wavelets(wavelet_bank(pictures.mask.size(), pictures.diameter)),
+      measures(measures_of(pictures, wavelets)) {
+    if (calibrated == nullptr) return;
+    measures.calibrating = true;
+    measures.facet_error_deg = calibrated->facet_error_deg;
 }
 
 Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& render,
@@ -198,15 +207,10 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     result.saturated = pair.saturated;
     result.gain = pair.gain;
 
-    const cv::Rect part = part_to_score(pictures);
-    const MatchedPictures close = part_of(pictures, part);
-    const WaveletBank wavelets = wavelet_bank(close.mask.size(), close.diameter);
-    Measures measures = measures_of(close, wavelets);
-    if (calibrated != nullptr) {
-        measures.calibrating = true;
-        measures.facet_error_deg = calibrated->facet_error_deg;
-        result.render_blur_px = calibrated->render_blur_px;
-    }
+    const MeasuredPair close(pair, calibrated);
+    const cv::Rect& part = close.part;
+    const Measures& measures = close.measures;
+    if (calibrated != nullptr) result.render_blur_px = calibrated->render_blur_px;
     result.scores = scores_of(measures);
     if (measures.reflexes) result.reflexes = counted(*measures.reflexes, part.tl());
     if (!photo.photometric) {
@@ -220,8 +224,8 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     result.photo_light = measures.colours.photo_light;
     result.render_light = measures.colours.render_light;
     if (progress && !progress(0.2)) throw Interrupted();
-    add_null(close, wavelets, pair.usable(part).clone(), frame.render_mask(part).clone(), options,
-             progress, measures.calibrating, result);
+    add_null(close, pair.usable(part).clone(), frame.render_mask(part).clone(), options, progress,
+             result);
     judge_by_rotations(result);
     result.pictures.white = pictures.white;
     result.pictures.render = photo_of(pictures.render);
@@ -232,14 +236,6 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     result.pictures.visible_difference = map_of(measures.visible.map, part, pictures.mask);
     result.pictures.similarity = map_of(measures.structure.map, part, pictures.mask);
     return result;
-}
-
-Comparison compare(const Photo& photo, const Photo& render, const CompareOptions& options,
-                   const Progress& progress) {
-    const AlignedPair pair = aligned(photo, options.mask, render,
-                                     {.largest = options.largest, .ignored = options.ignored});
-    if (progress && !progress(0.1)) throw Interrupted();
-    return scored(pair, photo, render, options, progress);
 }
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// How far a render is from a photograph. The front door of this room: pictures in, plain data out.
+// How far a render is from a photograph, as plain data.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,6 @@
 
 #include "compare/photo/photo.h"
 #include "compare/scores/score.h"
-#include "stone/progress/progress.h"
 
 namespace culet {
 
@@ -102,29 +101,17 @@ struct Comparison {
 };
 
 struct CompareOptions {
-    std::vector<float> mask;  ///< of the photo, from `read_mask`; empty: found in the picture
-    /// Of the photo: over a half is left out of every score (dust, inclusions, a holder); empty:
-    /// nothing is.
-    std::vector<float> ignored;
     bool simulated = false;  ///< the photograph is itself computed: said wherever it appears
     std::uint64_t seed = 1;  ///< of the null's draws
     int null_draws = 24;     ///< at least 20
     int threads = 0;         ///< 0: all processors; the result does not depend on it
-    double largest = 640;    ///< pixels that the stone is across at most, where it is compared
 };
 
-/// Registers by the outlines, solves one gain for each channel, scores, and draws the null.
-/// Bad pictures are no exception: they end as `refused` or as scores without a value. Throws
-/// Interrupted when `progress` says so.
-///
 /// The verdict is a proposal, not validated: `match` when zncc lies at least `k_match_z` standard
 /// deviations above its null and reaches `k_match_zncc`, which is about what random facet errors of
-/// half a degree leave of a brilliant's pattern; `partial` from `k_partial_z` on, if
-/// no draw was as good. It tells a
-/// pattern from the same pattern turned; it cannot tell a stone from another of the same cut.
-Comparison compare(const Photo& photo, const Photo& render, const CompareOptions& options = {},
-                   const Progress& progress = {});
-
+/// half a degree leave of a brilliant's pattern; `partial` from `k_partial_z` on, if no draw was as
+/// good. It tells a pattern from the same pattern turned; it cannot tell a stone from another of
+/// the same cut.
 constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
 /// The same of CW-SSIM, which decides for photographs that cannot serve for photometry.
 constexpr double k_match_cw_ssim = 0.55;

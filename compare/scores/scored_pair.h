@@ -5,6 +5,8 @@
 
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/compare.h"
+#include "compare/scores/score_list.h"
+#include "stone/progress/progress.h"
 
 namespace culet {
 
@@ -14,7 +16,20 @@ struct CalibratedScoring {
     std::optional<double> facet_error_deg;  ///< read from the facets' tilts
 };
 
-/// As `compare` (compare.h), of what it aligned.
+/// What the scores of a pair are read from: the part of it that they see.
+struct MeasuredPair {
+    /// `calibrated`: null, or what a calibration gives beside the pair.
+    MeasuredPair(const AlignedPair& pair, const CalibratedScoring* calibrated);
+    MeasuredPair(const MeasuredPair&) = delete;  // the measures point to the wavelets
+    MeasuredPair& operator=(const MeasuredPair&) = delete;
+
+    cv::Rect part;
+    MatchedPictures pictures;
+    WaveletBank wavelets;
+    Measures measures;
+};
+
+/// Scores the pair, draws the null and judges. Throws Interrupted.
 Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& render,
                   const CompareOptions& options, const Progress& progress,
                   const CalibratedScoring* calibrated = nullptr);

@@ -4,8 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "compare/calibration/picture_comparison.h"
 #include "compare/calibration/scene_comparison.h"
-#include "compare/calibration/within_readings.h"
 #include "compare/photo/rendered_photo.h"
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
@@ -58,12 +58,15 @@ std::vector<float> mask_of(const py::object& mask, const Photo& photo) {
     return values;
 }
 
-CompareOptions options_of(const PythonPhoto& photo, const py::object& mask,
-                          const py::object& ignored, bool simulated, std::uint64_t seed,
-                          int threads) {
+Photo masked(const PythonPhoto& given, const py::object& mask, const py::object& ignored) {
+    Photo photo = given.photo;
+    photo.mask = mask_of(mask, photo);
+    photo.ignored = mask_of(ignored, photo);
+    return photo;
+}
+
+CompareOptions options_of(bool simulated, std::uint64_t seed, int threads) {
     CompareOptions options;
-    options.mask = mask_of(mask, photo.photo);
-    options.ignored = mask_of(ignored, photo.photo);
     options.simulated = simulated;
     options.seed = seed;
     options.threads = threads;
@@ -88,10 +91,11 @@ Report page_of(const PythonComparison& result, const PythonPhoto& photo,
 PythonComparison compare_pictures(const PythonPhoto& photo, const PythonPhoto& render,
                                   const py::object& mask, const py::object& ignored, bool simulated,
                                   std::uint64_t seed, int threads, const py::object& progress) {
-    const CompareOptions options = options_of(photo, mask, ignored, simulated, seed, threads);
+    const Photo shown = masked(photo, mask, ignored);
+    const CompareOptions options = options_of(simulated, seed, threads);
     return wait_for(progress, [&](const Progress& told) {
         PythonComparison result;
-        result.comparison = compare_with_bands(photo.photo, render.photo, options, told);
+        result.comparison = compare(shown, render.photo, options, told);
         result.scores = scores_json(result.comparison, {photo.file, render.file, ""});
         result.page = report_page(page_of(result, photo, render.file));
         return result;
@@ -105,8 +109,9 @@ PythonComparison compare_scene(const PythonPhoto& photo, const PythonScene& scen
                                const std::optional<PythonStone>& uncertain, std::uint64_t seed,
                                int threads, const py::object& progress) {
     if (draws < 2) throw InputError("draws are 2 or more");
+    const Photo shown = masked(photo, mask, ignored);
     SceneCompareOptions options;
-    options.compare = options_of(photo, mask, ignored, simulated, seed, threads);
+    options.compare = options_of(simulated, seed, threads);
     options.find_pose = find_pose;
     options.calibrate = calibrate;
     options.budget_seconds = budget;
@@ -118,7 +123,7 @@ PythonComparison compare_scene(const PythonPhoto& photo, const PythonScene& scen
     drawn.settings.threads = threads;
     const std::string name = scene.file.empty() ? "a scene" : scene.file;
     return wait_for(progress, [&](const Progress& told) {
-        SceneComparison compared = compare_with_scene(photo.photo, drawn, options, told);
+        SceneComparison compared = compare_with_scene(shown, drawn, options, told);
         PythonComparison result;
         result.comparison = std::move(compared.comparison);
         result.calibrated = std::move(compared.calibrated);

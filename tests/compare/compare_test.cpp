@@ -1,4 +1,4 @@
-#include "compare/scores/compare.h"
+#include "compare/calibration/picture_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,8 +95,8 @@ TEST(AlignedPair, TakesAnotherPictureOfTheRendersOutline) {
     const Photo photo = draw(moved), render = draw(still);
     Photo darker = render;
     for (std::size_t i = 0; i < darker.rgb.size(); i += 2) darker.rgb[i] *= 0.5f;
-    const AlignedPair put = with_render(aligned(photo, {}, render, {.largest = 70}), darker);
-    const AlignedPair own = aligned(photo, {}, darker, {.largest = 70});
+    const AlignedPair put = with_render(aligned(photo, render, 70), darker);
+    const AlignedPair own = aligned(photo, darker, 70);
     EXPECT_TRUE(put.comparable());
     EXPECT_EQ(cv::norm(put.pictures.render, own.pictures.render, cv::NORM_INF), 0);
     EXPECT_EQ(put.gain, own.gain);
@@ -318,11 +318,11 @@ TEST(Compare, ARenderThatLooksTheSameTurnedGivesNoNull) {
 }
 
 TEST(Compare, AMaskOfThreePixelsIsRefused) {
-    const Photo photo = draw(small());
-    CompareOptions options;
-    options.mask.assign(static_cast<std::size_t>(photo.width * photo.height), 0.0f);
-    for (const int i : {7000, 7001, 7002}) options.mask[static_cast<std::size_t>(i)] = 1;
-    const Comparison c = compare(photo, photo, options);
+    const Photo render = draw(small());
+    Photo photo = render;
+    photo.mask.assign(static_cast<std::size_t>(photo.width * photo.height), 0.0f);
+    for (const int i : {7000, 7001, 7002}) photo.mask[static_cast<std::size_t>(i)] = 1;
+    const Comparison c = compare(photo, render);
     EXPECT_EQ(c.verdict, Verdict::refused);
     EXPECT_THAT(c.reason, HasSubstr("pixels across"));
 }
@@ -333,23 +333,25 @@ TEST(Compare, WhatIsToBeIgnoredIsLeftOutOfEveryScore) {
     p.with_coverage = true;
     const Photo photo = draw(p);
     Photo spoiled = photo;
-    CompareOptions options;
-    options.ignored.assign(photo.coverage.size(), 0.0f);
+    std::vector<float> ignored(photo.coverage.size(), 0.0f);
     for (int y = 120; y < 170; ++y) {
         for (int x = 130; x < 180; ++x) {
             const auto i = static_cast<std::size_t>(y * photo.width + x);
-            options.ignored[i] = 1;
+            ignored[i] = 1;
             for (std::size_t c = 0; c < 3; ++c) spoiled.rgb[3 * i + c] = 1;
         }
     }
-    const Comparison with = compare(spoiled, photo, options), without = compare(spoiled, photo);
+    const Comparison without = compare(spoiled, photo);
+    spoiled.ignored = ignored;
+    const Comparison with = compare(spoiled, photo);
     EXPECT_GT(*with.scores[0].value, 0.999);
     EXPECT_LT(*without.scores[0].value, 0.95);
     EXPECT_LT(with.compared_pixels, without.compared_pixels - 2000);
-    std::fill(options.ignored.begin(), options.ignored.end(), 1.0f);
+    Photo hidden = photo;
+    hidden.ignored.assign(photo.coverage.size(), 1.0f);
     for (int k = 0; k < 3; ++k)
-        options.ignored[static_cast<std::size_t>(150 * photo.width + 150 + k)] = 0;
-    EXPECT_EQ(compare(photo, photo, options).verdict, Verdict::refused);
+        hidden.ignored[static_cast<std::size_t>(150 * photo.width + 150 + k)] = 0;
+    EXPECT_EQ(compare(hidden, photo).verdict, Verdict::refused);
 }
 
 TEST(Compare, APhotographThatIsNoPhotometryGetsScoresOfGeometry) {
@@ -369,10 +371,10 @@ TEST(Compare, APhotographThatIsNoPhotometryGetsScoresOfGeometry) {
 }
 
 TEST(Compare, AMaskThatFillsThePictureDoesNoHarm) {
-    const Photo photo = draw(small());
-    CompareOptions options;
-    options.mask.assign(static_cast<std::size_t>(photo.width * photo.height), 1.0f);
-    EXPECT_EQ(compare(photo, photo, options).verdict, Verdict::refused);
+    const Photo render = draw(small());
+    Photo photo = render;
+    photo.mask.assign(static_cast<std::size_t>(photo.width * photo.height), 1.0f);
+    EXPECT_EQ(compare(photo, render).verdict, Verdict::refused);
 }
 
 TEST(Compare, TinyPicturesAreRefused) {

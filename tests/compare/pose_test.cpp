@@ -60,7 +60,7 @@ TEST(StoneView, SeesPointsWhereTheRendererDoes) {
         const StoneView view = stone_view(camera, centroid(solid));
         const EyeRays rays(camera);
         for (const Vec3& vertex : solid.vertices) {
-            const PicturePoint at = seen_at(view, vertex);
+            const PicturePoint at = Projection(view)(vertex);
             const EyeRay ray = rays.through(at.x, at.y);
             const Vec3 off = glm::cross(ray.direction, vertex - ray.origin);
             EXPECT_LT(glm::length(off), 1e-9);
@@ -76,8 +76,8 @@ TEST(StoneView, AndCameraAreTheSameThing) {
         EXPECT_LT(glm::length(back.position - camera.position), 1e-9);
         const StoneView again = stone_view(back, centroid(solid));
         for (const Vec3& vertex : solid.vertices) {
-            EXPECT_NEAR(seen_at(again, vertex).x, seen_at(view, vertex).x, 1e-9);
-            EXPECT_NEAR(seen_at(again, vertex).y, seen_at(view, vertex).y, 1e-9);
+            EXPECT_NEAR(Projection(again)(vertex).x, Projection(view)(vertex).x, 1e-9);
+            EXPECT_NEAR(Projection(again)(vertex).y, Projection(view)(vertex).y, 1e-9);
         }
     }
 }
@@ -161,7 +161,7 @@ TEST(ChangedView, SeesPointsAsTheViewDoesAndKnowsHowTheyMove) {
         const Vec3 point = solid.vertices[5];
         const SeenPoint seen = formulas(point);
         const auto at = [&](const ViewChange& c, const Vec3& p) {
-            return seen_at(changed(view, c), p);
+            return Projection(changed(view, c))(p);
         };
         EXPECT_NEAR(seen.at.x, at(change, point).x, 1e-9);
         EXPECT_NEAR(seen.at.y, at(change, point).y, 1e-9);
@@ -238,7 +238,7 @@ TEST(PoseSolver, ReturnsToTheViewThatEdgesComeFrom) {
         for (int round = 0; round < 6; ++round) {
             std::vector<MetEdge> met;
             for (const WirePoint& point : points_along(wire, view, {})) {
-                const PicturePoint there = seen_at(truth, point.on_stone);
+                const PicturePoint there = Projection(truth)(point.on_stone);
                 met.push_back({point,
                                (there.x - point.at.x) * point.normal_x +
                                    (there.y - point.at.y) * point.normal_y,
@@ -262,7 +262,7 @@ TEST(OutlineShape, GivesSizeAndPlace) {
     std::vector<cv::Point> corners;
     constexpr int k_shift = 8;
     for (const Vec3& vertex : wire.solid.vertices) {
-        const PicturePoint p = seen_at(truth, vertex);
+        const PicturePoint p = Projection(truth)(vertex);
         corners.emplace_back(static_cast<int>(std::lround((p.x - 0.5) * (1 << k_shift))),
                              static_cast<int>(std::lround((p.y - 0.5) * (1 << k_shift))));
     }
@@ -433,11 +433,10 @@ TEST(FindPose, RefusesABlackPictureAndAStoneOfTenPixels) {
     const Solid solid = make_cut("step");
     const Camera camera = synthetic::camera_at(solid, standpoint(5, 0, 64));
     EXPECT_FALSE(find_pose(photo, solid, camera).usable());
-    PoseOptions options;
-    options.mask.assign(64 * 64, 0.0f);
+    photo.mask.assign(64 * 64, 0.0f);
     for (int y = 20; y < 30; ++y)
-        for (int x = 20; x < 30; ++x) options.mask[static_cast<std::size_t>(64 * y + x)] = 1;
-    EXPECT_FALSE(find_pose(photo, solid, camera, options).usable());
+        for (int x = 20; x < 30; ++x) photo.mask[static_cast<std::size_t>(64 * y + x)] = 1;
+    EXPECT_FALSE(find_pose(photo, solid, camera).usable());
 }
 
 TEST(FindPose, AnswersAStop) {
@@ -455,9 +454,9 @@ TEST(FindPose, SaysWhatItCannotWorkWith) {
     Camera camera = synthetic::camera_at(solid, standpoint(5, 0, 64));
     EXPECT_THROW(find_pose(photo, make_cut("heart"), camera), InputError);
     EXPECT_THROW(find_pose(photo, Solid{}, camera), InputError);
-    PoseOptions options;
-    options.mask.assign(10, 1.0f);
-    EXPECT_THROW(find_pose(photo, solid, camera, options), InputError);
+    photo.mask.assign(10, 1.0f);
+    EXPECT_THROW(find_pose(photo, solid, camera), InputError);
+    photo.mask.clear();
     camera.cone = 0.5;
     EXPECT_THROW(find_pose(photo, solid, camera), InputError);
 }

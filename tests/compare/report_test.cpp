@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "compare/calibration/picture_comparison.h"
 #include "compare/report/report_parts.h"
 #include "compare/report/scores_json.h"
 #include "stone/text/errors.h"

@@ -16,9 +16,9 @@
 #include <optional>
 #include <random>
 
+#include "compare/calibration/picture_comparison.h"
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
-#include "compare/scores/compare.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
 #include "tests/compare/synthetic_pictures.h"
@@ -30,14 +30,12 @@ namespace {
 
 struct PhotographCase {
     Photo photo, render;
-    std::vector<float> mask;
     std::vector<std::string> expected;
     std::optional<Comparison> found;
 
     const Comparison& result() {
         if (!found) {
             CompareOptions options;
-            options.mask = mask;
             options.threads = 1;
             found = compare(photo, render, options);
         }
@@ -102,13 +100,13 @@ Subject photograph_subject(const HardCase& hard_case, const HardPoint&,
     if (const auto mask = parameters.table("mask")) {
         std::int64_t left = mask->integer("pixels").value_or(0);
         if (left > 140 * 140) mask->fail("pixels", "is more than fits the middle");
-        c->mask.assign(c->photo.rgb.size() / 3, 0.0f);
+        c->photo.mask.assign(c->photo.rgb.size() / 3, 0.0f);
         const std::int64_t side = static_cast<std::int64_t>(std::ceil(std::sqrt(double(left))));
         for (std::int64_t y = 0; y < side; ++y) {
             for (std::int64_t x = 0; x < side && left > 0; ++x, --left) {
                 const std::int64_t at =
                     std::min<std::int64_t>(149, 75 - side / 2 + y) * 160 + (79 - side / 2 + x);
-                c->mask[static_cast<std::size_t>(at)] = 1.0f;
+                c->photo.mask[static_cast<std::size_t>(at)] = 1.0f;
             }
         }
     }

@@ -52,8 +52,8 @@ struct Bench {
         Scene scene = model;
         scene.stone.solid = solid;
         const Photo photo = photographed(renderer.draw(scene), camera(), seed);
-        const auto scores = scores_against(photo, {}, softened(renderer.picture(), camera().psf_px),
-                                           {.largest = 150}, &tilts);
+        const auto scores =
+            scores_against(photo, softened(renderer.picture(), camera().psf_px), 150, &tilts);
         return scores.empty() ? std::nullopt : scores.back().value;
     }
 

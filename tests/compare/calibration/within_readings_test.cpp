@@ -1,4 +1,4 @@
-#include "compare/calibration/within_readings.h"
+#include "compare/calibration/picture_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -29,14 +29,14 @@ Pair pair_of(double level, double half_width) {
 TEST(WithinReadings, ARenderWithoutBandsSaysNothing) {
     Pair pair = pair_of(1, 0.1);
     pair.render.bands.clear();
-    EXPECT_FALSE(compare_with_bands(pair.photo, pair.render).within.has_value());
+    EXPECT_FALSE(compare(pair.photo, pair.render).within.has_value());
 }
 
 // The photograph is the render at another exposure: the gain brings them together.
 TEST(WithinReadings, TheRenderItselfIsWithin) {
     Pair pair = pair_of(1, 0.1);
     for (float& value : pair.photo.rgb) value *= 0.4f;
-    const Comparison found = compare_with_bands(pair.photo, pair.render);
+    const Comparison found = compare(pair.photo, pair.render);
     ASSERT_TRUE(found.within.has_value());
     EXPECT_GT(found.within->within_one, 0.99);
     EXPECT_NE(scores_json(found, {}).find("\"within_readings\""), std::string::npos);
@@ -45,11 +45,11 @@ TEST(WithinReadings, TheRenderItselfIsWithin) {
 // Bands 1.5 sigma off hold the picture within two only; 4 sigma off, in neither.
 TEST(WithinReadings, BandsElsewhereDoNotHoldIt) {
     const Pair near = pair_of(1 / (1 - 1.5 * 0.1), 0.1), far = pair_of(1 / (1 - 4 * 0.1), 0.1);
-    const auto found = compare_with_bands(near.photo, near.render).within;
+    const auto found = compare(near.photo, near.render).within;
     ASSERT_TRUE(found.has_value());
     EXPECT_LT(found->within_one, 0.05);
     EXPECT_GT(found->within_two, 0.95);
-    EXPECT_LT(compare_with_bands(far.photo, far.render).within->within_two, 0.05);
+    EXPECT_LT(compare(far.photo, far.render).within->within_two, 0.05);
 }
 
 // Photographs whose pixels are off by their bands' own sigma, independently: 68.3 and 95.4 in 100.
@@ -62,7 +62,7 @@ TEST(WithinReadings, CountsWhatIsOffBySigma) {
         const float factor = static_cast<float>(1 + 0.05 * chance.normal());
         for (std::size_t c = 0; c < 3; ++c) pair.photo.rgb[3 * p + c] *= factor;
     }
-    const auto found = compare_with_bands(pair.photo, pair.render).within;
+    const auto found = compare(pair.photo, pair.render).within;
     ASSERT_TRUE(found.has_value());
     EXPECT_GT(found->within_one, 0.673);
     EXPECT_LT(found->within_one, 0.853);
