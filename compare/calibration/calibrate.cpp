@@ -1,16 +1,14 @@
 #include "compare/calibration/calibrate.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 
 #include "compare/calibration/chance.h"
 #include "compare/calibration/other_worlds.h"
 #include "compare/calibration/photo_blur.h"
+#include "compare/photo/in_batches.h"
 #include "compare/scores/scored_pair.h"
-#include "stone/text/errors.h"
 
 namespace culet {
 
@@ -111,26 +109,14 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
     const Draws draws(worlds, model_picture, renderer, options, cameras);
     const std::vector<WorldDraw>& jobs = worlds.draws();
     std::vector<std::vector<CalibrationDraw>> made(jobs.size());
-
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    const auto batch = static_cast<std::size_t>(std::max(2, 2 * arena.max_concurrency()));
-    std::size_t done = 0;
-    while (done < jobs.size()) {
-        const std::size_t end = std::min(jobs.size(), done + batch);
-        arena.execute([&] {
-            tbb::parallel_for(done, end, [&](std::size_t i) { made[i] = draws.draw(jobs[i]); });
-        });
-        done = end;
-        if (progress && !progress(static_cast<double>(done) / static_cast<double>(jobs.size()))) {
-            throw Interrupted();
-        }
-    }
+    in_batches(jobs.size(), options.threads, progress,
+               [&](std::size_t i) { made[i] = draws.draw(jobs[i]); });
     std::vector<Calibration> result(cameras.size(), common);
     for (std::size_t k = 0; k < cameras.size(); ++k) {
         CalibrateOptions own = options;
         own.camera = cameras[k];
         result[k].hash = calibration_hash(model, own);
-        for (std::size_t i = 0; i < done; ++i) result[k].draws.push_back(std::move(made[i][k]));
+        for (auto& of_world : made) result[k].draws.push_back(std::move(of_world[k]));
     }
     return result;
 }

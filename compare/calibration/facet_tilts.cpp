@@ -1,16 +1,13 @@
 #include "compare/calibration/facet_tilts.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 
 #include "compare/calibration/facet_error.h"
+#include "compare/photo/in_batches.h"
 #include "stone/numbers/units.h"
 #include "stone/solid/checks.h"
-#include "stone/text/errors.h"
 
 namespace culet {
 
@@ -78,13 +75,7 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
         parts.changes[tilt] = samples_of((either[0] - either[1]) / (2 * k_step_deg), mask_);
         bends[tilt] = samples_of(either[0] + either[1] - 2 * untilted, mask_);
     };
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    const auto batch = static_cast<std::size_t>(4 * arena.max_concurrency());
-    for (std::size_t done = 0; done < tilts; done += batch) {
-        if (progress && !progress(static_cast<double>(done) / static_cast<double>(tilts)))
-            throw Interrupted();
-        arena.execute([&] { tbb::parallel_for(done, std::min(tilts, done + batch), column); });
-    }
+    in_batches(tilts, threads, progress, column);
     const std::size_t samples = bends.front().size();
     parts.noise.assign(samples, k_least_noise * k_least_noise);
     for (const auto& bend : bends) {

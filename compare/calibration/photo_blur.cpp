@@ -16,13 +16,18 @@ constexpr double k_most = 4, k_step = 0.25;
 // Mean square of the detail between one and two pixels. Roots make noise alike everywhere; two
 // pixels average what is left of it away.
 double detail(const cv::Mat& light, double white, const cv::Mat& mask) {
-    cv::Mat root = cv::min(cv::max(light / white, 0), 1);
-    cv::sqrt(root, root);
+    const cv::Mat root = root_of(light, white);
     const cv::Mat band = softened(root, 1) - softened(root, 2);
     return cv::mean(band.mul(band), mask)[0];
 }
 
 }  // namespace
+
+cv::Mat root_of(const cv::Mat& light, double white) {
+    cv::Mat root = cv::min(cv::max(light / white, 0), 1);
+    cv::sqrt(root, root);
+    return root;
+}
 
 double photo_blur_px(const MatchedPictures& pictures) {
     // The outline is no detail of the stone: stay clear of it.

@@ -13,6 +13,9 @@ namespace culet {
 /// pixels and more.
 double photo_blur_px(const MatchedPictures& pictures);
 
+/// Of light up to white: noise is alike everywhere there.
+cv::Mat root_of(const cv::Mat& light, double white);
+
 /// The picture as a lens would show it whose point spread is a Gaussian of that standard deviation.
 /// A photo's coverage stays as it is.
 cv::Mat softened(const cv::Mat& picture, double psf_px);

@@ -22,12 +22,6 @@ constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
 constexpr double k_psf_step_px = 0.1;
 constexpr double k_steps_per_octave = 4;  // of electrons
 
-cv::Mat root_of(const cv::Mat& colour, double white) {
-    cv::Mat root = cv::min(cv::max(colour / white, 0), 1);
-    cv::sqrt(root, root);
-    return root;
-}
-
 // All three channels between the two.
 cv::Mat between(const cv::Mat& colour, double low, double high) {
     cv::Mat result;

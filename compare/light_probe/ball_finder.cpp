@@ -21,8 +21,7 @@ constexpr double k_one_ball = 0.25;  // of the radius: circles so near are about
 // Luminance as an eye sees steps in it: cube root above the dark, 0..1 at the 99.5 % quantile.
 cv::Mat seen_luminance(const Photo& photo) {
     cv::Mat plane = luminance(colour_of(photo));
-    const cv::Mat all(plane.size(), CV_8U, cv::Scalar(255));
-    const auto white = static_cast<float>(std::max(quantile(plane, all, 0.995), 1e-30));
+    const auto white = static_cast<float>(std::max(quantile(plane, {}, 0.995), 1e-30));
     for (int y = 0; y < plane.rows; ++y) {
         float* row = plane.ptr<float>(y);
         for (int x = 0; x < plane.cols; ++x)

@@ -52,9 +52,7 @@ double correlation_of(const ViewPair& pair, const ViewParameters& p) {
         if (!in_a || !in_b) continue;
         pairs.add(std::sqrt(qa * qb), stops_at(first, *in_a), stops_at(second, *in_b));
     }
-    if (!(pairs.weight > 0)) return 0;
-    const double va = pairs.first(), vb = pairs.second();
-    return va > 0 && vb > 0 ? pairs.both() / std::sqrt(va * vb) : 0;
+    return pairs.weight > 0 ? pairs.correlation() : 0;
 }
 
 double gain_of(const ViewPair& pair, const ViewParameters& p) {

@@ -129,9 +129,7 @@ double correlation(const SmoothPoints& first, const SmoothMap& second,
     }
     const double n = pairs.weight;
     if (n <= 0) return -1;
-    const double va = pairs.first(), vb = pairs.second();
-    if (va <= 1e-9 * n || vb <= 1e-9 * n) return 0;
-    const double r = pairs.both() / std::sqrt(va * vb);
+    const double r = pairs.correlation();
     return n < least_weight ? r * n / least_weight : r;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 // Weighted moments of pairs of numbers. Private to the room.
 
+#include <algorithm>
+#include <cmath>
+
 namespace culet {
 
 struct WeightedPairs {
@@ -14,10 +17,12 @@ struct WeightedPairs {
         sum_bb_ += w * b * b;
         sum_ab_ += w * a * b;
     }
-    /// Variances and covariance times the weight, which must not be 0.
-    double first() const { return sum_aa_ - sum_a_ * sum_a_ / weight; }
-    double second() const { return sum_bb_ - sum_b_ * sum_b_ / weight; }
-    double both() const { return sum_ab_ - sum_a_ * sum_b_ / weight; }
+    /// 0 where one of the two hardly varies. The weight must not be 0.
+    double correlation() const {
+        const double a = sum_aa_ - sum_a_ * sum_a_ / weight, b = sum_bb_ - sum_b_ * sum_b_ / weight;
+        if (std::min(a, b) <= 1e-9 * weight) return 0;
+        return (sum_ab_ - sum_a_ * sum_b_ / weight) / std::sqrt(a * b);
+    }
 
 private:
     double sum_a_ = 0, sum_b_ = 0, sum_aa_ = 0, sum_bb_ = 0, sum_ab_ = 0;

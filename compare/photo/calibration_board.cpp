@@ -39,7 +39,7 @@ cv::Ptr<cv::aruco::CharucoBoard> board_of(const BoardShape& shape) {
 // The brightness that the finder of corners knows: 8 bits, sRGB.
 cv::Mat grey_of(const Photo& photo) {
     const cv::Mat y = luminance(colour_of(photo));
-    const double white = quantile(y, cv::Mat(y.size(), CV_8U, cv::Scalar(255)), 0.98);
+    const double white = quantile(y, {}, 0.98);
     cv::Mat grey;
     encoded(y / std::max(white, 1e-30)).convertTo(grey, CV_8U, 240);
     return grey;

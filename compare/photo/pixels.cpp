@@ -64,13 +64,19 @@ double between_pixels(const cv::Mat& plane, double x, double y) {
     return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
 }
 
+cv::Mat brightest_channel(const cv::Mat& colour) {
+    cv::Mat channels[3];
+    cv::split(colour, channels);
+    return cv::max(cv::max(channels[0], channels[1]), channels[2]);
+}
+
 double quantile(const cv::Mat& plane, const cv::Mat& mask, double share) {
     std::vector<float> values;
     for (int y = 0; y < plane.rows; ++y) {
         const float* p = plane.ptr<float>(y);
-        const unsigned char* m = mask.ptr<unsigned char>(y);
+        const unsigned char* m = mask.empty() ? nullptr : mask.ptr<unsigned char>(y);
         for (int x = 0; x < plane.cols; ++x) {
-            if (m[x] != 0) values.push_back(p[x]);
+            if (m == nullptr || m[x] != 0) values.push_back(p[x]);
         }
     }
     return values.empty() ? 0 : static_cast<double>(quantile(std::move(values), share));

@@ -25,7 +25,11 @@ std::string png_bytes(const cv::Mat& pixels);
 /// that lies outside.
 double between_pixels(const cv::Mat& plane, double x, double y);
 
-/// Value below which `share` (0..1) of the pixels under the mask lie; 0 for an empty mask.
+/// The largest of the three colours.
+cv::Mat brightest_channel(const cv::Mat& colour);
+
+/// Value below which `share` (0..1) of the pixels under the mask lie; 0 where it holds none.
+/// Without a mask: of all pixels.
 double quantile(const cv::Mat& plane, const cv::Mat& mask, double share);
 
 }  // namespace culet

@@ -99,7 +99,7 @@ GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
 std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
     // The finder wants an 8-bit picture of ordinary brightness.
     const cv::Mat colour = colour_of(photo), y = luminance(colour);
-    const double white = quantile(y, cv::Mat(y.size(), CV_8U, cv::Scalar(255)), 0.99);
+    const double white = quantile(y, {}, 0.99);
     if (!(white > 0)) return std::nullopt;
     cv::Mat eight, bgr;
     encoded(colour / white).convertTo(eight, CV_8U, 255);

@@ -70,10 +70,7 @@ EdgePicture::EdgePicture(const cv::Mat& colour, double saturation) {
     // sigma: four of these, and the rounding of eight bits.
     least_step = std::max(2.0 / 255, 4 * 0.5 * std::sqrt(2.0) * noise);
     if (saturation > 0) {
-        cv::Mat channels[3];
-        cv::split(colour, channels);
-        const cv::Mat brightest = cv::max(cv::max(channels[0], channels[1]), channels[2]);
-        clipped = brightest >= 0.99 * saturation;
+        clipped = brightest_channel(colour) >= 0.99 * saturation;
         cv::dilate(clipped, clipped, cv::Mat());
     }
 }

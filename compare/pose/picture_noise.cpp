@@ -18,9 +18,7 @@ double noise_of(const cv::Mat& picture, const cv::Mat& mask) {
     const cv::Mat size = cv::abs(response);
     const cv::Mat one_channel = size.reshape(1);
     cv::Mat channels;  // the mask, once for each
-    if (mask.empty()) {
-        channels = cv::Mat(one_channel.size(), CV_8U, cv::Scalar(255));
-    } else {
+    if (!mask.empty()) {
         cv::merge(std::vector<cv::Mat>(3, mask), channels);
         channels = channels.reshape(1);
     }

@@ -24,8 +24,7 @@ class Sheet {
 public:
     Sheet(const Photo& photo, bool mirrored) {
         cv::Mat colour = colour_of(photo).clone();
-        const cv::Mat everywhere(colour.size(), CV_8U, cv::Scalar(255));
-        const double bright = quantile(luminance(colour), everywhere, 0.99);
+        const double bright = quantile(luminance(colour), {}, 0.99);
         if (bright > 0) colour *= 1 / bright;
         // Muted, so that the lines stand out.
         encoded(colour).convertTo(pixels_, CV_8UC3, 0.8 * 255);

@@ -77,8 +77,7 @@ Camera start_for(const Camera& start, int width, int height, PoseOptions& option
 
 cv::Mat exposed(const Photo& photo, double& saturation) {
     const cv::Mat colour = colour_of(photo);
-    const cv::Mat everywhere(colour.size(), CV_8U, cv::Scalar(255));
-    const double bright = quantile(luminance(colour), everywhere, 0.995);
+    const double bright = quantile(luminance(colour), {}, 0.995);
     saturation = photo.saturation;
     if (!(bright > 0)) return colour.clone();
     saturation /= bright;

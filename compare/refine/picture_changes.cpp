@@ -1,13 +1,10 @@
 #include "compare/refine/picture_changes.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <opencv2/core.hpp>
 
+#include "compare/photo/in_batches.h"
 #include "compare/refine/plane_moves.h"
-#include "stone/text/errors.h"
 
 namespace culet {
 
@@ -50,12 +47,7 @@ PictureChanges picture_changes(const SketchedStone& stone, const cv::Mat& mask, 
         changes.slopes[k] = samples_of((either[0] - either[1]) / (2 * step), mask);
         changes.bends[k] = samples_of(either[0] + either[1] - 2 * still, mask);
     };
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    const auto batch = std::size_t(4 * arena.max_concurrency());
-    for (std::size_t done = 0; done < all; done += batch) {
-        if (progress && !progress(double(done) / double(all))) throw Interrupted();
-        arena.execute([&] { tbb::parallel_for(done, std::min(all, done + batch), change); });
-    }
+    in_batches(all, threads, progress, change);
     return changes;
 }
 

@@ -281,8 +281,7 @@ Silhouette silhouette_from_background(const cv::Mat& colour) {
         return silhouette;
     }
     // Bring pictures of any exposure to a common brightness before differences are judged.
-    const cv::Mat everywhere(colour.size(), CV_8U, cv::Scalar(255));
-    const double bright = quantile(luminance(colour), everywhere, 0.995);
+    const double bright = quantile(luminance(colour), {}, 0.995);
     if (!(bright > 0)) {
         silhouette.trouble = "the picture is black: no stone can be seen";
         return silhouette;

@@ -25,12 +25,6 @@ cv::Mat eroded(const cv::Mat& mask, double by_px) {
     return distance > by_px;
 }
 
-cv::Mat brightest_channel(const cv::Mat& colour) {
-    cv::Mat channels[3];
-    cv::split(colour, channels);
-    return cv::max(cv::max(channels[0], channels[1]), channels[2]);
-}
-
 }  // namespace
 
 cv::Rect part_to_score(const MatchedPictures& pictures) {

@@ -40,7 +40,8 @@ cv::Rect part_to_score(const MatchedPictures& pictures);
 /// A copy of a part of the pictures.
 MatchedPictures part_of(const MatchedPictures& pictures, const cv::Rect& part);
 
-/// The white level of a stone's picture: where its camera clips, else its 99.5 % quantile.
+/// The white level of a stone's picture: where its camera clips, else its 99.5 % quantile (`mask`
+/// as for `quantile`).
 double white_level(const cv::Mat& colour, const cv::Mat& mask, double saturation);
 
 /// 255 where the picture is not clipped, under the mask.

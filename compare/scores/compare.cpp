@@ -1,8 +1,6 @@
 #include "compare/scores/compare.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/photo/in_batches.h"
 #include "compare/photo/pixels.h"
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/colour_distribution.h"
@@ -19,6 +18,7 @@
 #include "compare/scores/score_list.h"
 #include "compare/scores/scored_pair.h"
 #include "stone/numbers/units.h"
+#include "stone/progress/part_of_progress.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -124,15 +124,7 @@ void add_null(const MeasuredPair& close, const cv::Mat& usable, const cv::Mat& o
         measures.calibrating = close.measures.calibrating;
         for (const Score& s : scores_of(measures)) rows[k].push_back(s.value);
     };
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    // Some at a time, so that progress is told from this thread.
-    const std::size_t batch = 8;
-    for (std::size_t first = 0; first < draws.size(); first += batch) {
-        const std::size_t last = std::min(draws.size(), first + batch);
-        arena.execute([&] { tbb::parallel_for(first, last, measure_draw); });
-        const double done = static_cast<double>(last) / static_cast<double>(draws.size());
-        if (progress && !progress(0.2 + 0.8 * done)) throw Interrupted();
-    }
+    in_batches(draws.size(), options.threads, part_of(progress, 0.2, 1), measure_draw);
     for (std::size_t s = 0; s < result.scores.size(); ++s) {
         for (const auto& row : rows) {
             if (row[s]) result.scores[s].null.push_back(*row[s]);
@@ -184,8 +176,7 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     if (!frame.photo.colour.empty()) {
         result.pictures.photo = photo_of(frame.photo.colour);
         result.pictures.photo_outline = map_of({}, frame.photo.silhouette.mask);
-        const cv::Mat everywhere(frame.photo.colour.size(), CV_8U, cv::Scalar(255));
-        result.pictures.white = white_level(frame.photo.colour, everywhere, photo.saturation);
+        result.pictures.white = white_level(frame.photo.colour, {}, photo.saturation);
     }
     if (!frame.render.empty()) {
         result.pictures.render = photo_of(frame.render);

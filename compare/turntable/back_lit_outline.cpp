@@ -107,8 +107,7 @@ std::optional<Crossing> crossing(const cv::Mat& relative, const cv::Point2d& pix
 BackLitOutline back_lit_outline(const Photo& photo) {
     BackLitOutline result;
     const cv::Mat light = luminance(colour_of(photo));
-    const cv::Mat everywhere(light.size(), CV_8U, cv::Scalar(255));
-    const double bright = quantile(light, everywhere, 0.95);
+    const double bright = quantile(light, {}, 0.95);
     if (!(bright > 0)) {
         result.trouble = "the picture is black";
         return result;
