@@ -7,8 +7,10 @@ namespace culet {
 namespace {
 
 // Smallest steps onto the hard equations, until rounding is all that is left.
-Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<ActiveCorner>& held) {
+Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<ActiveCorner>& held,
+                       double held_sigma) {
     PenaltyScale penalty;
+    penalty.held = held_sigma;
     penalty.with_priors = penalty.with_hinges = false;
     double missed = relaxation.worst_hard(shape);
     for (const double least : {k_kkt.least_variance, k_kkt.least_variance_close}) {
@@ -41,11 +43,10 @@ void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
 
 void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                    LocalOptimum& optimum) {
-    optimum.shape = onto_constraints(relaxation, std::move(optimum.shape), held);
+    optimum.shape = onto_constraints(relaxation, std::move(optimum.shape), held, k_held.sigma);
     if (!held.empty() && relaxation.worst_hard(optimum.shape) > k_newton.rounding) {
-        // Corners held next to an edge of no length bind so tightly that meets give way. The meets
-        // alone, from here, move less than what corners are held below.
-        Shape met = onto_constraints(relaxation, optimum.shape, {});
+        // Corners held next to an edge of no length bind so tightly that meets give way.
+        Shape met = onto_constraints(relaxation, optimum.shape, held, k_held.sigma_beside_meets);
         if (relaxation.is_convex(met)) optimum.shape = std::move(met);
     }
     look_at_end(relaxation, held, optimum, optimum.outline);

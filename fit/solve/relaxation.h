@@ -11,15 +11,17 @@
 #include "fit/model/fit_model.h"
 #include "fit/model/jacobian_rows.h"
 #include "fit/model/parameters.h"
+#include "fit/solve/constants.h"
 
 namespace culet {
 
 /// How far a stage softens what will have to hold.
 struct PenaltyScale {
-    double incidence = 0;       ///< of exact incidences and exact readings; 0: they are hard
-    double readings = 0;        ///< added to each reading's own uncertainty
-    double hinge = 1e-4;        ///< by how much a corner may stand above a neighbour facet
-    bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
+    double incidence = 0;        ///< of exact incidences and exact readings; 0: they are hard
+    double readings = 0;         ///< added to each reading's own uncertainty
+    double hinge = 1e-4;         ///< by how much a corner may stand above a neighbour facet
+    double held = k_held.sigma;  ///< by how much a held corner may stand off where it is held
+    bool with_readings = true;   ///< false: only a convex stone of these meets, near the mesh
     bool with_hinges = true;
     bool with_priors = true;  ///< the mesh's points, as far as a hand-made mesh may be off:
     double mesh_sigma = 0.4;  ///< up to 20 % of its width

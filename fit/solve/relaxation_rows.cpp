@@ -41,7 +41,7 @@ std::vector<Relaxation::Term> Relaxation::terms(const PenaltyScale& penalty,
                            q.value += k_held.below;
                            return q;
                        },
-                       k_held.sigma * k_held.sigma, Term::Kind::held_corner});
+                       penalty.held * penalty.held, Term::Kind::held_corner});
         all.back().corner = h;
     }
     for (const SharedContact& contact : shared_contacts_) {
@@ -110,10 +110,11 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const PenaltyScale& pe
     Missed missed;
     missed.residuals = Eigen::VectorXd::Zero(Eigen::Index(all.size()));
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!(all[i].variance < sharp) && all[i].kind != Term::Kind::contact) continue;
+        const bool is_held = all[i].kind == Term::Kind::held_corner;
+        if (!(all[i].variance < sharp) && !is_held && all[i].kind != Term::Kind::contact) continue;
         const double residual = all[i].formula(shape).value;
         missed.residuals(Eigen::Index(i)) = residual;
-        const bool is_hard = all[i].variance == 0 || all[i].kind == Term::Kind::held_corner;
+        const bool is_hard = all[i].variance == 0 || is_held;
         if (is_hard && !(std::abs(residual) <= missed.worst)) missed.worst = std::abs(residual);
     }
     return missed;
