@@ -1,7 +1,7 @@
 #pragma once
 // Readings held against what needs no fit: the other readings of their tier, the mesh, and what a
 // stone can have at all. A slip of the pen is found so with no redundancy at all, before it bends
-// the fit. docs/fitting.md, "The first check", has the method.
+// the fit. docs/fitting.md, "Findings", has the method.
 
 #include <string>
 #include <vector>
