@@ -182,6 +182,8 @@ void time_table(BenchTables& tables, const Chosen& chosen, unsigned large) {
         2000);
     if (large > 0) {
         line(
+            "tiered", [](unsigned s) { return make_tiered(600, s); }, 0.001, large, 20000);
+        line(
             "tiered", [](unsigned s) { return make_tiered(1000, s); }, 0.001, large, 20000, 2000);
     }
     rusage usage{};
@@ -246,7 +248,8 @@ int main(int argc, char** argv) {
     app.add_option("--json", json, "also write the tables here");
     app.add_flag("--verbose", chosen.verbose,
                  "name each failure, and the time of each stone, on stderr");
-    app.add_flag("--large{1}", large, "also time a stone of 1000 facets, or several: --large=4");
+    app.add_flag("--large{1}", large,
+                 "also time stones of 600 and of 1000 facets, or several: --large=4");
     try {
         app.parse(argc, argv);
         BenchTables tables;

@@ -1,7 +1,7 @@
 #pragma once
-// The numbers of the hypotheses: unit, meaning, and where each comes from. Lengths are in half
-// diameters, gains in chi-square; numbers without a bench lie far between the two sizes that they
-// tell apart. Private to the room.
+// Constants of the hypotheses: unit, meaning, and the bench they come from. Lengths are in half
+// diameters, gains in chi-square. A constant without a bench lies far between the two sizes that it
+// separates. Private to the room.
 
 #include <cstddef>
 
@@ -9,29 +9,31 @@ namespace culet {
 
 /// What a hypothesis must gain, and what it may cost.
 struct TrialConstants {
-    /// Starts where what is wrong was found; one where those before took more multiplications.
+    /// Starts of a fit under a hypothesis; one where the first fit took more than `dear_work`
+    /// multiplications.
     int few_starts = 2;
     double dear_work = 2e9;
-    /// Of the value itself: what is so uncertain pulls at nothing.
+    /// Sigma that takes a reading out of the fit, relative to its value.
     double next_to_nothing = 1e3;
-    /// What explains why there is no stone takes nearly all of chi-square with it.
+    /// A reading explains why there is no stone if the fit without it leaves less than this part of
+    /// chi-square.
     double chi2_left_without = 0.01;
-    /// What it costs in chi-square to take the mesh for its mirror image: five sigmas.
+    /// Chi-square that the mirror image of the mesh must gain: five sigmas.
     double price_of_mirror = 25;
-    /// Who reads from the wrong mark is off by a mark; what the mesh's own errors turn it by is
-    /// less.
+    /// Azimuths that count from another mark are off by a multiple of `mark_deg`, within
+    /// `near_deg`: errors of the mesh turn it by less.
     double mark_deg = 15, near_deg = 4;
-    /// What explains a contradiction takes most of chi-square with it.
+    /// Turned azimuths explain a contradiction if they leave less than this part of chi-square.
     double chi2_left_turned = 0.5;
-    /// Of the size. Not exact: where the angles are no stone's, nothing can be, and the size is not
-    /// what they contradict.
+    /// Sigma of an unread size, relative to it. It is not exact: angles that fit no stone would
+    /// then contradict the size.
     double as_good_as_exact = 1e-6;
 };
 inline constexpr TrialConstants k_trials;
 
 /// Changes of the topology (topology.h).
 struct TopologyConstants {
-    /// Of the diameter; and how many are tried.
+    /// Edges shorter than this part of the diameter may change; at most so many are tried.
     double doubtful = 0.1;
     std::size_t most_doubtful = 6;
 };

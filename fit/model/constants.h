@@ -1,69 +1,65 @@
 #pragma once
-// The numbers of the model: unit, meaning, and where each comes from. Lengths are in half
-// diameters, gains in chi-square; numbers without a bench lie far between the two sizes that they
-// tell apart. Private to the room.
+// Constants of the model: unit, meaning, and the bench they come from. Lengths are in half
+// diameters, gains in chi-square. A constant without a bench lies far between the two sizes that it
+// separates. Private to the room.
 
 namespace culet {
 
-/// How the mesh stands (model.h, azimuth_turn.h).
+/// How the mesh stands (frame.h, azimuth_turn.h).
 struct FrameConstants {
-    /// A stone is drawn standing on an axis of its file; within this of one, the tilt is a slip of
-    /// hand.
+    /// A mesh is drawn upright along an axis of its file. A smaller tilt is the drawer's error.
     double snap_deg = 20;
-    /// Facets within this of upright are the girdle's; no crown or pavilion facet comes near.
+    /// Facets within this of upright belong to the girdle; crown and pavilion facets stay far away.
     double girdle_tilt_deg = 10;
-    int width_directions = 36;  ///< of a width in plan: 5 degrees apart
-    /// Of the mesh's own frame one is surer than of any drawing: five sigmas.
+    int width_directions = 36;  ///< in which a width in plan is looked for: every 5 degrees
+    /// Standard errors. The mesh is turned only by a difference that exceeds this many.
     double sure_turn = 5;
-    /// So few differences say nothing of how they scatter.
+    /// With fewer differences their scatter is unknown.
     int least_differences = 3;
 };
 inline constexpr FrameConstants k_frame;
 
-/// Shapes and formulas (model.h, residuals.h, parameters.h).
+/// Shapes and formulas (shape.h, residuals.h, parameters.h).
 struct ShapeConstants {
-    /// Held less than twice as tightly by the readings as by the mesh: not determined. In
-    /// information.
+    /// Information, relative to the mesh's. A direction with less is undetermined: the readings
+    /// hold it less than twice as tightly as the mesh.
     double determined = 4;
-    /// For the question what is open, a reading is tight enough at this weight: squares of larger
-    /// ones would drown a weight of one in rounding.
+    /// Largest weight of a reading while undetermined directions are counted. Squares of larger
+    /// weights would drown a weight of one in rounding.
     double tight = 1e6;
-    /// What the point of a meet that was let go weighs in a metric, of what others do.
+    /// Weight in the metric of a released meet's point, relative to other points.
     double loose_point = 0.08;
-    /// Exact meets come out of the planes as edges of rounding length; real edges are longer than
-    /// this part of the half diameter by far.
+    /// Exact meets show as edges as long as rounding; real edges are far longer than this.
     double rounding_edge = 1e-10;
-    /// Softening of incidences that are released: they come apart by this much of the half diameter
-    /// before the point that stands for them lags behind.
+    /// Sigma of released incidences: planes come apart this far before the meet's point lags.
     double released_sigma = 0.2;
-    /// Sine between planes below which rounding has half the digits of the line they share.
+    /// Sine between two planes. Below it, rounding takes half the digits of their common line.
     double one_plane = 1e-8;
-    /// Radians: further off, some azimuths would be wrapped to the other side.
+    /// Radians. Azimuths that differ by more could wrap to the other side.
     double farthest_azimuth = 3;
-    /// What a step of one means: a mesh may be off by 20 % of its width in its points; tilts,
-    /// offsets and extras are of the order of one.
+    /// Weight of a point: a mesh may be off by 20 % of its width. Tilts, offsets and extra unknowns
+    /// have a weight of one.
     double point_weight = 1 / (0.4 * 0.4);
-    /// Of an edge's length: planes whose sine is less are told apart by less than the edge's ends
-    /// are.
+    /// Sine between two planes, over the length of their edge. Below it, the length is the distance
+    /// between the edge's ends; above it, it is measured along the planes' common line.
     double nearly_one_plane = 0.3;
 };
 inline constexpr ShapeConstants k_shapes;
 
 /// The prior of the facets (prior.h).
 struct PriorConstants {
-    /// By how much facets of a well cut stone miss a common corner, as part of its width.
+    /// By how much facets of a well cut stone miss a common corner, as a part of its width.
     double meet_miss = 0.001;
-    /// Facets of a tier differ by less than a tier does from the catalogue: a dop is set once a
-    /// tier. Of a hand-made mesh each facet is off by itself.
+    /// Sigma of a facet about its tier, relative to that of a tier about the start. A cutter sets
+    /// the dop once a tier; in a drawing each facet is off by itself.
     double facets_of_design = 0.3, facets_of_drawing = 1;
-    /// Below this a facet is level, and its azimuth says nothing.
+    /// Below this inclination a facet is level: its azimuth is meaningless.
     double level_deg = 5;
-    /// A tier of a drawing whose angles lie within so many of its sigmas is meant to have one
-    /// angle.
+    /// In sigmas. Angles of a drawn tier that differ by less are taken as one angle.
     double meant_alike = 6;
-    /// How many observations the stated sigmas count for.
+    /// Observations that the stated sigmas count for.
     double facets_count = 2, tiers_count = 1;
-    /// However alike the readings are: no stone is cut ten times better than supposed.
+    /// Least estimated sigma, relative to the stated one, however alike the readings are.
     double least_part = 0.1;
 };
 inline constexpr PriorConstants k_prior;

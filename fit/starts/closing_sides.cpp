@@ -1,5 +1,5 @@
 #include "fit/starts/closing_sides.h"
-#include "fit/starts/search_policy.h"
+#include "fit/starts/constants.h"
 
 #include <algorithm>
 #include <array>

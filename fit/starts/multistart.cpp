@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "fit/model/enclosed.h"
+#include "fit/starts/constants.h"
 #include "fit/starts/penalty_continuation.h"
-#include "fit/starts/search_policy.h"
 #include "fit/uncertainty/diagnostics.h"
 #include "fit/uncertainty/statistics.h"
 

@@ -8,7 +8,7 @@
 #include "fit/model/fit_model.h"
 #include "fit/model/options.h"
 #include "fit/solve/active_set.h"
-#include "fit/starts/search_policy.h"
+#include "fit/starts/constants.h"
 #include "stone/progress/progress.h"
 
 namespace culet {

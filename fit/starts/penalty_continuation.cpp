@@ -2,7 +2,7 @@
 
 #include "fit/solve/relax.h"
 #include "fit/solve/sign_ambiguity.h"
-#include "fit/starts/search_policy.h"
+#include "fit/starts/constants.h"
 
 namespace culet {
 

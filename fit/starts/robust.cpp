@@ -5,8 +5,8 @@
 
 #include "fit/model/equations.h"
 #include "fit/model/linear.h"
+#include "fit/starts/constants.h"
 #include "fit/starts/refit.h"
-#include "fit/starts/search_policy.h"
 
 namespace culet {
 

@@ -14,7 +14,7 @@
 #include "fit/model/enclosed.h"
 #include "fit/model/orbits.h"
 #include "fit/starts/closing_sides.h"
-#include "fit/starts/search_policy.h"
+#include "fit/starts/constants.h"
 #include "stone/numbers/dense_algebra.h"
 #include "stone/solid/checks.h"
 #include "stone/upright.h"
