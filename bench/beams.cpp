@@ -1,5 +1,5 @@
 // The renderer by beams: pictures a second and error, one parameter at a time about a base case
-// (bench_scenes.h), beside the reference, a plain ray tracer and POV-Ray. docs/rendering.md says
+// (bench_scenes.h), beside the reference, a plain ray tracer and POV-Ray. docs/engines.md says
 // how to read it.
 //
 //   bench_beams [--pixels N] [--section NAME] [--json FILE] [--cache DIR]

@@ -78,7 +78,7 @@ inline constexpr double k_cut_weight = 0.01;
 /// What the next picture aims at: the nearer to the tolerance, the more pixels decide.
 inline constexpr double k_aim = 0.5;
 /// Borders of the first beams; at each level, borders and the weights at which paths end are so
-/// much finer. Errors fall as the root of borders (docs/rendering.md), and about halve.
+/// much finer. Errors fall as the root of borders (docs/engines.md), and about halve.
 inline constexpr double k_coarsest = 0.1, k_finer_borders = 0.25, k_finer_paths = 1.0 / 3;
 inline constexpr int k_most_levels_at_once = 3;
 /// A crystal's paths end without roulette at k tolerance^(1/0.6): 0.009 left 0.047 of the light.

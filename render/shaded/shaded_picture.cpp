@@ -99,7 +99,7 @@ RenderResult shaded_picture(const Scene& scene, const std::string& engine, const
                                  on ? 0 : std::numeric_limits<double>::quiet_NaN()});
     }
     stats.error_bound = std::numeric_limits<double>::quiet_NaN();
-    stats.notes.push_back("a plain shading, not a computation of light: docs/rendering.md");
+    stats.notes.push_back("a plain shading, not a computation of light: docs/engines.md");
     stats.seconds_shade =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

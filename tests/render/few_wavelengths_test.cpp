@@ -136,7 +136,7 @@ Lab mean_colour(const Scene& scene) {
 TEST(FewWavelengths, DrawTheColourOfTheFullPicture) {
     const std::vector<double> full = even_wavelengths(29);
     // Not within 2: ruby, emerald, alexandrite, whose light goes over from one wave into the other
-    // at each face (docs/rendering.md has by how much).
+    // at each face (docs/engines.md has by how much).
     for (const char* name : {"sapphire_blue", "garnet_almandine", "peridot"}) {
         const Lab whole = mean_colour(coloured(name, full));
         for (const int count : {3, 8}) {
