@@ -27,7 +27,7 @@ constexpr double k_doubted_with_slip = 3.5, k_explained = 2;
 // Two others that differ do not say which of them is wrong.
 constexpr std::size_t k_fewest_others = 2;
 
-// How much honest readings differ (docs/readings.md): radians, and logarithms of lengths; more
+// How much honest readings differ (docs/measuring.md): radians, and logarithms of lengths; more
 // beside a mesh that was drawn by hand.
 struct Tolerances {
     explicit Tolerances(bool is_design) : from_mesh(radians(is_design ? 1 : 3)) {

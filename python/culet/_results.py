@@ -34,7 +34,7 @@ class Fit:
     #: known, or over 300 facets
     covariance: Optional[np.ndarray]
     summary: List[str]  #: what a cutter should know, a sentence each
-    report: Dict[str, Any] = field(repr=False)  #: all of it (docs/readings.md, FIT.json)
+    report: Dict[str, Any] = field(repr=False)  #: all of it (docs/measuring.md, FIT.json)
 
 
 @dataclass(frozen=True)
