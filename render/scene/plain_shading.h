@@ -1,6 +1,6 @@
 #pragma once
 // What the plain shadings (engines flat, gouraud, phong, whitted) need beyond the physical scene:
-// [shading] of scene files, see docs/rendering.md.
+// [shading] of scene files, see docs/engines.md.
 
 #include <array>
 
