@@ -137,7 +137,7 @@ struct Reading {
 /// one reading a facet, with `.NAME` after the id. Throws InputError, with file and line, for names
 /// that are not there (naming near ones), a wrong number of names, values and uncertainties that
 /// cannot be, repeated ids, and lengths that look like another unit; and when all rows of a form
-/// are empty. A trade's word may make several readings (docs/stone-files.md). `notes`, when given,
+/// are empty. A trade's word may make several readings (docs/readings.md). `notes`, when given,
 /// gets a line for everything that was taken for what it does not quite say.
 std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone,
                                    std::vector<std::string>* notes = nullptr);

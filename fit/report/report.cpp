@@ -1,4 +1,4 @@
-// The fit report: the keys of docs/stone-files.md, and a few more.
+// The fit report: the keys of docs/fit-report.md, and a few more.
 
 #include <fmt/format.h>
 

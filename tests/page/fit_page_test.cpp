@@ -1,4 +1,4 @@
-// Reports as `culet fit --report` writes them (docs/stone-files.md), cut down by hand; what the
+// Reports as `culet fit --report` writes them (docs/fit-report.md), cut down by hand; what the
 // page must say of them is worked out by hand.
 
 #include "page/fit_page.h"
