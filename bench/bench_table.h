@@ -20,7 +20,7 @@ public:
     void line(const std::string& what, const std::vector<std::string>& values);
     /// What the lines before come to.
     void remark(const std::string& text);
-    /// One object; see docs/rendering.md.
+    /// One object: `head`, and `sections`, each with `name`, `about`, `lines` and `remarks`.
     std::string json(const std::vector<std::pair<std::string, std::string>>& head) const;
 
 private:

@@ -16,8 +16,9 @@ LocalOptimum with_best_signs(Relaxation& relaxation, KktSolver& solver,
     PenaltyScale penalty;
     penalty.with_priors = false;
     const auto gains_from = [&](const Shape& another) {
-        LocalOptimum other = constrained_newton(relaxation, solver, another, {},
-                                                {.iterations = options.iterations / 2});
+        LocalOptimum other =
+            constrained_newton(relaxation, solver, another, {},
+                               {.iterations = options.iterations / k_signs.steps_divisor});
         other.iterations += optimum.iterations;
         if (!(other.chi2 < optimum.chi2 - k_signs.same_end)) return false;
         optimum = std::move(other);
