@@ -15,6 +15,8 @@ namespace {
 // The picture is a plane to measure in; its pixels mean nothing.
 constexpr int k_picture = 1000;
 constexpr double k_room_around = 1.05;
+// Outlines that are made between two questions whether to go on: about a millisecond.
+constexpr std::size_t k_outlines = 1000;
 
 Vec3 refracted_out(const Vec3& d, const Vec3& normal, double n, double cosine, double q_out) {
     return glm::normalize(n * d + (q_out - n * cosine) * normal);
@@ -205,7 +207,9 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
     // From pixels to the plane through the origin.
     const Vec3 corner = view.origin({0, 0});
     const ScreenPoint shift{glm::dot(corner, light.right), glm::dot(corner, light.up)};
-    for (std::vector<ScreenPoint>& outline : light.regions) {
+    for (std::size_t i = 0; i < light.regions.size(); ++i) {
+        if (i % k_outlines == 0 && !goes_on(0)) throw Interrupted();
+        std::vector<ScreenPoint>& outline = light.regions[i];
         for (ScreenPoint& p : outline) p = {shift.x + pixel * p.x, shift.y - pixel * p.y};
         outline = convex_hull(std::move(outline));
     }
