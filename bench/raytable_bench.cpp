@@ -91,7 +91,7 @@ void measure(const std::string& what, Scene scene,
         RenderResult result, exact;
         const Clocks relight = quickest([&] { result = relit(table, lit, rays, {}); }, 10, 0.5);
         const Clocks slow = quickest(
-            [&] { exact = relit(table, lit, rays, {}, LeafPrecision::double_precision); }, 1, 0);
+            [&] { exact = relit(table, lit, rays, {}, ExitPrecision::double_precision); }, 1, 0);
         Picture truth;
         const double reference = reference_ms(lit, truth);
         const PictureError error = error_of(result.picture, truth);

@@ -36,7 +36,7 @@ struct Leaves {
 
 Leaves leaves_of(const Source& source, std::size_t band) {
     const RayTable& table = source.of->table;
-    const auto& ends = table.parts().leaf_end;
+    const auto& ends = table.parts().exits_end;
     const std::size_t at = band * table.header().hits + source.hit;
     return {&table, at == 0 ? 0 : ends[at - 1], ends[at], source.share};
 }
@@ -147,7 +147,7 @@ private:
 
     // That of the first leaf, unless that was too faint; -1: none.
     static int front_facet(const RayTable& table, std::size_t hit) {
-        const auto& ends = table.parts().leaf_end;
+        const auto& ends = table.parts().exits_end;
         const std::uint32_t first = hit == 0 ? 0 : ends[hit - 1];
         return first < ends[hit] ? table.parts().facet[first] : -1;
     }
@@ -175,7 +175,7 @@ private:
         for (const Leaves& leaves : alike) whole += leaves.share;
         const std::uint32_t count = alike.front().end - alike.front().first;
         for (std::uint32_t k = 0; k < count; ++k) {
-            Leaf mean;
+            ExitEvent mean;
             mean.facet = alike.front().facets()[k];
             const PlaneAxes& axes = axes_[static_cast<std::size_t>(mean.facet)];
             Vec3 direction(0), point(0);
@@ -183,14 +183,15 @@ private:
             std::array<double, 3> length{};
             for (const Leaves& leaves : alike) {
                 const auto& parts = leaves.table->parts();
-                const std::size_t leaf = leaves.first + k;
+                const std::size_t exit_event = leaves.first + k;
                 const double share = leaves.share / whole;
-                weight += leaves.share * static_cast<double>(parts.weight[leaf]);
-                direction += share * octahedral_direction(
-                                         {parts.direction[0][leaf], parts.direction[1][leaf]});
-                point += share * point_of(parts, leaf);
+                weight += leaves.share * static_cast<double>(parts.weight[exit_event]);
+                direction += share * octahedral_direction({parts.direction[0][exit_event],
+                                                           parts.direction[1][exit_event]});
+                point += share * point_of(parts, exit_event);
                 for (std::size_t i = 0; i < leaves.table->header().lengths; ++i)
-                    length[i] += share * leaves.table->header().length_step * parts.length[i][leaf];
+                    length[i] +=
+                        share * leaves.table->header().length_step * parts.length[i][exit_event];
             }
             mean.weight = static_cast<float>(weight);
             mean.direction = octahedral_code(direction);
@@ -202,11 +203,11 @@ private:
         }
     }
 
-    static Vec3 point_of(const RayTableParts<TableSpan>& parts, std::size_t leaf) {
-        const FacetFrame& frame = parts.frames[parts.facet[leaf]];
+    static Vec3 point_of(const RayTableParts<TableSpan>& parts, std::size_t exit_event) {
+        const FacetFrame& frame = parts.frames[parts.facet[exit_event]];
         const auto vector = [](const std::array<double, 3>& v) { return Vec3(v[0], v[1], v[2]); };
-        return vector(frame.corner) + parts.point[0][leaf] / 65535.0 * vector(frame.u) +
-               parts.point[1][leaf] / 65535.0 * vector(frame.v);
+        return vector(frame.corner) + parts.point[0][exit_event] / 65535.0 * vector(frame.u) +
+               parts.point[1][exit_event] / 65535.0 * vector(frame.v);
     }
 
     const Scene& scene_;

@@ -27,7 +27,7 @@ Multistart search(const FitModel& model, const FitOptions& options, const Progre
         Multistart again;
         again.best = refit_from(model, *shape, options.iterations);
         // Outlines have led to the stone already: other starts would lead to none.
-        if (again.best.is_an_end() || model.has_outlines()) return again;
+        if (again.best.is_local_minimum() || model.has_outlines()) return again;
     }
     return fit_from_starts(model, options, progress);
 }
@@ -66,7 +66,7 @@ bool asks_for_evidence(const FitModel& model, const FitOptions& options) {
 // readings. The model and the stone that the readings make likelier.
 void decide_meets(const Problem& problem, FitOptions& options, std::optional<FitModel>& model,
                   Candidate& best) {
-    if (!best.is_an_end() || !asks_for_evidence(*model, options)) return;
+    if (!best.is_local_minimum() || !asks_for_evidence(*model, options)) return;
     FitOptions other = options;
     other.meets = MeetTreatment::soft;
     std::optional<FitModel> changed(std::in_place, problem.stone, problem.readings, other);
@@ -88,7 +88,7 @@ void decide_meets(const Problem& problem, FitOptions& options, std::optional<Fit
         const Enclosed enclosed = enclosed_by(*changed, candidate.finished.shape);
         candidate.sound = enclosed.closed && enclosed.missing.empty();
     }
-    if (!candidate.is_an_end()) return;
+    if (!candidate.is_local_minimum()) return;
     options = other;
     model.emplace(std::move(*changed));
     best = std::move(candidate);

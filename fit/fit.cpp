@@ -90,14 +90,14 @@ FitResult with_changed_topology(const Problem& problem, FitResult result,
 
 FitResult solved(const Problem& given, std::span<const Hypothesis> hypotheses,
                  const Progress& progress) {
-    const auto [problem, put_back] = prepared(given);
+    const auto [problem, restored] = prepared(given);
     Attempt first = attempt(problem, progress);
     auto better = explained(problem, first, hypotheses, progress);
     FitResult result = better ? std::move(*better) : std::move(first.result);
     if (problem.options.allow_topology) {
         result = with_changed_topology(problem, std::move(result), progress);
     }
-    for (const auto& put : put_back) put(result);
+    for (const auto& put : restored) put(result);
     return result;
 }
 

@@ -7,8 +7,8 @@
 namespace culet {
 
 /// Tiers against the table and against the stone's own axis; further readings that would help;
-/// meets, edges and facets that the readings deny; symmetry. Folded, and each only where the report
-/// has it.
+/// meets, edges and facets that the readings deny; symmetry. SignAmbiguity, and each only where the
+/// report has it.
 std::string findings_tables(const nlohmann::json& fit, const std::string& length_unit);
 
 }  // namespace culet

@@ -9,7 +9,7 @@
 
 #include "compare/refine/photograph_evidence.h"
 #include "compare/refine/photograph_scene.h"
-#include "fit/planes/plane_knowledge.h"
+#include "fit/planes/plane_observations.h"
 #include "stone/progress/part_of_progress.h"
 #include "stone/text/errors.h"
 
@@ -75,15 +75,16 @@ std::vector<double> spreads(const FitResult& fit) {
 
 // The rows are of the fitted solid's facets; the fit asks for the mesh's. Each may be off by
 // `inflation` more than it says.
-PlaneKnowledge knowledge_of(const PlaneEvidence& evidence, const FitResult& fit, double inflation) {
-    PlaneKnowledge knowledge;
+PlaneObservations knowledge_of(const PlaneEvidence& evidence, const FitResult& fit,
+                               double inflation) {
+    PlaneObservations knowledge;
     std::vector<int> there;
     for (const FittedFacet& facet : fit.facets) {
         knowledge.planes.push_back(facet.plane);
         there.push_back(find_facet(fit.solid, facet.name));
     }
     for (const PlaneEvidence::Row& row : evidence.rows) {
-        PlaneKnowledge::Row& told = knowledge.rows.emplace_back();
+        PlaneObservations::Row& told = knowledge.rows.emplace_back();
         told.value = row.value / inflation;
         for (const int f : there) {
             const PlaneSlopes slopes = f < 0 ? PlaneSlopes{} : row.facets[std::size_t(f)];
@@ -100,12 +101,12 @@ struct Misfit {
     double squares = 0, redundancy = 0;
 };
 
-Misfit misfit_of(const PlaneKnowledge& known, const FitResult& fit) {
+Misfit misfit_of(const PlaneObservations& known, const FitResult& fit) {
     Misfit misfit;
     const std::size_t size = 3 * fit.facets.size();
     const bool covariance_known = fit.facet_covariance.size() == size * size;
     const Vec3 middle = centroid(fit.solid);
-    for (const PlaneKnowledge::Row& row : known.rows) {
+    for (const PlaneObservations::Row& row : known.rows) {
         double off = -row.value;
         std::vector<double> slopes;  // by inclination, azimuth, and the distance from the middle
         for (std::size_t f = 0; f < fit.facets.size(); ++f) {
@@ -234,7 +235,7 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
             });
             if (round.sketch_anew) done += share;
             witness.finding.moves_told = evidence.moves_told;
-            witness.reading.photograph = std::make_shared<const PlaneKnowledge>(
+            witness.reading.photograph = std::make_shared<const PlaneObservations>(
                 knowledge_of(evidence, result.after, inflation));
             all.readings.push_back(witness.reading);
         }

@@ -77,7 +77,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
                 tried.push_back(
                     "what was left out matters more than its pilot saw: drawn with all that is not "
                     "sure to change nothing");
-        } catch (const OverAllowance&) {
+        } catch (const OverBudget&) {
             if (seconds_before == 0) throw;
             break;  // what was drawn with fewer effects stands, with the error that it has
         }
@@ -153,7 +153,7 @@ ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats) {
 bool leaves_something_open(const Scene& scene) {
     const RenderSettings& settings = scene.settings;
     // What stands around the stone is sampled at random: no pilot tells how near it is.
-    if (scene.furnished()) return false;
+    if (scene.has_objects()) return false;
     if (!engine_of(settings).approaches_truth()) return false;
     return settings.tolerance > 0 && (settings.engine == k_auto_engine || settings.effects_auto ||
                                       settings.wavelengths_nm.empty());
@@ -178,13 +178,13 @@ RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
 }
 
 RenderResult render(const Scene& scene, const Progress& progress, const PictureSink& better) {
-    if (scene.furnished()) return drawn_with_preview(scene, progress, better);
+    if (scene.has_objects()) return drawn_with_preview(scene, progress, better);
     const bool open = leaves_something_open(scene);
     const bool planned = open && scene.settings.check == Check::full;
     if (open && !planned) return drawn_once(scene, progress);
     if (planned && scene.settings.allowed_ns > 0) {
         require_renderable(scene);
-        RenderResult result = draw_within_allowance(scene, progress, drawn_as_planned, better);
+        RenderResult result = draw_within_budget(scene, progress, drawn_as_planned, better);
         forget_meter(result.stats);
         return result;
     }
@@ -217,7 +217,7 @@ bool allow_usual_time(Scene& scene) {
     if (scene.names_tolerance || scene.settings.check != Check::full ||
         !(leaves_something_open(scene) || leaves_samples_open(scene)))
         return false;
-    scene.settings.allowed_ns = k_usual_allowance_ns;
+    scene.settings.allowed_ns = k_usual_budget_ns;
     return true;
 }
 

@@ -29,7 +29,7 @@ ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats);
 bool leaves_something_open(const Scene& scene);
 
 /// Where nobody says how near the picture must be, and nothing is chosen by an earlier plan: allows
-/// it the usual time (k_usual_allowance_ns), and answers true.
+/// it the usual time (k_usual_budget_ns), and answers true.
 bool allow_usual_time(Scene& scene);
 
 /// False: the picture should not be trusted. It was allowed the usual time, which was too little to

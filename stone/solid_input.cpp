@@ -82,7 +82,8 @@ bool is_cut(const std::string& extension) {
     return extension == "asc" || extension == "gem";
 }
 
-SolidInput solid_in(const std::filesystem::path& file, const CutReading& how, Standing standing) {
+SolidInput solid_in(const std::filesystem::path& file, const CutReading& how,
+                    Orientation standing) {
     SolidInput input;
     input.format = extension_of(file);
     if (is_cut(input.format)) {
@@ -110,7 +111,7 @@ SolidInput solid_in(const std::filesystem::path& file, const CutReading& how, St
     input.changed = std::move(mesh.changed);
     input.facets_are_whole = mesh.planes_stated;
     require_sane_size(input.solid, file);
-    if (standing == Standing::upright) stand_up(input);
+    if (standing == Orientation::upright) stand_up(input);
     return input;
 }
 
@@ -121,7 +122,7 @@ bool is_solid_file(const std::filesystem::path& file) {
 }
 
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
-    SolidInput input = solid_in(file, how, Standing::upright);
+    SolidInput input = solid_in(file, how, Orientation::upright);
     if (std::string odd = doubtful_size(input.solid); !odd.empty() && !is_cut(input.format))
         input.notes.push_back(std::move(odd));
     return input;
@@ -133,7 +134,7 @@ void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes) {
         std::erase_if(notes, [&](const std::string& note) { return note.ends_with(odd); });
 }
 
-SolidFile read_solid(const std::filesystem::path& file, Standing standing) {
+SolidFile read_solid(const std::filesystem::path& file, Orientation standing) {
     SolidInput input = solid_in(file, {}, standing);
     return {std::move(input.solid), std::move(input.notes), std::move(input.details),
             input.facets_are_whole, input.file_up,          std::move(input.changed)};

@@ -54,8 +54,9 @@ struct SolidFile {
 };
 
 /// How a mesh is to stand: table up by its shape, or as the file has it.
-enum class Standing { upright, as_given };
-SolidFile read_solid(const std::filesystem::path& file, Standing standing = Standing::upright);
+enum class Orientation { upright, as_given };
+SolidFile read_solid(const std::filesystem::path& file,
+                     Orientation standing = Orientation::upright);
 
 /// What is odd about a mesh of this size if it is in mm, and what to do; empty: nothing.
 std::string doubtful_size(const Solid& solid);

@@ -177,8 +177,8 @@ StoneFile stone_of(const TomlTable& root) {
     const auto mesh = table->path("mesh");
     if (!mesh) table->fail("", "[stone] has no mesh: name the hand-made mesh, mesh = \"hand.obj\"");
     result.mesh_file = *mesh;
-    SolidFile file =
-        read_solid(result.mesh_file, table->has("up") ? Standing::as_given : Standing::upright);
+    SolidFile file = read_solid(result.mesh_file,
+                                table->has("up") ? Orientation::as_given : Orientation::upright);
     stone.solid = std::move(file.solid);
     stone.file_up = file.file_up;
     result.notes = std::move(file.notes);

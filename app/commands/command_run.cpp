@@ -111,7 +111,7 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
             read_scene(job.scene, {}, job.stone.empty() ? nullptr : &input.file.stone);
         scene.settings.threads = common.threads;
         scene.settings.seed = common.seed;
-        if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_allowance_ns;
+        if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_budget_ns;
     }
     if (!job.photo.empty()) {
         input.photo = read_photo(job.photo, job.mask);

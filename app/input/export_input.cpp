@@ -39,7 +39,7 @@ ExportInput scene_stone(const std::filesystem::path& file, const ExportChoices& 
     Scene scene = read_scene(file, choices.overrides);
     if (!scene.has_stone()) throw InputError(file, "has no stone to be written");
     ExportInput input;
-    if (scene.furnished())
+    if (scene.has_objects())
         input.notes.emplace_back("the scene's stone alone is written, nothing of what is round it");
     input.stone = std::move(scene.stone);
     input.has_material = true;

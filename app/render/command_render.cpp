@@ -84,7 +84,7 @@ int explain_plan(const RenderOptions& options) {
     if (!engine_of(scene.settings).approaches_truth())
         throw InputError(fmt::format("--explain tells what is planned, and engine {} never is",
                                      scene.settings.engine));
-    if (scene.furnished())
+    if (scene.has_objects())
         throw InputError(
             "--explain tells what is planned, and scenes with objects or several stones are not: "
             "they are drawn with the settings as they are (docs/objects.md)");
@@ -234,7 +234,7 @@ int run_render(const RenderOptions& options) {
             fmt::format("--verify holds a picture against the truth, which engine {} "
                         "does not draw",
                         scene.settings.engine));
-    if (options.verify && scene.furnished())
+    if (options.verify && scene.has_objects())
         throw InputError(
             "--verify holds a picture against the truth at some pixels; with objects or several "
             "stones that is as noisy as the picture: say --set render.samples=256");

@@ -7,7 +7,7 @@
 
 namespace culet {
 
-/// What k_usual_allowance_ns is for people.
+/// What k_usual_budget_ns is for people.
 constexpr int k_usual_seconds = 10;
 
 /// How near the picture is, where that was left to culet.

@@ -114,7 +114,7 @@ TEST(Lee, ATableOfAConvexStoneHasAtMostOneExitAFace) {
         EXPECT_GE(cost.exits, cost.hits) << depth;
         // Exits, and of each ray 4 bytes for its pixel, its distance and its last exit.
         EXPECT_NEAR(cost.bytes,
-                    static_cast<double>(cost.exits) * static_cast<double>(leaf_bytes(1)) +
+                    static_cast<double>(cost.exits) * static_cast<double>(exit_bytes(1)) +
                         static_cast<double>(cost.hits) * 12,
                     20000)
             << depth;  // the header and the facets' frames

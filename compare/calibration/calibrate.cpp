@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "compare/calibration/alternatives.h"
 #include "compare/calibration/chance.h"
-#include "compare/calibration/other_worlds.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/photo/in_batches.h"
 #include "compare/scores/scored_pair.h"
@@ -16,7 +16,7 @@ namespace {
 
 class Draws {
 public:
-    Draws(const OtherWorlds& worlds, const Photo& model_picture, const DraftRenderer& renderer,
+    Draws(const Alternatives& worlds, const Photo& model_picture, const DraftRenderer& renderer,
           const CalibrateOptions& options, const std::vector<CameraModel>& cameras)
         : worlds_(worlds),
           model_picture_(model_picture),
@@ -33,7 +33,7 @@ public:
 private:
     CalibrationDraw photograph(const WorldDraw& job, const Photo& stone, std::size_t camera) const;
 
-    const OtherWorlds& worlds_;
+    const Alternatives& worlds_;
     const Photo& model_picture_;
     std::vector<Photo> soft_pictures_;  // as each camera's lens shows it
     const DraftRenderer& renderer_;
@@ -103,7 +103,7 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
     Calibration common;
     common.seed = options.seed;
     for (const ScoreKind& kind : score_kinds()) common.keys.push_back(kind.key);
-    const OtherWorlds worlds(
+    const Alternatives worlds(
         model, {options.draws, options.null_draws, options.seed, options.start, options.view_sigma},
         common.notes);
     const Draws draws(worlds, model_picture, renderer, options, cameras);

@@ -35,9 +35,10 @@ std::vector<std::optional<double>> values_of(const std::vector<Score>& scores,
     return values;
 }
 
-std::optional<NullWorth> null_worth(World world, const Score& photo, const Calibration& calibration,
-                                    const FacetErrorScale& scale,
-                                    std::optional<double> photo_rank) {
+std::optional<NullStatistics> null_statistics(World world, const Score& photo,
+                                              const Calibration& calibration,
+                                              const FacetErrorScale& scale,
+                                              std::optional<double> photo_rank) {
     const std::size_t primary = index_of(calibration, photo.key);
     Score against = photo;
     against.null.clear();
@@ -52,7 +53,7 @@ std::optional<NullWorth> null_worth(World world, const Score& photo, const Calib
     }
     if (against.null.size() < 5) return std::nullopt;
     fill_null(against);
-    NullWorth worth;
+    NullStatistics worth;
     worth.world = world;
     worth.draws = static_cast<int>(ranks.size());
     worth.mean = against.null_mean;
@@ -92,7 +93,7 @@ std::string facets_off(const EquivalentError& error) {
 // Of the wrong lights and poses, what comes nearest.
 std::string chance_in_words(const CalibratedVerdict& verdict) {
     if (verdict.nulls.empty()) return "";
-    const NullWorth& worst = verdict.nulls.front();
+    const NullStatistics& worst = verdict.nulls.front();
     const char* what = worst.world == World::light  ? "lights"
                        : worst.world == World::pose ? "poses"
                                                     : "lights and poses";
@@ -118,9 +119,10 @@ std::string headline_of(const CalibratedVerdict& verdict, const std::string& aga
 }
 
 void judge(CalibratedVerdict& verdict) {
-    const bool beaten = std::all_of(
-        verdict.nulls.begin(), verdict.nulls.end(),
-        [](const NullWorth& n) { return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z); });
+    const bool beaten =
+        std::all_of(verdict.nulls.begin(), verdict.nulls.end(), [](const NullStatistics& n) {
+            return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z);
+        });
     const EquivalentError& error = verdict.equivalent;
     std::string against;
     verdict.verdict = Verdict::no_evidence;
@@ -164,13 +166,13 @@ CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibrati
     for (const Score& score : scores) {
         if (score.key != primary || !score.value) continue;
         for (const World world : {World::light, World::pose, World::both}) {
-            if (auto worth = null_worth(world, score, calibration, scale, rank)) {
+            if (auto worth = null_statistics(world, score, calibration, scale, rank)) {
                 verdict.nulls.push_back(*worth);
             }
         }
     }
     std::stable_sort(verdict.nulls.begin(), verdict.nulls.end(),
-                     [](const NullWorth& a, const NullWorth& b) { return a.z < b.z; });
+                     [](const NullStatistics& a, const NullStatistics& b) { return a.z < b.z; });
     const std::size_t zncc = index_of(calibration, k_primary);
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.world != World::catalogue && draw.world != World::material &&

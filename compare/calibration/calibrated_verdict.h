@@ -13,7 +13,7 @@
 namespace culet {
 
 /// The photograph against the draws of one null.
-struct NullWorth {
+struct NullStatistics {
     World world = World::light;
     int draws = 0;
     double mean = 0, sd = 0;  ///< of zncc
@@ -42,7 +42,7 @@ struct CalibratedVerdict {
     std::string headline;
     EquivalentError equivalent;
     std::vector<SensitivityCurve> curves;  ///< one a score that takes part
-    std::vector<NullWorth> nulls;          ///< the worst, that of the smallest z, first
+    std::vector<NullStatistics> nulls;     ///< the worst, that of the smallest z, first
     std::vector<HypothesisWorth> hypotheses;
     bool geometry_only = false;  ///< the photograph cannot serve for photometry
     Calibration calibration;

@@ -29,7 +29,7 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
     json["equivalent_facet_error"] = equivalent_json(verdict.equivalent);
     json["evidence"] = number_or_null(verdict.evidence);
     json["nulls"] = Json::array();
-    for (const NullWorth& null : verdict.nulls) {
+    for (const NullStatistics& null : verdict.nulls) {
         json["nulls"].push_back({{"world", name_of(null.world)},
                                  {"draws", null.draws},
                                  {"zncc_mean", number_or_null(null.mean)},

@@ -58,24 +58,24 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
         curve.kind = score_kind(calibration.keys[k]);
         if (curve.kind == nullptr) continue;
         bool everywhere = true;
-        std::vector<double> stretched;
+        std::vector<double> stabilised_scores;
         for (const auto& [deg, draws] : by_level) {
             std::vector<double> values, on_scale;
             for (const CalibrationDraw* draw : draws) {
                 if (!draw->scores[k]) continue;
                 values.push_back(*draw->scores[k]);
-                on_scale.push_back(stretch(values.back(), curve.kind->scale));
+                on_scale.push_back(stabilised(values.back(), curve.kind->scale));
             }
             everywhere = everywhere && !values.empty();
             const Moments plain = moments(values);
             curve.mean.push_back(plain.mean);
             curve.sd.push_back(plain.sd);
             curve.draws.push_back(plain.count);
-            stretched.push_back(moments(on_scale).mean);
+            stabilised_scores.push_back(moments(on_scale).mean);
         }
         if (!everywhere) continue;
-        curve.stretched = falling(stretched);
-        if (!(curve.stretched.front() > curve.stretched.back())) continue;
+        curve.stabilised_scores = falling(stabilised_scores);
+        if (!(curve.stabilised_scores.front() > curve.stabilised_scores.back())) continue;
         const double sign = curve.kind->higher_is_better() ? 1 : -1;
         std::vector<double> better = curve.mean;
         for (double& v : better) v *= sign;
@@ -152,22 +152,22 @@ JointDraws FacetErrorScale::joint_draws(const Calibration& calibration) const {
     JointDraws joint;
     joint.levels = levels_;
     joint.draws.resize(levels_.size());
-    for (const Curve& curve : curves_) joint.curves.push_back(curve.stretched);
+    for (const Curve& curve : curves_) joint.curves.push_back(curve.stabilised_scores);
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.world != World::facet_error) continue;
         const auto level = std::find(levels_deg_.begin(), levels_deg_.end(), draw.facet_error_deg);
         joint.draws[static_cast<std::size_t>(level - levels_deg_.begin())].push_back(
-            stretched(draw.scores));
+            stabilised_scores(draw.scores));
     }
     return joint;
 }
 
-std::vector<double> FacetErrorScale::stretched(
+std::vector<double> FacetErrorScale::stabilised_scores(
     const std::vector<std::optional<double>>& scores) const {
     std::vector<double> result;
     for (const Curve& curve : curves_) {
         const std::optional<double>& score = scores[curve.key];
-        result.push_back(score ? stretch(*score, curve.kind->scale)
+        result.push_back(score ? stabilised(*score, curve.kind->scale)
                                : std::numeric_limits<double>::quiet_NaN());
     }
     return result;
@@ -176,10 +176,10 @@ std::vector<double> FacetErrorScale::stretched(
 std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
     const std::vector<std::optional<double>>& scores) const {
     const auto average = averaged(scores);
-    const auto joint = joint_.of(stretched(scores));
+    const auto joint = joint_.of(stabilised_scores(scores));
     if (!average || !joint) return std::nullopt;
     if (joint->misfit <= 1) {
-        const auto found = regression_.of(stretched(scores));
+        const auto found = regression_.of(stabilised_scores(scores));
         if (found)
             return Explained{std::clamp(*found, levels_.front(), levels_.back()), joint->misfit};
     }
@@ -190,7 +190,8 @@ std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
 }
 
 double FacetErrorScale::logarithm(const Curve& curve, double score) const {
-    return inverse_of_falling(levels_, curve.stretched, stretch(score, curve.kind->scale));
+    return inverse_of_falling(levels_, curve.stabilised_scores,
+                              stabilised(score, curve.kind->scale));
 }
 
 double FacetErrorScale::weight(const Curve& curve, double log_deg) const {

@@ -71,12 +71,12 @@ private:
         const ScoreKind* kind = nullptr;
         std::vector<double> mean, sd, fitted;  // a level each
         std::vector<int> draws;
-        std::vector<double> stretched;  // fitted, on the scale of `stretch`
-        std::vector<double> variance;   // of the log of its own equivalent error, a level each
+        std::vector<double> stabilised_scores;  // fitted, on the scale of `stretch`
+        std::vector<double> variance;  // of the log of its own equivalent error, a level each
     };
     double logarithm(const Curve& curve, double score) const;
     double weight(const Curve& curve, double log_deg) const;
-    std::vector<double> stretched(const std::vector<std::optional<double>>& scores) const;
+    std::vector<double> stabilised_scores(const std::vector<std::optional<double>>& scores) const;
     JointDraws joint_draws(const Calibration& calibration) const;
     void fit_regression(const JointDraws& draws);
     struct Explained {

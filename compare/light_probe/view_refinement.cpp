@@ -27,28 +27,28 @@ constexpr int k_most_doubts = 4;
 // ---- direction by direction ----
 
 ViewSolution by_direction(const ViewPair& pair, const ViewSolution& start, double sigma_px) {
-    std::vector<ViewWitness> witnesses;
+    std::vector<ViewCorrespondence> correspondences;
     const glm::dmat3 back = glm::transpose(pair.rotation(start.at));
     for (const Vec3& d : even_directions(6000)) {
         const double a = pair.first.quality(d), b = pair.second.quality(back * d);
         if (a < 1e-2 || b < 1e-2) continue;
-        witnesses.push_back({std::sqrt(a * b), d});
+        correspondences.push_back({std::sqrt(a * b), d});
     }
     const Photo &one = *pair.first.picture, &two = *pair.second.picture;
     const cv::Mat first = stops_of(one, sigma_px);
     const cv::Mat second = stops_of(two, sigma_px);
     const ViewResiduals residuals = [&](const ViewParameters& p) {
-        std::vector<double> r(witnesses.size(), k_unseen);
+        std::vector<double> r(correspondences.size(), k_unseen);
         const MirrorBall a = pair.ball(p, false), b = pair.ball(p, true);
         const glm::dmat3 second_from_first = glm::transpose(pair.rotation(p));
         tbb::parallel_for(std::size_t{0}, r.size(), [&](std::size_t i) {
-            const auto in_a = a.place_of(witnesses[i].direction);
-            const auto in_b = b.place_of(second_from_first * witnesses[i].direction);
+            const auto in_a = a.place_of(correspondences[i].direction);
+            const auto in_b = b.place_of(second_from_first * correspondences[i].direction);
             if (in_a && in_b) r[i] = stops_at(second, *in_b) + p[10] - stops_at(first, *in_a);
         });
         return r;
     };
-    return solve_views(pair, witnesses, residuals, start);
+    return solve_views(pair, correspondences, residuals, start);
 }
 
 // ---- each picture predicted from the other ----
@@ -141,14 +141,15 @@ ViewSolution by_prediction(const ViewPair& pair, const ViewSolution& start, int 
         pair.first, first_map.ball, first_map.floor, pair.second, glm::transpose(now), trial);
     const std::vector<Pixel> in_second =
         pixels_seen_by_both(pair.second, second_map.ball, second_map.floor, pair.first, now, trial);
-    std::vector<ViewWitness> witnesses;
-    for (const Pixel& pixel : in_first) witnesses.push_back({pixel.weight, pixel.direction});
-    for (const Pixel& pixel : in_second) witnesses.push_back({pixel.weight, now * pixel.direction});
+    std::vector<ViewCorrespondence> correspondences;
+    for (const Pixel& pixel : in_first) correspondences.push_back({pixel.weight, pixel.direction});
+    for (const Pixel& pixel : in_second)
+        correspondences.push_back({pixel.weight, now * pixel.direction});
     const double texel = std::sqrt(2.0) * std::numbers::pi / width;
     const double size = std::sqrt(first_map.ball.solid_angle_per_pixel());
     const int steps = std::clamp(static_cast<int>(std::ceil(size / texel)), 2, 3);
     const ViewResiduals residuals = [&](const ViewParameters& p) {
-        std::vector<double> r(witnesses.size(), k_unseen);
+        std::vector<double> r(correspondences.size(), k_unseen);
         const MirrorBall a = pair.ball(p, false), b = pair.ball(p, true);
         const glm::dmat3 first_from_second = pair.rotation(p);
         const glm::dmat3 second_from_first = glm::transpose(first_from_second);
@@ -164,7 +165,7 @@ ViewSolution by_prediction(const ViewPair& pair, const ViewSolution& start, int 
         });
         return r;
     };
-    return solve_views(pair, witnesses, residuals, start);
+    return solve_views(pair, correspondences, residuals, start);
 }
 
 // How far the outlines were moved over their sigmas, root mean square.

@@ -38,13 +38,14 @@ double median(std::vector<double> values) {
     return values.empty() ? 0 : upper_median(std::move(values));
 }
 
-std::vector<Eigen::Index> patches_of(const std::vector<ViewWitness>& witnesses) {
+std::vector<Eigen::Index> patches_of(const std::vector<ViewCorrespondence>& correspondences) {
     const std::vector<Vec3> middles = even_directions(k_patches);
     std::vector<Eigen::Index> patches;
-    for (const ViewWitness& witness : witnesses) {
+    for (const ViewCorrespondence& correspondence : correspondences) {
         const auto nearest =
             std::max_element(middles.begin(), middles.end(), [&](const Vec3& a, const Vec3& b) {
-                return glm::dot(witness.direction, a) < glm::dot(witness.direction, b);
+                return glm::dot(correspondence.direction, a) <
+                       glm::dot(correspondence.direction, b);
             });
         patches.push_back(nearest - middles.begin());
     }
@@ -120,30 +121,30 @@ private:
     Eigen::MatrixXd slopes_;
 };
 
-class WitnessResidual : public ceres::SizedCostFunction<1, k_view_parameters> {
+class CorrespondenceResidual : public ceres::SizedCostFunction<1, k_view_parameters> {
 public:
-    WitnessResidual(const Differences& differences, std::size_t witness, double scale)
-        : differences_(differences), witness_(witness), scale_(scale) {}
+    CorrespondenceResidual(const Differences& differences, std::size_t correspondence, double scale)
+        : differences_(differences), correspondence_(correspondence), scale_(scale) {}
     bool Evaluate(double const* const*, double* residual, double** slopes) const override {
-        const double value = differences_.values()[witness_];
+        const double value = differences_.values()[correspondence_];
         residual[0] = value < k_unseen ? value / scale_ : k_lost;
         if (slopes == nullptr || slopes[0] == nullptr) return true;
         for (int k = 0; k < k_view_parameters; ++k)
-            slopes[0][k] = differences_.slopes(witness_)[k] / scale_;
+            slopes[0][k] = differences_.slopes(correspondence_)[k] / scale_;
         return true;
     }
 
 private:
     const Differences& differences_;
-    std::size_t witness_;
+    std::size_t correspondence_;
     double scale_;
 };
 
 class Solver {
 public:
-    Solver(const ViewPair& pair, const std::vector<ViewWitness>& witnesses,
+    Solver(const ViewPair& pair, const std::vector<ViewCorrespondence>& correspondences,
            const ViewResiduals& residuals)
-        : witnesses_(witnesses), residuals_(residuals) {
+        : correspondences_(correspondences), residuals_(residuals) {
         expected_[k_distance] = 1 / k_unknown_distance;
         certainty_[k_distance] = 1 / k_distance_sigma;
         for (int k = 0; k < k_distance; ++k) {
@@ -159,8 +160,9 @@ public:
         Differences differences(residuals_, result.at, step_);
         std::vector<double> known = differences.known();
         const double all = static_cast<double>(known.size());
-        const double share =
-            result.witnesses > 0 ? std::min(1.0, result.witnesses / std::max(all, 1.0)) : 1;
+        const double share = result.correspondences > 0
+                                 ? std::min(1.0, result.correspondences / std::max(all, 1.0))
+                                 : 1;
         result.at[k_gain] -= median(std::move(known));
         differences.PrepareForEvaluation(false, true);
         double scale = differences.scale();
@@ -184,10 +186,12 @@ private:
         at_once.evaluation_callback = &differences;
         ceres::Problem problem(at_once);
         problem.AddParameterBlock(at.data(), k_view_parameters);
-        for (std::size_t i = 0; i < witnesses_.size(); ++i) {
-            auto* loss = new ceres::ScaledLoss(new ceres::CauchyLoss(k_loss),
-                                               share * witnesses_[i].weight, ceres::TAKE_OWNERSHIP);
-            problem.AddResidualBlock(new WitnessResidual(differences, i, scale), loss, at.data());
+        for (std::size_t i = 0; i < correspondences_.size(); ++i) {
+            auto* loss =
+                new ceres::ScaledLoss(new ceres::CauchyLoss(k_loss),
+                                      share * correspondences_[i].weight, ceres::TAKE_OWNERSHIP);
+            problem.AddResidualBlock(new CorrespondenceResidual(differences, i, scale), loss,
+                                     at.data());
         }
         problem.AddResidualBlock(
             new ceres::NormalPrior(Eigen::MatrixXd(certainty_.asDiagonal()), expected_), nullptr,
@@ -215,13 +219,13 @@ private:
         Eigen::Array<bool, k_patches, 1> holds;
         pulls.setZero();
         holds.setConstant(false);
-        const std::vector<Eigen::Index> patches = patches_of(witnesses_);
-        for (std::size_t i = 0; i < witnesses_.size(); ++i) {
+        const std::vector<Eigen::Index> patches = patches_of(correspondences_);
+        for (std::size_t i = 0; i < correspondences_.size(); ++i) {
             const auto row = differences.slopes(i);
             if (row[k_gain] == 0) continue;
             const double value = differences.values()[i], x = value / (k_loss * scale);
             const double squeezed = 1 / (1 + x * x);
-            const double w = witnesses_[i].weight / (scale * scale) * squeezed;
+            const double w = correspondences_[i].weight / (scale * scale) * squeezed;
             normal.noalias() += w * row * row.transpose();
             bend.noalias() += w * squeezed * (1 - x * x) * row * row.transpose();
             pulls.col(patches[i]) += w * value * row;
@@ -243,7 +247,7 @@ private:
         // Of independent witnesses both would be one.
         const Square flat = inverse_of(normal + prior / share_before + held);
         const double repeated = std::max(1.0, (flat * scatter).trace() / (flat * normal).trace());
-        result.witnesses = all / repeated;
+        result.correspondences = all / repeated;
         const double share = 1 / repeated;
         bend = share * bend + prior + held;
         if (PivotedCholesky(bend).pivots().minCoeff() <= 0) bend = share * normal + prior + held;
@@ -252,7 +256,7 @@ private:
         result.sigma = std::sqrt(std::max(covariance.topLeftCorner<3, 3>().trace() / 3, 0.0));
     }
 
-    const std::vector<ViewWitness>& witnesses_;
+    const std::vector<ViewCorrespondence>& correspondences_;
     const ViewResiduals& residuals_;
     ViewParameters step_ = ViewParameters::Zero();  // for slopes; 0: held
     ViewParameters expected_ = ViewParameters::Zero(), certainty_ = ViewParameters::Zero();
@@ -273,9 +277,10 @@ MirrorBall ViewPair::ball(const ViewParameters& p, bool is_second) const {
     return ball_of(prior, 1 / std::max(p[k_distance], 1e-6));
 }
 
-ViewSolution solve_views(const ViewPair& pair, const std::vector<ViewWitness>& witnesses,
+ViewSolution solve_views(const ViewPair& pair,
+                         const std::vector<ViewCorrespondence>& correspondences,
                          const ViewResiduals& residuals, ViewSolution start) {
-    return Solver(pair, witnesses, residuals).solve(std::move(start));
+    return Solver(pair, correspondences, residuals).solve(std::move(start));
 }
 
 }  // namespace culet

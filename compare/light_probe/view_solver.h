@@ -25,7 +25,7 @@ struct ViewPair {
 };
 
 /// What the two views say of one direction or pixel.
-struct ViewWitness {
+struct ViewCorrespondence {
     double weight = 0;  ///< over 0
     Vec3 direction{0};  ///< in the first camera's frame: neighbours err together
 };
@@ -37,9 +37,10 @@ constexpr double k_unseen = 1e9;
 
 struct ViewSolution {
     ViewParameters at = ViewParameters::Zero();
-    double residual = 0;   ///< median disagreement, stops
-    double sigma = 0;      ///< of the rotation about one axis, radians
-    double witnesses = 0;  ///< so many independent ones are all of them worth; 0: not known yet
+    double residual = 0;  ///< median disagreement, stops
+    double sigma = 0;     ///< of the rotation about one axis, radians
+    double correspondences =
+        0;  ///< so many independent ones are all of them worth; 0: not known yet
 };
 
 /// Least squares with Cauchy's loss (Ceres), the outlines held by their sigmas.
@@ -49,7 +50,8 @@ struct ViewSolution {
 /// So the scatter of their pull is taken over patches of the sphere (White 1980; Liang and Zeger
 /// 1986): how much larger it is than that of independent ones says by what all are to be divided
 /// (from `start` on, for the next solution), and gives the rotation's sigma.
-ViewSolution solve_views(const ViewPair& pair, const std::vector<ViewWitness>& witnesses,
+ViewSolution solve_views(const ViewPair& pair,
+                         const std::vector<ViewCorrespondence>& correspondences,
                          const ViewResiduals& residuals, ViewSolution start);
 
 /// Where a parameter of 1 / distance begins that is to be found.

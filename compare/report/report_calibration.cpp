@@ -190,7 +190,7 @@ View curve_figures(const CalibratedVerdict& verdict) {
 
 View nulls_table(const CalibratedVerdict& verdict) {
     std::vector<View> rows;
-    for (const NullWorth& null : verdict.nulls) {
+    for (const NullStatistics& null : verdict.nulls) {
         rows.push_back({{"world", title_of(null.world)},
                         {"mean", decimals(null.mean, 2)},
                         {"sd", decimals(null.sd, 2)},

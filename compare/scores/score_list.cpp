@@ -142,7 +142,7 @@ void keep_geometry_only(std::vector<Score>& scores, const std::string& why) {
     }
 }
 
-double stretch(double score, ScoreScale scale) {
+double stabilised(double score, ScoreScale scale) {
     const auto towards = [](double left) { return -std::log(std::max(1e-4, left)); };
     switch (scale) {
         case ScoreScale::correlation:
@@ -169,12 +169,12 @@ void fill_null(Score& score) {
     if (!score.value) return;
     const double sign = score.higher_is_better ? 1 : -1;
     if (score.is_correlation) {
-        Score stretched = score;
-        stretched.is_correlation = false;
-        stretched.value = std::atanh(std::clamp(*score.value, -0.9999, 0.9999));
-        for (double& v : stretched.null) v = std::atanh(std::clamp(v, -0.9999, 0.9999));
-        fill_null(stretched);
-        score.z = stretched.z;
+        Score stabilised_scores = score;
+        stabilised_scores.is_correlation = false;
+        stabilised_scores.value = std::atanh(std::clamp(*score.value, -0.9999, 0.9999));
+        for (double& v : stabilised_scores.null) v = std::atanh(std::clamp(v, -0.9999, 0.9999));
+        fill_null(stabilised_scores);
+        score.z = stabilised_scores.z;
     } else if (score.null_sd > 0) {
         score.z = sign * (*score.value - score.null_mean) / score.null_sd;
     }

@@ -78,7 +78,7 @@ std::vector<Score> scores_of(const Measures& measures);
 void keep_geometry_only(std::vector<Score>& scores, const std::string& why);
 
 /// Falls about straight with the logarithm of the facet error.
-double stretch(double score, ScoreScale scale);
+double stabilised(double score, ScoreScale scale);
 
 /// Mean, spread, z and p of a score from the values of its null. z of a correlation is taken of
 /// atanh (Fisher 1915): its spread does not depend on its value, so that a perfect match is not

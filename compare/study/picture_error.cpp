@@ -31,7 +31,7 @@ void each_stone_pixel(const cv::Mat& mask, Visit&& visit) {
 
 }  // namespace
 
-PictureJudge::PictureJudge(Picture truth) : truth_(std::move(truth)) {
+PictureMetric::PictureMetric(Picture truth) : truth_(std::move(truth)) {
     matched_.photo = colour_of(truth_);
     matched_.mask = cv::Mat(truth_.height, truth_.width, CV_8U, cv::Scalar(255));
     for (int y = 0; y < truth_.height && !truth_.coverage.empty(); ++y) {
@@ -50,7 +50,7 @@ PictureJudge::PictureJudge(Picture truth) : truth_(std::move(truth)) {
     if (!(matched_.white > 0)) matched_.white = 1;
 }
 
-PictureError PictureJudge::error_of(const Picture& picture) const {
+PictureError PictureMetric::error_of(const Picture& picture) const {
     check(picture.width == truth_.width && picture.height == truth_.height,
           "pictures of one study have one size");
     MatchedPictures both = matched_;
@@ -78,7 +78,7 @@ PictureError PictureJudge::error_of(const Picture& picture) const {
     return error;
 }
 
-PixelMap PictureJudge::difference(const Picture& picture) const {
+PixelMap PictureMetric::difference(const Picture& picture) const {
     PixelMap map{truth_.width, truth_.height,
                  std::vector<float>(truth_.pixels(), std::numeric_limits<float>::quiet_NaN())};
     const cv::Mat d = luminance(colour_of(picture)) - luminance(matched_.photo);

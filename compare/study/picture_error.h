@@ -12,11 +12,11 @@
 namespace culet {
 
 /// Holds pictures against one that is taken for the truth.
-class PictureJudge {
+class PictureMetric {
 public:
     /// The stone's pixels are those that the truth's coverage says it touches; all, when it has
     /// none. White, for the scores of what is shown, is five times their mean.
-    explicit PictureJudge(Picture truth);
+    explicit PictureMetric(Picture truth);
 
     PictureError error_of(const Picture& picture) const;
     /// Luminance of `picture` less that of the truth, relative to the mean; NaN beside the stone.

@@ -108,7 +108,7 @@ private:
     StudyClock clock_;
     StudyGround ground_;
     SceneStudy study_;
-    std::optional<PictureJudge> judge_;
+    std::optional<PictureMetric> metric_;
     std::vector<DrawnTimes> times_;  // of each render
     std::set<std::string> tried_;
     double drawing_share_ = k_design_share;  // of the budget: until when settings are tried
@@ -130,7 +130,7 @@ void SceneStudier::prepare() {
     study_.reference = study_reference(ground_.scene, finest,
                                        clock_.share(k_reference_share) - clock_.spent(), clock_);
     ground_.exact = study_.reference.stats;
-    judge_.emplace(study_.reference.picture);
+    metric_.emplace(study_.reference.picture);
     Scene by_beams = ground_.scene;
     by_beams.settings = exact_settings(scene_, ground_.tolerance, k_node_counts.front());
     const std::string refused = refused_by_beams(by_beams);
@@ -178,14 +178,14 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
     render.automatic = candidate.automatic;
     render.settings = candidate.settings;
     render.stats = std::move(result.stats);
-    render.error = judge_->error_of(result.picture);
+    render.error = metric_->error_of(result.picture);
     const double noise = study_.reference.noise.mean;
     render.claimed_error = std::max(render.error.mean, noise);
     render.at_noise = render.error.mean < 2 * noise;
     render.runs = 1;
     render.cpu = of_runs(times.cpu);
     render.wall = of_runs(times.wall);
-    render.difference = judge_->difference(result.picture);
+    render.difference = metric_->difference(result.picture);
     render.picture = std::move(result.picture);
     study_.renders.push_back(std::move(render));
     times_.push_back(std::move(times));
@@ -279,7 +279,7 @@ void SceneStudier::time_again() {
         clock_.within(std::numeric_limits<double>::infinity(), [&](const Progress& progress) {
             render.picture = drawn(scene_with(render.settled), progress).picture;
         });
-        render.difference = judge_->difference(render.picture);
+        render.difference = metric_->difference(render.picture);
     }
 }
 

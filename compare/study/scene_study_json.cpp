@@ -75,7 +75,7 @@ Json row_of(const StudiedRender& render) {
                 {"names_of_effects", names_of_effects(render.stats)},
                 {"crystal_beams", !asked.crystal_beams                           ? "auto"
                                   : *asked.crystal_beams == CrystalBeams::merged ? "merged"
-                                                                                 : "parted"}};
+                                                                                 : "split"}};
     row.update(errors(render.error));
     row.update(
         Json{{"claimed_error", number(render.claimed_error)},

@@ -140,10 +140,10 @@ public:
         }
         if (!ground_.beams) return;
         if (ground_.scene.stone.material.optic != OpticCharacter::isotropic) {
-            for (const CrystalBeams beams : {CrystalBeams::merged, CrystalBeams::parted}) {
+            for (const CrystalBeams beams : {CrystalBeams::merged, CrystalBeams::split}) {
                 RenderSettings settings = base;
                 settings.crystal_beams = beams;
-                add("crystal beams", beams == CrystalBeams::merged ? "merged" : "parted", settings);
+                add("crystal beams", beams == CrystalBeams::merged ? "merged" : "split", settings);
             }
         }
     }

@@ -149,18 +149,18 @@ StudyReference study_reference(const Scene& scene, double finest_tolerance, doub
             reference.ended = too_dear;
             break;
         }
-        const PictureJudge judge(sum_of(0.5f, first.picture, 0.5f, second.picture));
-        if (judge.stone_pixels() == 0 || first.stats.rays == 0)
+        const PictureMetric metric(sum_of(0.5f, first.picture, 0.5f, second.picture));
+        if (metric.stone_pixels() == 0 || first.stats.rays == 0)
             throw InputError("the camera does not see the stone: there is nothing to study");
         reference.samples = first.rays + second.rays;
         reference.rough_samples = first.rough_rays + second.rough_rays;
         reference.stats = std::move(first.stats);
         // The mean of both is as far from either as half their difference.
-        reference.noise = judge.error_of(first.picture);
-        reference.picture = judge.truth();
-        reference.stone_pixels = judge.stone_pixels();
-        reference.mean_radiance = judge.mean_radiance();
-        reference.white = judge.white();
+        reference.noise = metric.error_of(first.picture);
+        reference.picture = metric.truth();
+        reference.stone_pixels = metric.stone_pixels();
+        reference.mean_radiance = metric.mean_radiance();
+        reference.white = metric.white();
         const double target = k_quiet * finest_tolerance;
         if (reference.noise.mean <= target) {
             reference.ended = "its noise is a tenth of the finest tolerance";

@@ -32,7 +32,7 @@ std::string words_of(const StudyGround& ground, const RenderSettings& settings) 
     if (settings.cut_weight) words += fmt::format(", weights over {:.2g}", *settings.cut_weight);
     if (settings.crystal_beams) {
         words +=
-            *settings.crystal_beams == CrystalBeams::merged ? ", waves merged" : ", waves parted";
+            *settings.crystal_beams == CrystalBeams::merged ? ", waves merged" : ", waves split";
     }
     const std::vector<std::string> out = effects_left_out(ground, settings);
     if (!out.empty()) words += fmt::format(", without {}", fmt::join(out, ", "));

@@ -264,8 +264,8 @@ std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& r
     return FirstCheck(stone, readings, is_design).doubts();
 }
 
-void put_back_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
-                      FitResult& result) {
+void restore_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
+                     FitResult& result) {
     std::vector<Proposal> proposals;
     std::vector<std::pair<std::size_t, FittedReading>> by_place;
     std::string told;

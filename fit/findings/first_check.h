@@ -31,7 +31,7 @@ std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& r
 /// Lists the doubted readings in a result of a fit without them, as its first suspects; the status
 /// is `contradictory` at best. What an inclination should be, and by which slip it became what was
 /// written, is what the fit says.
-void put_back_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
-                      FitResult& result);
+void restore_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
+                     FitResult& result);
 
 }  // namespace culet

@@ -10,7 +10,7 @@
 #include "fit/findings/describe.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/words.h"
-#include "fit/mesh/come_to_nothing.h"
+#include "fit/mesh/degenerate_facets.h"
 #include "stone/solid/checks.h"
 
 namespace culet {
@@ -78,7 +78,7 @@ MaybeVerdict exact_contradiction(const Fit& fit) {
 
 // What of a stone could not be brought together.
 std::string in_the_way(const Solid& solid) {
-    const ComeToNothing come = come_to_nothing(solid);
+    const ComeToNothing come = degenerate_facets(solid);
     std::string text;
     if (!come.facets.empty()) {
         text = fmt::format(

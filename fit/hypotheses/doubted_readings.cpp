@@ -134,7 +134,7 @@ Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem&
         next.readings = without(given.readings, readings_of(denied));
         return {std::nullopt, std::move(next)};
     }
-    put_back_doubted(given.readings, doubts, again);
+    restore_doubted(given.readings, doubts, again);
     return {std::move(again), std::nullopt};
 }
 

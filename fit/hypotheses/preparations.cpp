@@ -49,8 +49,8 @@ std::vector<Reading> without(const std::vector<Reading>& readings,
 Prepared prepared(Problem problem) {
     Prepared result{std::move(problem), {}};
     for (const Preparation prepare : k_preparations) {
-        if (auto put_back = prepare(result.problem)) {
-            result.put_back.insert(result.put_back.begin(), std::move(*put_back));
+        if (auto restored = prepare(result.problem)) {
+            result.restored.insert(result.restored.begin(), std::move(*restored));
         }
     }
     return result;

@@ -12,7 +12,7 @@ namespace culet {
 struct Prepared {
     Problem problem;
     /// Applied to a result in this order: the result of the problem as it was given.
-    std::vector<std::function<void(FitResult&)>> put_back;
+    std::vector<std::function<void(FitResult&)>> restored;
 };
 
 /// Leaves out azimuths of level facets, which mean nothing, and gives the stone the mesh's size

@@ -18,14 +18,14 @@ using By = Quantity::By;
 
 // Angle between unit vectors, folded to 0..pi/2, and its slopes. Both atan2 arguments keep full
 // precision near 0 and near pi/2. Where the vectors are parallel the slope is taken as zero.
-struct FoldedAngle {
+struct AcuteAngle {
     double value;
     Vec3 by_a, by_b;
 };
-FoldedAngle folded_angle(const Vec3& a, const Vec3& b) {
+AcuteAngle acute_angle(const Vec3& a, const Vec3& b) {
     const double s = glm::length(glm::cross(a, b)), c = glm::dot(a, b);
     const double sign = c < 0 ? -1 : 1;
-    FoldedAngle angle{std::atan2(s, std::abs(c)), Vec3(0), Vec3(0)};
+    AcuteAngle angle{std::atan2(s, std::abs(c)), Vec3(0), Vec3(0)};
     if (s > 0) {
         // d(angle) = -sign (b - c a)/s . da for steps da normal to a
         angle.by_a = -sign * (b - c * a) / s;
@@ -45,7 +45,7 @@ double wrapped(double angle) {
 
 Formula tilt_from_up(int facet) {
     return [=](const Shape& shape) {
-        const FoldedAngle angle = folded_angle(shape.normals[facet], Vec3{0, 0, 1});
+        const AcuteAngle angle = acute_angle(shape.normals[facet], Vec3{0, 0, 1});
         Quantity q{angle.value, {}};
         q.add(By::normal, facet, angle.by_a);
         return q;
@@ -78,7 +78,7 @@ Formula horizontal_component(int facet, int component) {
 
 Formula tilt_between(int facet, int datum) {
     return [=](const Shape& shape) {
-        const FoldedAngle angle = folded_angle(shape.normals[facet], shape.normals[datum]);
+        const AcuteAngle angle = acute_angle(shape.normals[facet], shape.normals[datum]);
         Quantity q{angle.value, {}};
         q.add(By::normal, facet, angle.by_a);
         q.add(By::normal, datum, angle.by_b);
@@ -93,7 +93,7 @@ Formula tilt_from_axis(int facet, std::vector<int> girdle_facets) {
             scatter += glm::outerProduct(shape.normals[g], shape.normals[g]);
         }
         const LeastEigenvector least = least_eigenvector(scatter);
-        const FoldedAngle angle = folded_angle(shape.normals[facet], least.vector);
+        const AcuteAngle angle = acute_angle(shape.normals[facet], least.vector);
         Quantity q{angle.value, {}};
         q.add(By::normal, facet, angle.by_a);
         const Vec3 back = least.pseudo_inverse * angle.by_b;  // symmetric
@@ -118,7 +118,7 @@ Formula tilt_from_plane(int facet, std::vector<Corner> corners) {
             scatter += glm::outerProduct(r, r);
         }
         const LeastEigenvector least = least_eigenvector(scatter);
-        const FoldedAngle angle = folded_angle(shape.normals[facet], least.vector);
+        const AcuteAngle angle = acute_angle(shape.normals[facet], least.vector);
         Quantity q{angle.value, {}};
         q.add(By::normal, facet, angle.by_a);
         const Vec3 back = least.pseudo_inverse * angle.by_b;

@@ -62,7 +62,7 @@ private:
 
 Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
     return [seen, k](const Shape& shape) {
-        const PlaneKnowledge::Row& row = seen->rows[k];
+        const PlaneObservations::Row& row = seen->rows[k];
         const double turn = seen->turns ? turn_about_up(*seen, shape) : 0;
         const double cosine = std::cos(turn), sine = std::sin(turn);
         Quantity q;
@@ -85,7 +85,7 @@ Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
 }
 
 std::shared_ptr<const KnownPlanes> inside(const Frame& frame, Frame::From from,
-                                          const PlaneKnowledge& told, bool turns) {
+                                          const PlaneObservations& told, bool turns) {
     check(told.planes.size() == frame.solid().facets.size(), "planes of another mesh");
     const glm::dmat3 turn = frame.turn_inside(from);
     const Vec3& middle = frame.middle();
@@ -94,8 +94,8 @@ std::shared_ptr<const KnownPlanes> inside(const Frame& frame, Frame::From from,
         known->planes.push_back(
             {turn * plane.normal, (plane.offset - glm::dot(plane.normal, middle)) / frame.scale()});
     }
-    for (const PlaneKnowledge::Row& row : told.rows) {
-        PlaneKnowledge::Row& in = known->rows.emplace_back();
+    for (const PlaneObservations::Row& row : told.rows) {
+        PlaneObservations::Row& in = known->rows.emplace_back();
         in.value = row.value;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
             // The offset from the mesh's middle is smaller by normal . middle.

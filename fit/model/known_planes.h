@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "fit/model/frame.h"
-#include "fit/planes/plane_knowledge.h"
+#include "fit/planes/plane_observations.h"
 
 namespace culet {
 
 /// Normals are turned back about up, to stand as the stone did when it was seen.
-struct KnownPlanes : PlaneKnowledge {
+struct KnownPlanes : PlaneObservations {
     bool turns = true;  ///< it is not known how the stone stands about up
 };
 

@@ -37,7 +37,7 @@ enum class ReadingKind {
 
 struct SilhouetteSet;
 struct OutlineKnowledge;
-struct PlaneKnowledge;
+struct PlaneObservations;
 
 const char* name_of(ReadingKind kind);
 std::optional<ReadingKind> reading_kind(std::string_view name);
@@ -129,8 +129,8 @@ struct Reading {
     std::shared_ptr<const SilhouetteSet> outlines;
     int outline_set = 0;
     std::shared_ptr<const OutlineKnowledge> told;
-    /// Photograph: what it tells (planes/plane_knowledge.h).
-    std::shared_ptr<const PlaneKnowledge> photograph;
+    /// Photograph: what it tells (planes/plane_observations.h).
+    std::shared_ptr<const PlaneObservations> photograph;
 };
 
 /// Finds every name on the solid and gives every reading its id. A pattern over single facets makes

@@ -32,7 +32,7 @@ std::optional<KindWord> kind_word(std::string_view written);
 /// The word that was meant by one that is none: the nearest, or the one that begins so.
 std::optional<std::string> near_kind_word(std::string_view written);
 
-/// Names parted by `/`, but not inside the brackets of mean(A/B). Blanks at the ends go.
+/// Names split by `/`, but not inside the brackets of mean(A/B). Blanks at the ends go.
 std::vector<std::string> split_names(std::string_view text);
 
 /// Marks a row of a form that was not filled in: it has no value, and its kind needs one.

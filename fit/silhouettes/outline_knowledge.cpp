@@ -32,8 +32,8 @@ Eigen::VectorXd motion_of(const std::vector<Plane>& planes, double width, const 
     return step;
 }
 
-Eigen::MatrixXd unheld_motions(const std::vector<Plane>& planes, double width, const Vec3& up,
-                               const FrameHolds& holds) {
+Eigen::MatrixXd undetermined_motions(const std::vector<Plane>& planes, double width, const Vec3& up,
+                                     const FrameHolds& holds) {
     const Vec3 x = perpendicular_to(up), y = glm::cross(up, x), none(0);
     std::vector<Eigen::VectorXd> motions;
     for (const Vec3& d : {x, y, up}) motions.push_back(motion_of(planes, width, none, width * d));
@@ -72,7 +72,7 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
     ToldPlanes told;
     told.unseen = unseen_planes(matrix, tilts);
     const Vec3 up = inverse(back).turned(holds.up);
-    const Eigen::MatrixXd motions = unheld_motions(planes, width, up, holds);
+    const Eigen::MatrixXd motions = undetermined_motions(planes, width, up, holds);
     const Eigen::MatrixXd seen = product(matrix, motions);
     const PivotedCholesky of_motions(transpose_times(motions, seen));
     matrix -= product(seen, of_motions.solve(seen.transpose()));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/planes/plane_knowledge.h"
+#include "fit/planes/plane_observations.h"
 #include "fit/silhouettes/silhouette.h"
 #include "stone/stone.h"
 
@@ -15,7 +15,7 @@ namespace culet {
 /// What outlines tell of a stone's planes; the rows' values are zero. Motions that outlines know
 /// nothing of, or that the frame of the fit holds, are left out of it. Planes that the outlines do
 /// not tell of are held to the mesh's within degrees and per cents: the rows hold all of them.
-struct OutlineKnowledge : PlaneKnowledge {
+struct OutlineKnowledge : PlaneObservations {
     std::vector<FrameMotion> motions;  ///< of the sets, to the stone's frame
     std::vector<double> sigmas;        ///< of the sets, across the outline
     std::vector<bool> estimated;       ///< sigma comes from the residuals

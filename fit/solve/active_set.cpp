@@ -93,7 +93,7 @@ void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOpti
         }
         LocalOptimum next =
             constrained_newton(relaxation, solver, optimum.shape, result.held,
-                               {.iterations = left, .near_an_end = options.agreeable > 0});
+                               {.iterations = left, .near_local_minimum = options.agreeable > 0});
         bring_to_meet(relaxation, result.held, next);
         left -= next.iterations;
         next.iterations += optimum.iterations;
@@ -112,9 +112,10 @@ ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
     ActiveSetFit result;
     KktSolver solver;
     const bool goes_on = options.agreeable > 0;
-    LocalOptimum optimum = constrained_newton(
-        relaxation, solver, start, {},
-        {.iterations = options.iterations, .near_an_end = goes_on, .contacts_shared = goes_on});
+    LocalOptimum optimum = constrained_newton(relaxation, solver, start, {},
+                                              {.iterations = options.iterations,
+                                               .near_local_minimum = goes_on,
+                                               .contacts_shared = goes_on});
     optimum = with_best_signs(relaxation, solver, options, std::move(optimum));
     bring_to_meet(relaxation, {}, optimum);
     const double free_chi2 = optimum.chi2;

@@ -44,7 +44,7 @@ public:
         choose(shape_, outline_);
         if (options.contacts_shared) relaxation.share_level_corners(shape_);
         here_ = linearised(shape_);
-        damping_ = options.near_an_end ? k_newton.least_damping : k_newton.first_damping;
+        damping_ = options.near_local_minimum ? k_newton.least_damping : k_newton.first_damping;
     }
 
     LocalOptimum run();
@@ -83,9 +83,9 @@ private:
     StepLinearisation here_;                  ///< at the shape
     double damping_ = 0;
     int quiet_ = 0, choices_ = 0;
-    bool curved_ = false;       ///< the next step is Newton's
-    Eigen::VectorXd forces_;    ///< of the equations, for their curvature
-    double length_before_ = 0;  ///< of the step before in this meaning, where there was one
+    bool second_order_ = false;    ///< the next step is Newton's
+    Eigen::VectorXd multipliers_;  ///< of the equations, for their curvature
+    double length_before_ = 0;     ///< of the step before in this meaning, where there was one
     /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
     /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
     bool asked_ = false;
@@ -98,8 +98,8 @@ private:
 void Newton::take_curvature_of_the_end() {
     if (!solver_.factor(here_.rows, damping_ * metric_)) return;
     const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
-    curved_ = s.good;
-    forces_ = s.forces;
+    second_order_ = s.good;
+    multipliers_ = s.multipliers;
 }
 
 bool Newton::meaning_changes() {
@@ -127,11 +127,11 @@ bool Newton::ends(bool by_itself) {
 
 // With curvature where the steps are Newton's; without it where it is not positive definite.
 bool Newton::factor() {
-    if (curved_) {
-        const std::vector<SymmetricEntry> bends = relaxation_.curvature(shape_, forces_);
+    if (second_order_) {
+        const std::vector<SymmetricEntry> bends = relaxation_.curvature(shape_, multipliers_);
         if (solver_.factor(here_.rows, damping_ * metric_, bends, least_)) return true;
     }
-    curved_ = false;
+    second_order_ = false;
     if (solver_.factor(here_.rows, damping_ * metric_, {}, least_)) return true;
     if (least_ != k_kkt.least_variance_close) return false;
     least_ = k_kkt.least_variance;
@@ -145,17 +145,18 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
     // The next of Newton's steps would be shorter by the square of what this one is, and would gain
     // less by the square of that.
     const double shrinks =
-        curved_ && length_before_ > 0 ? std::min(1.0, length / length_before_) : 1;
+        second_order_ && length_before_ > 0 ? std::min(1.0, length / length_before_) : 1;
     const double next_length = length * shrinks * shrinks,
                  next_gain = std::abs(gain) * std::pow(shrinks, 4);
     length_before_ = length;
-    if (curved_ && next_length < k_newton.short_step && next_gain < k_newton.no_gain * (1 + before))
+    if (second_order_ && next_length < k_newton.short_step &&
+        next_gain < k_newton.no_gain * (1 + before))
         quiet_ = k_newton.quiet_steps;
     shape_ = std::move(next);
     // The exact Hessian near the end: weak parameters would creep.
     if (length < 1e-2) {
-        forces_ = solution.forces;
-        curved_ = true;
+        multipliers_ = solution.multipliers;
+        second_order_ = true;
     }
     here_ = std::move(there);
     damping_ = std::max(k_newton.least_damping, damping_ / 5);
@@ -200,14 +201,14 @@ Newton::Step Newton::step() {
     }
     if (outline_) choose(shape_, outline_);
     // Newton's step, and the sums' own rounding.
-    made.idle = there.finite && curved_ && made.length < k_newton.short_step &&
+    made.idle = there.finite && second_order_ && made.length < k_newton.short_step &&
                 after - before < k_newton.no_gain * (1 + before);
     return made;
 }
 
 // After a step that was not better.
 bool Newton::gives_up(const Step& made) {
-    curved_ = false;
+    second_order_ = false;
     length_before_ = 0;
     damping_ *= 10;
     // Nothing more to gain at the size of rounding; or no step is better.
@@ -216,7 +217,7 @@ bool Newton::gives_up(const Step& made) {
 }
 
 LocalOptimum Newton::run() {
-    if (options_.near_an_end) take_curvature_of_the_end();
+    if (options_.near_local_minimum) take_curvature_of_the_end();
     for (int i = 0; i < options_.iterations; ++i) {
         result_.iterations = i + 1;
         const Step made = step();

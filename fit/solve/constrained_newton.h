@@ -20,7 +20,7 @@ struct NewtonOptions {
     int iterations = 100;
     /// The equations bend as they do where the steps will end, so that the first step may already
     /// be Newton's.
-    bool near_an_end = false;
+    bool near_local_minimum = false;
     /// Likewise jaws rest on corners that are level: as long as all of them carry a part.
     bool contacts_shared = false;
     /// Of a stone whose meets come apart: the corners that the planes give at the start. They are

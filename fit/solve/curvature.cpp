@@ -17,7 +17,7 @@ namespace {
 // of the edge.
 template <typename Add>
 void bend_edge(const Quantity& length, const Shape& shape,
-               const Parameters::TangentBasis& tangent_basis, double force, Add add) {
+               const Parameters::TangentBasis& tangent_basis, double multiplier, Add add) {
     if (length.slopes.size() != 4 || length.slopes[3].by != Quantity::By::normal) return;
     const int to = length.slopes[0].index, from = length.slopes[1].index,
               left = length.slopes[2].index, right = length.slopes[3].index;
@@ -51,8 +51,8 @@ void bend_edge(const Quantity& length, const Shape& shape,
             const Freedom &a = parameters[i], &b = parameters[k];
             if (a.column < b.column) continue;
             add(a.column, b.column,
-                force * (glm::dot(a.direction, b.edge) + glm::dot(b.direction, a.edge) -
-                         length.value * glm::dot(a.direction, b.direction)));
+                multiplier * (glm::dot(a.direction, b.edge) + glm::dot(b.direction, a.edge) -
+                              length.value * glm::dot(a.direction, b.direction)));
         }
     }
 }
@@ -60,7 +60,7 @@ void bend_edge(const Quantity& length, const Shape& shape,
 // A distance l between corners turns with e_i . e_k / l, the part along it left out.
 template <typename Add>
 void bend_distance(const Quantity& length, const Parameters::TangentBasis& tangent_basis,
-                   double force, Add add) {
+                   double multiplier, Add add) {
     if (length.slopes.size() != 2 || !(length.value > 0)) return;
     struct Freedom {
         int column;
@@ -82,7 +82,7 @@ void bend_distance(const Quantity& length, const Parameters::TangentBasis& tange
         for (std::size_t k = 0; k < count; ++k) {
             const Freedom &a = parameters[i], &b = parameters[k];
             if (a.column < b.column) continue;
-            add(a.column, b.column, force * glm::dot(a.across, b.across) / length.value);
+            add(a.column, b.column, multiplier * glm::dot(a.across, b.across) / length.value);
         }
     }
 }
@@ -90,25 +90,25 @@ void bend_distance(const Quantity& length, const Parameters::TangentBasis& tange
 }  // namespace
 
 std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
-                                                  const Eigen::VectorXd& forces) const {
+                                                  const Eigen::VectorXd& multipliers) const {
     // force * (normal . point - offset): mixed derivatives of tilts and points, and the turn of the
     // normal itself.
     std::vector<SymmetricEntry> entries;
     const Parameters::TangentBasis tangent_basis = parameters_.tangent_basis(shape);
     for (std::size_t i = 0; i < incidences_.size(); ++i) {
         const OrbitPair& incidence = incidences_[i];
-        const double force = forces(Eigen::Index(i));
+        const double multiplier = multipliers(Eigen::Index(i));
         const Parameters::Slots &n = tangent_basis.normals[incidence.facet],
                                 &x = tangent_basis.points[incidence.point];
         const double out = glm::dot(shape.normals[incidence.facet], shape.points[incidence.point]);
         for (int a = 0; a < n.count; ++a) {
-            entries.push_back({n.column + a, n.column + a, -force * out});
+            entries.push_back({n.column + a, n.column + a, -multiplier * out});
             for (int b = 0; b < x.count; ++b) {
                 const int row = std::max(n.column + a, x.column + b),
                           column = std::min(n.column + a, x.column + b);
                 entries.push_back(
                     {row, column,
-                     force * glm::dot(n.along[std::size_t(a)], x.along[std::size_t(b)])});
+                     multiplier * glm::dot(n.along[std::size_t(a)], x.along[std::size_t(b)])});
             }
         }
     }
@@ -117,7 +117,7 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
     };
     for (std::size_t i = 0; i < equations_.size(); ++i) {
         const Equation& e = equations_[i];
-        const double force = forces(Eigen::Index(incidences_.size() + i));
+        const double multiplier = multipliers(Eigen::Index(incidences_.size() + i));
         if (e.reading < 0) continue;  // of the prior
         const Reading& reading = model_.readings()[std::size_t(e.reading)];
         if (reading.aggregate != Aggregate::single) continue;
@@ -131,7 +131,7 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
             const Vec3 across{-normal.y / flat, normal.x / flat, 0};
             const Quantity q = e.formula(shape);
             const double side = q.slopes.empty() || q.slopes[0].slope.z <= 0 ? 1 : -1;
-            const double bend = force * side * normal.z / flat;
+            const double bend = multiplier * side * normal.z / flat;
             for (int a = 0; a < 2; ++a) {
                 for (int b = 0; b <= a; ++b) {
                     add(n.column + a, n.column + b,
@@ -141,8 +141,8 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
             }
         } else if (reading.kind == ReadingKind::edge) {
             const Quantity length = e.formula(shape);
-            bend_edge(length, shape, tangent_basis, force, add);
-            bend_distance(length, tangent_basis, force, add);
+            bend_edge(length, shape, tangent_basis, multiplier, add);
+            bend_distance(length, tangent_basis, multiplier, add);
         }
     }
     return entries;

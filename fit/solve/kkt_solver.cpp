@@ -111,7 +111,7 @@ KktSolver::Solutions KktSolver::solve_all(const Eigen::MatrixXd& a, const Eigen:
                   b.cols() > 0 ? Eigen::VectorXd(b.col(k)) : Eigen::VectorXd::Zero(equations_),
                   precision);
         all.unknowns.col(k) = one.unknowns;
-        all.forces.col(k) = one.forces;
+        all.multipliers.col(k) = one.multipliers;
         all.good = all.good && one.good;
     }
     return all;

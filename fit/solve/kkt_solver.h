@@ -32,7 +32,7 @@ public:
                 const std::vector<SymmetricEntry>& curvature = {},
                 double least = k_kkt.least_variance);
     struct Solution {
-        Eigen::VectorXd unknowns, forces;
+        Eigen::VectorXd unknowns, multipliers;
         bool good = false;
     };
     /// Refined until what is left is this part of the right-hand side, or gets no smaller; not at
@@ -42,7 +42,7 @@ public:
     /// Several right-hand sides at once, one a column: `a` or `b` may have no columns where it is
     /// zero.
     struct Solutions {
-        Eigen::MatrixXd unknowns, forces;
+        Eigen::MatrixXd unknowns, multipliers;
         bool good = false;
     };
     Solutions solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,

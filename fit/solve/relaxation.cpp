@@ -122,12 +122,12 @@ bool Relaxation::contacts_hold(const Shape& shape) const {
     for (const SharedContact& contact : shared_contacts_) {
         const Equation& e = equations_[std::size_t(contact.equation)];
         const double pull = (e.formula(shape).value - e.value) / (e.sigma * e.sigma);
-        const double force =
+        const double multiplier =
             off_level(shape, contact) / (k_jaws.contact_sigma * k_jaws.contact_sigma);
-        if (std::abs(force) * e.sigma < k_jaws.no_force) continue;
+        if (std::abs(multiplier) * e.sigma < k_jaws.no_force) continue;
         const int touched = e.touched[std::size_t(contact.jaw)].point;
         const double share =
-            (contact.jaw == 0) == (touched == contact.one) ? -force / pull : force / pull;
+            (contact.jaw == 0) == (touched == contact.one) ? -multiplier / pull : multiplier / pull;
         double& all = shared[{contact.equation, contact.jaw}];
         all += share;
         if (!(pull > 0) || !(share > 0) || !(all < 1)) return false;
@@ -217,8 +217,9 @@ std::vector<ActiveCorner> Relaxation::above(const Shape& shape, double margin) c
     return result;
 }
 
-std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double within) const {
-    std::vector<Folded> result;
+std::vector<Relaxation::SignAmbiguity> Relaxation::ambiguous(const Shape& shape,
+                                                             double within) const {
+    std::vector<SignAmbiguity> result;
     std::map<std::pair<int, bool>, std::size_t> known;
     int row = static_cast<int>(incidences_.size());
     for (const Equation& e : equations_) {

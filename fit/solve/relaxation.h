@@ -138,7 +138,7 @@ public:
     /// Rows of `linearisation` that may as well mean another value, and by how much more that is:
     /// of facets within this sine of upright. However often a facet was read, it leans one way:
     /// readings of the same facet that would turn to the same side are one.
-    struct Folded {
+    struct SignAmbiguity {
         struct Turn {
             int row = -1;
             double shift = 0;
@@ -146,7 +146,7 @@ public:
         int facet = -1;
         std::vector<Turn> turns;
     };
-    std::vector<Folded> folded(const Shape& shape, double within) const;
+    std::vector<SignAmbiguity> ambiguous(const Shape& shape, double within) const;
     /// How wide the stone is along level directions, where nothing else says how it stands about
     /// up; none where something does.
     struct Caliper {
@@ -158,7 +158,8 @@ public:
 
     /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
     /// inclinations and edges, without which a turn of the whole stone would seem to change them.
-    std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
+    std::vector<SymmetricEntry> curvature(const Shape& shape,
+                                          const Eigen::VectorXd& multipliers) const;
 
 private:
     double height(const Shape& shape, int facet, int point) const;

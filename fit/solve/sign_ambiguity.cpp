@@ -124,16 +124,16 @@ std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::Matrix
 // What is added to the values of a linearisation's rows when some facets are taken the other way:
 // the `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals
 // over their variances at the optimum of the factored equations.
-std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::Folded>& folded,
-                                                 const KktSolver& solver,
-                                                 const Eigen::VectorXd& pulls, std::size_t most) {
-    const auto count = static_cast<Eigen::Index>(folded.size());
+std::vector<Eigen::VectorXd> better_sign_choices(
+    const std::vector<Relaxation::SignAmbiguity>& ambiguous, const KktSolver& solver,
+    const Eigen::VectorXd& pulls, std::size_t most) {
+    const auto count = static_cast<Eigen::Index>(ambiguous.size());
     // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
     // adds to chi-square, r(i) is half the part that is linear and big(i, i) the square one.
     Eigen::VectorXd r = Eigen::VectorXd::Zero(count);
     Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(pulls.size(), count);
     for (Eigen::Index i = 0; i < count; ++i) {
-        for (const auto& [row, shift] : folded[std::size_t(i)].turns) {
+        for (const auto& [row, shift] : ambiguous[std::size_t(i)].turns) {
             r(i) -= shift * pulls(row);
             shifts(row, i) = shift;
         }
@@ -142,9 +142,9 @@ std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::F
     if (!solved.good) return {};
     Eigen::MatrixXd big = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index k = 0; k < count; ++k) {
-        for (const auto& [row, shift] : folded[std::size_t(k)].turns) {
+        for (const auto& [row, shift] : ambiguous[std::size_t(k)].turns) {
             // forces = (J x - b) / variance
-            big.row(k) -= shift * solved.forces.row(row);
+            big.row(k) -= shift * solved.multipliers.row(row);
         }
     }
     // As it is but for what solving leaves: else turns there and back would seem to gain.
@@ -165,11 +165,11 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
                                 const PenaltyScale& penalty, double within, std::size_t most,
                                 const std::vector<int>& sides) {
     relaxation.choose(shape, penalty.incidence == 0);
-    std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
-    std::erase_if(folded, [&](const Relaxation::Folded& f) {
+    std::vector<Relaxation::SignAmbiguity> ambiguous = relaxation.ambiguous(shape, within);
+    std::erase_if(ambiguous, [&](const Relaxation::SignAmbiguity& f) {
         return !sides.empty() && sides[std::size_t(f.facet)] != 0;
     });
-    if (folded.empty()) return {};
+    if (ambiguous.empty()) return {};
     const StepLinearisation linearisation = relaxation.linearisation(shape, penalty);
     if (!solver.factor(linearisation.rows,
                        linearisation.prior_stiffness + k_signs.damping * relaxation.metric()))
@@ -181,7 +181,7 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
     }
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.parameters().size());
     std::vector<Shape> others;
-    for (const Eigen::VectorXd& right : better_sign_choices(folded, solver, pulls, most)) {
+    for (const Eigen::VectorXd& right : better_sign_choices(ambiguous, solver, pulls, most)) {
         const auto s = solver.solve(none, right, k_signs.precision);
         if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_signs.farthest) continue;
         others.push_back(relaxation.parameters().retracted_with_turn(

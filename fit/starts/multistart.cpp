@@ -132,7 +132,7 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
         candidate.finished.iterations += continued.steps;
         without_stone += candidate.is_no_stone;
         work += continued.work + candidate.finished.work;
-        const bool good = candidate.is_an_end();
+        const bool good = candidate.is_local_minimum();
         candidate.agrees = good && agrees(model, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
         // An optimum that agrees but poorly, or that lies where an edge has no length, may be a

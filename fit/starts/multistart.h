@@ -21,7 +21,7 @@ struct Candidate : ActiveSetFit {
 
     /// A stone that could be cut, and whose hard equations hold.
     bool holds() const { return sound && finished.worst_hard < k_hard_limit; }
-    bool is_an_end() const { return holds() && finished.converged; }
+    bool is_local_minimum() const { return holds() && finished.converged; }
 };
 
 struct Multistart {

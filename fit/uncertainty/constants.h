@@ -12,7 +12,7 @@ namespace culet {
 struct CovarianceConstants {
     /// Variance of undetermined directions in tests, in the metric: so much larger than any
     /// measured one that they do not count. A prior of its inverse changes no digit of a report.
-    double unheld_variance = 1e3;
+    double undetermined_variance = 1e3;
     /// Unknowns. With more, sparse algebra is faster than dense.
     Eigen::Index most_dense = 1300;
     /// Spread of weights up to which the normal equations are used. They square it; above, QR keeps

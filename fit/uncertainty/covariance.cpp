@@ -69,7 +69,8 @@ Eigen::MatrixXd Covariance::joint(const FunctionRows& functions) const {
         const DenseRows halves = functions * held_, open = functions * open_;
         all = transpose_times(halves.transpose(), halves.transpose());
         if (open.cols() > 0)
-            all += k_cov.unheld_variance * transpose_times(open.transpose(), open.transpose());
+            all +=
+                k_cov.undetermined_variance * transpose_times(open.transpose(), open.transpose());
     }
     return 0.5 * (all + all.transpose());
 }

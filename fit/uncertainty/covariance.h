@@ -40,7 +40,7 @@ public:
     double open_variance(const FunctionRow& function) const;
     /// Both parts together.
     double total_variance(const FunctionRow& function) const;
-    /// Covariance of functions, one a row. Each open direction has `unheld_variance`.
+    /// Covariance of functions, one a row. Each open direction has `undetermined_variance`.
     Eigen::MatrixXd joint(const FunctionRows& functions) const;
     /// Covariance of a function with every unknown (open directions included when asked).
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
@@ -61,8 +61,8 @@ private:
     struct Sparse;
     struct FreePart;
     void find_dense();
-    bool find_well_held(const FreePart& free);
-    bool find_loosely_held(const FreePart& free);
+    bool find_well_determined(const FreePart& free);
+    bool find_poorly_determined(const FreePart& free);
     void find_sparse();
 
     Linearised linear_;

@@ -66,7 +66,7 @@ void Covariance::find_dense() {
     const Eigen::MatrixXd gauge_rows = linear_.metric.asDiagonal() * gauge;
     const FreePart free{basis, linear_.soft_rows * basis,
                         product(basis.transpose(), gauge_rows).transpose()};
-    if (!find_well_held(free)) usable_ = find_loosely_held(free);
+    if (!find_well_determined(free)) usable_ = find_poorly_determined(free);
     for (DenseRows* columns : {&held_, &open_}) {
         const Eigen::MatrixXd parts = product(columns->transpose(), gauge_rows);
         *columns -= times_transpose(parts, gauge).transpose();
@@ -76,7 +76,7 @@ void Covariance::find_dense() {
 
 // Where readings hold every direction, and none far more tightly than others: Cholesky's factor of
 // the normal equations. False where that cannot be told so.
-bool Covariance::find_well_held(const FreePart& free) {
+bool Covariance::find_well_determined(const FreePart& free) {
     double largest = 0;
     for (Eigen::Index i = 0; i < linear_.soft_rows.rows(); ++i) {
         // In the metric no row is longer on directions that are free than on all.
@@ -106,7 +106,7 @@ bool Covariance::find_well_held(const FreePart& free) {
 }
 
 // By QR of what is seen, whitened by the metric so that eigenvalues compare readings with the mesh.
-bool Covariance::find_loosely_held(const FreePart& free) {
+bool Covariance::find_poorly_determined(const FreePart& free) {
     const Eigen::Index size = free.basis.cols();
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
     add_square(linear_.metric.cwiseSqrt().asDiagonal() * free.basis, 1, metric);

@@ -40,7 +40,7 @@ void leave_readings_out(Linearised& linear) {
 
 MeetLikelihood::MeetLikelihood(const FitModel& model, const Finished& at, bool with_readings)
     : linear_(linearise(model, at.shape, at.outline)),
-      stiffness_(linear_.metric / k_cov.unheld_variance) {
+      stiffness_(linear_.metric / k_cov.undetermined_variance) {
     if (!with_readings) leave_readings_out(linear_);
     for (const Equation& e : linear_.soft) {
         if (e.group >= 0) present_[std::size_t(e.group)] = true;

@@ -88,12 +88,13 @@ double Covariance::Sparse::most_open() const {
 
 double Covariance::Sparse::open_variance(const FunctionRow& function) const {
     if (!has_open) return 0;
-    return std::max(0.0, of(tight, function) - of(trusted, function)) * (1 / k_cov.unheld_variance);
+    return std::max(0.0, of(tight, function) - of(trusted, function)) *
+           (1 / k_cov.undetermined_variance);
 }
 
 void Covariance::find_sparse() {
     sparse_ = std::make_unique<Sparse>(linear_);
-    usable_ = sparse_->compute(sparse_->tight, (1 / k_cov.unheld_variance));
+    usable_ = sparse_->compute(sparse_->tight, (1 / k_cov.undetermined_variance));
     if (!usable_) return;
     const double most = linear_.has_prior ? 0 : sparse_->most_open();
     if (most > 0) {

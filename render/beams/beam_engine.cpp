@@ -27,7 +27,7 @@ public:
         beams.cut = work.cut;
         beams.views = work.views;
         beams.polarised = work.polarised;
-        beams.parted = work.splits;
+        beams.split = work.splits;
         beams.nodes = work.nodes;
         return price_ns(beams);
     }

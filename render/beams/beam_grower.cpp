@@ -95,7 +95,7 @@ void BeamGrower::leaf(const BeamTrunk& trunk) {
     out_->facets.insert(out_->facets.end(), path_.begin(), path_.end());
     out_->leaves.push_back(beam);
     out_->deepest = std::max(out_->deepest, static_cast<int>(path_.size()));
-    out_->leaf_area += 0.5 * trunk.part.doubled_area;
+    out_->exit_area += 0.5 * trunk.part.doubled_area;
 }
 
 // `folding`: to the stone before the trunk's facet mirrors it.

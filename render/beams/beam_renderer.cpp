@@ -215,7 +215,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
     work.prepare(scene, setup, colours, stokes * nodes, picture, listener);
     std::vector<ShadingPass> passes =
         shading_passes(scene, setup, colours, work.stone.shaded.middle, work.pyramid,
-                       static_cast<int>(stokes), settings.crystal == CrystalBeams::parted);
+                       static_cast<int>(stokes), settings.crystal == CrystalBeams::split);
     const std::vector<std::size_t> leader = shared_beams(setup, views[0], work.stone.shaded.middle,
                                                          work.stone.net.size(), settings.limits);
     for (ShadingPass& pass : passes) pass.beams = leader[pass.beams];
@@ -246,7 +246,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                 std::size_t{0}, bands,
                 [&](std::size_t b) {
                     const Band& band = setup.bands[b];
-                    if (band.two_waves && settings.crystal == CrystalBeams::parted) return;
+                    if (band.two_waves && settings.crystal == CrystalBeams::split) return;
                     if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
                                   settings.limits, [&](long long grown) {
@@ -270,7 +270,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                     PaintOptions asking = options;
                     asking.goes_on = [&](const StripSums& sum) {
                         const double before = spent;
-                        spent = std::floor(price_ns(DrawnBeams{.parted = sum.beams,
+                        spent = std::floor(price_ns(DrawnBeams{.split = sum.beams,
                                                                .fragments = sum.fragments,
                                                                .faces = sum.faces,
                                                                .nodes = passes[0].lights.nodes}));
@@ -295,7 +295,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
             report.beams += tree.beams();
             report.deepest = std::max(report.deepest, tree.deepest());
             if (!(tree.front_area > 0)) continue;
-            lost += (tree.front_area - tree.leaf_area()) / tree.front_area;
+            lost += (tree.front_area - tree.exit_area()) / tree.front_area;
             ++trees;
         }
     }

@@ -63,7 +63,7 @@ void BeamBranch::clear() {
     corners.clear();
     facets.clear();
     beams = faces = 0;
-    leaf_area = 0;
+    exit_area = 0;
     deepest = 0;
 }
 
@@ -85,9 +85,9 @@ int BeamTree::deepest() const {
     return most;
 }
 
-double BeamTree::leaf_area() const {
+double BeamTree::exit_area() const {
     double sum = 0;
-    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].leaf_area;
+    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].exit_area;
     return sum;
 }
 

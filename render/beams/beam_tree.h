@@ -49,7 +49,7 @@ struct BeamBranch {
     std::vector<std::uint16_t> facets;  ///< met by a leaf, from the front facet on
     long long beams = 0;                ///< leaves and what they were split from
     long long faces = 0;                ///< met by beams that are alone
-    double leaf_area = 0;               ///< square pixels
+    double exit_area = 0;               ///< square pixels
     int deepest = 0;
     void clear();
 };
@@ -62,7 +62,7 @@ struct BeamTree {
 
     long long beams() const;
     long long faces() const;
-    double leaf_area() const;
+    double exit_area() const;
     int deepest() const;  ///< most facets that a beam meets
 };
 

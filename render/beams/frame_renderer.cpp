@@ -107,12 +107,11 @@ CrystalChoice choose_crystal(const Scene& scene, const OpticalSetup& setup) {
         choice.why = "the two waves interfere";
     } else {
         const double apart = images_apart(scene, setup);
-        choice.beams = apart > k_seen_apart ? CrystalBeams::parted : CrystalBeams::merged;
+        choice.beams = apart > k_seen_apart ? CrystalBeams::split : CrystalBeams::merged;
         choice.why = fmt::format("their images lie {:.2g} pixels apart", apart);
     }
-    choice.why =
-        fmt::format("; beams of the two waves {}: {}",
-                    choice.beams == CrystalBeams::merged ? "merged" : "parted", choice.why);
+    choice.why = fmt::format("; beams of the two waves {}: {}",
+                             choice.beams == CrystalBeams::merged ? "merged" : "split", choice.why);
     return choice;
 }
 
@@ -272,7 +271,7 @@ RenderResult FrameRenderer::take() {
 }
 
 std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
-    if (scene.furnished()) return "beams draw one stone alone, without objects around it";
+    if (scene.has_objects()) return "beams draw one stone alone, without objects around it";
     if (!scene.stone.convex) return "beams are for convex stones only";
     for (const Band& band : setup.bands) {
         if (!(band.n > band.n_outside)) {

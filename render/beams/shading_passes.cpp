@@ -20,7 +20,7 @@ float number(double v) {
 std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& setup,
                                         const WavelengthSet& colours, const Vec3& middle,
                                         std::shared_ptr<const EnvironmentPyramid> environment,
-                                        int stokes, bool parted) {
+                                        int stokes, bool split) {
     const std::size_t nodes = setup.wavelengths_nm.size();
     const bool responds = setup.stokes;
     std::vector<ShadingPass> passes;
@@ -47,8 +47,8 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& 
         pass.optics.n = number(pass.n);
         pass.optics.polarised = setup.polarised;
         const int node = first - band.first;
-        if (band.two_waves && parted) {
-            auto waves = std::make_shared<ShadingPass::Parted>();
+        if (band.two_waves && split) {
+            auto waves = std::make_shared<ShadingPass::SplitWaves>();
             waves->band = band;
             waves->band.first = first;
             waves->band.count = count;
@@ -60,7 +60,7 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& 
                         stokes == 4 ? static_cast<double>(static_cast<int>(j) == k) : seen[j];
             }
             waves->polarised_lights = polarised(scene.lights);
-            pass.parted = std::move(waves);
+            pass.split = std::move(waves);
         } else if (band.two_waves) {
             pass.optics.crystal = merged_crystal(band, node);
         } else if (band.absorbs) {
@@ -80,7 +80,7 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& 
     };
     for (std::size_t b = 0; b < setup.bands.size(); ++b) {
         const Band& band = setup.bands[b];
-        if (!responds && (!band.two_waves || parted)) {
+        if (!responds && (!band.two_waves || split)) {
             add(b, band.first, band.count, 0);
             continue;
         }

@@ -12,7 +12,7 @@ namespace culet {
 /// number of threads.
 constexpr int k_strip = 48;
 
-struct LeafNumber {
+struct BeamNumber {
     std::uint32_t branch = 0, leaf = 0;
 };
 
@@ -22,7 +22,7 @@ struct SortedBeams {
     BeamLimits limits;
     bool grown = false;
     BeamTree tree;
-    std::vector<std::vector<LeafNumber>> strips;
+    std::vector<std::vector<BeamNumber>> strips;
 
     /// Grows the beams unless they are there, or `goes_on` says no (beam_tree.h).
     void grow(const FacetNet& net, const ScreenView& wanted_view, double wanted_n,

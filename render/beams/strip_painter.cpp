@@ -268,7 +268,7 @@ void StripPainter::retrace_astray(const CoveredPixels& covered, int verified, co
     }
 }
 
-void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
+void StripPainter::paint_beam(const SortedBeams& beams, BeamNumber number,
                               const ShadingPass& pass) {
     const BeamBranch& branch = beams.tree.branches[number.branch];
     const Beam& beam = branch.leaves[number.leaf];
@@ -381,22 +381,22 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
     hides_ =
         !passes.empty() && !(passes[0].lights.spheres.empty() && passes[0].lights.planes.empty());
     if (hides_) visible_.assign(count, 0.0f);
-    bool parted = false;
+    bool split = false;
     for (const ShadingPass& pass : passes) {
-        if (k_has_effects && pass.parted) {
-            parted = true;
-            paint_parted(fronts, pass);
+        if (k_has_effects && pass.split) {
+            split = true;
+            paint_split(fronts, pass);
             continue;
         }
         if (options.shading == BeamShading::single) taken_.assign(count, 0);
         const SortedBeams& sorted = beams[pass.beams];
         std::size_t painted = 0;
-        for (const LeafNumber& number : sorted.strips[static_cast<std::size_t>(strip)]) {
+        for (const BeamNumber& number : sorted.strips[static_cast<std::size_t>(strip)]) {
             if (painted++ % k_asked_every == 0 && !goes_on()) return sums_;
             paint_beam(sorted, number, pass);
         }
     }
-    if (options.shading == BeamShading::single && !parted) fill_holes(fronts, passes);
+    if (options.shading == BeamShading::single && !split) fill_holes(fronts, passes);
     add_background(passes);
     add_up_to_one(hides_ ? visible_.data() : cover_.data(), static_cast<int>(count),
                   static_cast<float>(options.share), canvas_.coverage.data() + begin);

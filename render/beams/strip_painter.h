@@ -7,9 +7,9 @@
 
 #include "render/beams/beam_shading.h"
 #include "render/beams/facet_sequence.h"
-#include "render/beams/parted_beams.h"
 #include "render/beams/pixel_coverage.h"
 #include "render/beams/sorted_beams.h"
+#include "render/beams/split_beams.h"
 
 namespace culet {
 
@@ -32,12 +32,12 @@ struct ShadingPass {
     ShadedOptics optics;
     ShadedLights lights;
     /// Crystals whose waves part have no beams kept: they are grown while they are painted.
-    struct Parted {
+    struct SplitWaves {
         Band band;  ///< the pass's nodes
         Stokes response{1, 0, 0, 0};
         bool polarised_lights = false;
     };
-    std::shared_ptr<const Parted> parted;
+    std::shared_ptr<const SplitWaves> split;
 };
 
 /// Where light is added up: planes of pixels, and how much of each the stone fills.
@@ -89,10 +89,10 @@ public:
 
 private:
     bool goes_on() const { return !options_.goes_on || options_.goes_on(sums_); }
-    void paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass);
+    void paint_split(const std::vector<FrontFacet>& fronts, const ShadingPass& pass);
     void paint_leaving(const LeavingBeam& beam, const ScreenPoint* corners, std::size_t count,
                        const ShadingPass& pass);
-    void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
+    void paint_beam(const SortedBeams& beams, BeamNumber number, const ShadingPass& pass);
     void paint_flat(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
                     const ShadedEye& eye, const ShadingPass& pass);
     Fragments fragments_of(const CoveredPixels& covered, const ShadingPass& pass);

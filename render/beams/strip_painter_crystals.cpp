@@ -1,4 +1,4 @@
-// Strips of crystals whose two waves part (parted_beams.h).
+// Strips of crystals whose two waves part (split_beams.h).
 
 #include <algorithm>
 
@@ -50,7 +50,7 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
         leaving.Q[i] = static_cast<float>(beam.Q[i]);
         leaving.U[i] = static_cast<float>(beam.U[i]);
     }
-    leaving.polarised = pass.parted->polarised_lights;
+    leaving.polarised = pass.split->polarised_lights;
     for (std::size_t node = 0; node < static_cast<std::size_t>(nodes); ++node) {
         for (std::size_t i = 0; i < 3; ++i)
             leaving.transmitted.push_back(static_cast<float>(beam.transmitted[i][node]));
@@ -65,16 +65,16 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
 }
 
 // Cell by cell of every front facet.
-void StripPainter::paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass) {
+void StripPainter::paint_split(const std::vector<FrontFacet>& fronts, const ShadingPass& pass) {
     const long long before = sums_.beams;
     const auto goes_on_with = [&](long long grown) {
         sums_.beams = before + grown;
         return goes_on();
     };
-    PartedBeams beams(stone_.net, pass.parted->band,
-                      {options_.depth, options_.cut_weight, goes_on_with}, pass.parted->response);
-    const PartedBeams::Sink sink = [&](const LeavingBeam& beam, const ScreenPoint* corners,
-                                       std::size_t count) {
+    SplitBeams beams(stone_.net, pass.split->band,
+                     {options_.depth, options_.cut_weight, goes_on_with}, pass.split->response);
+    const SplitBeams::Sink sink = [&](const LeavingBeam& beam, const ScreenPoint* corners,
+                                      std::size_t count) {
         paint_leaving(beam, corners, count, pass);
     };
     RegionCutter cutter;

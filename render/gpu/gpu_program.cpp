@@ -94,7 +94,8 @@ GpuTexture environment_texture(const EnvironmentMap& map) {
 
 std::string refused_by_gpu(const Scene& scene) {
     if (!scene.has_stone()) return "the GPU kernel draws a stone, and the scene has none";
-    if (scene.furnished()) return "the GPU kernel draws one stone alone, without objects around it";
+    if (scene.has_objects())
+        return "the GPU kernel draws one stone alone, without objects around it";
     if (!scene.stone.convex) return "the GPU kernel is for convex stones only";
     if (scene.camera.optics.two_windows)
         return "the GPU kernel draws one window, a dichroscope has two";

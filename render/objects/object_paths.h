@@ -18,8 +18,8 @@
 namespace culet {
 
 /// A scene made ready for one set of wavelengths. Does not change.
-struct FurnishedScene {
-    FurnishedScene(const Scene& scene, const WavelengthSet& wavelengths);
+struct SceneWithObjects {
+    SceneWithObjects(const Scene& scene, const WavelengthSet& wavelengths);
 
     ObjectWorld world;
     LightField lights;
@@ -56,7 +56,7 @@ using ArrivingLight = std::array<NodeWeights, 4>;
 /// everything taken as unpolarised) or 4.
 class ObjectPaths {
 public:
-    ObjectPaths(const FurnishedScene& scene, int first, int count, int planes, Random& random)
+    ObjectPaths(const SceneWithObjects& scene, int first, int count, int planes, Random& random)
         : scene_(scene), first_(first), count_(count), planes_(planes), random_(random) {}
     ~ObjectPaths() { scene_.spent_ns += static_cast<long long>(spent_ns_); }
     ObjectPaths(const ObjectPaths&) = delete;
@@ -92,7 +92,7 @@ private:
     /// Weight with which a ray of that importance goes on; 0: it does not.
     double roulette(const WorldRay& ray, double threshold);
 
-    const FurnishedScene& scene_;
+    const SceneWithObjects& scene_;
     int first_, count_, planes_;
     Random& random_;
     double spent_ns_ = 0;

@@ -25,7 +25,7 @@ constexpr double k_leaf_threshold = 0.25;
 
 }  // namespace
 
-FurnishedScene::FurnishedScene(const Scene& scene, const WavelengthSet& wavelengths)
+SceneWithObjects::SceneWithObjects(const Scene& scene, const WavelengthSet& wavelengths)
     : world(scene),
       lights(scene.lights, wavelengths),
       sampler(scene),
@@ -52,7 +52,7 @@ FurnishedScene::FurnishedScene(const Scene& scene, const WavelengthSet& waveleng
     const auto prepare = [&](const Stone& stone) {
         of_stone.stone = stone;
         ReadyStone& ready = stones.emplace_back(ReadyStone{make_optical_setup(of_stone), {}});
-        ready.limits = furnished_limits(of_stone, ready.setup);
+        ready.limits = limits_with_objects(of_stone, ready.setup);
     };
     if (scene.has_stone()) prepare(scene.stone);
     for (const Stone& stone : scene.more_stones) prepare(stone);
@@ -137,7 +137,7 @@ std::string ObjectSurroundings::name_at(const Vec3& origin, const Vec3& directio
 
 std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
                                                     const WavelengthSet& wavelengths) {
-    if (scene.furnished()) return std::make_unique<ObjectSurroundings>(scene, wavelengths);
+    if (scene.has_objects()) return std::make_unique<ObjectSurroundings>(scene, wavelengths);
     return std::make_unique<LightField>(scene.lights, wavelengths);
 }
 

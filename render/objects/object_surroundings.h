@@ -33,7 +33,7 @@ private:
     /// The light, and the factor that it counts with: 0 where it was left out by chance.
     double ask(WorldRay ray, double weight, int first, int count, int planes,
                ArrivingLight& light) const;
-    FurnishedScene scene_;
+    SceneWithObjects scene_;
 };
 
 }  // namespace culet

@@ -27,14 +27,14 @@ Band part_of(const Band& band, int first, int count) {
 // Between one of the stones and itself.
 class AroundStone : public Obstacles {
 public:
-    AroundStone(const FurnishedScene& scene, int stone) : scene_(scene), stone_(stone) {}
+    AroundStone(const SceneWithObjects& scene, int stone) : scene_(scene), stone_(stone) {}
     double nearest_distance(const Vec3& origin, const Vec3& direction) const override {
         return std::min(scene_.world.nearest(origin, direction, {-1, -1, stone_}).distance,
                         scene_.lights.nearest_distance(origin, direction));
     }
 
 private:
-    const FurnishedScene& scene_;
+    const SceneWithObjects& scene_;
     int stone_;
 };
 
@@ -107,7 +107,7 @@ private:
 };
 
 void ObjectPaths::through_stone(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light) {
-    const FurnishedScene::ReadyStone& stone = scene_.stones[static_cast<std::size_t>(hit.stone)];
+    const SceneWithObjects::ReadyStone& stone = scene_.stones[static_cast<std::size_t>(hit.stone)];
     const StoneBody& body = scene_.world.stone(hit.stone);
     const BodyHit entry{hit.part, hit.distance};
     const EyeRay eye{ray.origin, ray.direction};

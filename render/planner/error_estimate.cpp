@@ -275,7 +275,7 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
         if (rays) take_more();
         try {
             estimate = look(picture, static_cast<std::size_t>(wanted));
-        } catch (const OverAllowance&) {
+        } catch (const OverBudget&) {
             break;  // what was found before stands
         }
     }

@@ -80,13 +80,13 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
     std::optional<RefinementLevel> level = levels.first();
     if (meter->limited() && !drawn_by_beams(level->settings)) {
         level = levels.within(*level, k_share_of_rest * meter->left());
-        if (!level) throw OverAllowance();
+        if (!level) throw OverBudget();
     }
     so_far.seconds = plan.seconds_planning;
     for (int drawing = 1; level; ++drawing) {
         const bool beams = drawn_by_beams(level->settings);
         // What paths take is known well; what beams take they find out.
-        if (meter->limited() && !beams && level->price_ns > meter->left()) throw OverAllowance();
+        if (meter->limited() && !beams && level->price_ns > meter->left()) throw OverBudget();
         meter->expect_more(2 * level->price_ns);  // with its check, about
         const long long spent = meter->spent();
         RenderResult result = draw_with(level->settings);
@@ -124,7 +124,7 @@ RefinedPicture Refinement::draw(ScenePlan plan, ErrorEstimator& estimator) {
     SoFar so_far;
     try {
         refine(plan, estimator, RefinementLevels(window, plan, estimator), so_far);
-    } catch (const OverAllowance&) {
+    } catch (const OverBudget&) {
         if (!so_far.best) throw;
         so_far.misjudged = false;
     }

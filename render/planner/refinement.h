@@ -26,7 +26,7 @@ public:
 
     /// The nearest of the pictures drawn, with the effects of the plan. Where the scene's meter has
     /// a limit, the reference takes the rays that are left of it. Throws Interrupted, and
-    /// OverAllowance where it allows none.
+    /// OverBudget where it allows none.
     RefinedPicture draw(ScenePlan plan, ErrorEstimator& estimator);
 
 private:

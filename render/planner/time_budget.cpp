@@ -73,8 +73,8 @@ int samples_within(const Scene& scene, double allowed_ns, const Progress& progre
 
 }  // namespace
 
-RenderResult draw_within_allowance(const Scene& scene, const Progress& progress,
-                                   const DrawToTolerance& draw, const PictureSink& better) {
+RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
+                                const DrawToTolerance& draw, const PictureSink& better) {
     const double allowed = scene.settings.allowed_ns, finest = scene.settings.tolerance;
     const auto meter = std::make_shared<WorkMeter>();
     meter->allow(allowed);
@@ -96,7 +96,7 @@ RenderResult draw_within_allowance(const Scene& scene, const Progress& progress,
                 best->stats.allowed_tolerance = tolerance;
                 if (better) better(*best);
             }
-        } catch (const OverAllowance&) {
+        } catch (const OverBudget&) {
         }
         // What was let go half done came to what chance had it: all that it might take counts.
         if (meter->over()) meter->use_up();
@@ -118,7 +118,7 @@ RenderResult draw_within_allowance(const Scene& scene, const Progress& progress,
 }
 
 bool leaves_samples_open(const Scene& scene) {
-    return scene.furnished() && scene.settings.samples == 0 &&
+    return scene.has_objects() && scene.settings.samples == 0 &&
            engine_of(scene.settings).approaches_truth();
 }
 

@@ -11,15 +11,15 @@
 
 namespace culet {
 
-/// Draws one picture to its tolerance; may throw OverAllowance.
+/// Draws one picture to its tolerance; may throw OverBudget.
 using DrawToTolerance = std::function<RenderResult(const Scene&, const Progress&)>;
 
 /// Coarsely first, then as finely as what that took says the rest of `settings.allowed_ns` allows,
 /// and again while a next step is likely to fit in; the finest is `settings.tolerance`. `better` is
 /// told of each picture that is nearer than those before. The result's `allowed_tolerance` is set.
 /// Throws Interrupted.
-RenderResult draw_within_allowance(const Scene& scene, const Progress& progress,
-                                   const DrawToTolerance& draw, const PictureSink& better);
+RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
+                                const DrawToTolerance& draw, const PictureSink& better);
 
 /// Whether `render` chooses the rays of a pixel by `settings.allowed_ns`: where objects stand
 /// around the stone, light is sampled at random, and every ray makes the picture less noisy.

@@ -1,7 +1,7 @@
 #pragma once
 // Eye rays that miss the stone: through the points of the table's pattern of samples.
 
-#include "render/raytable/leaf_lights.h"
+#include "render/raytable/exit_lights.h"
 #include "render/raytable/table_key.h"
 #include "render/reference/sampling.h"
 

@@ -20,7 +20,7 @@ HWY_INLINE V angle_of(const V& along, const V& across) {
 
 // EnvironmentMap::at, to the sums of so many nodes; `kNodes` 0: of all.
 template <int kNodes>
-HWY_INLINE void environment_light(const LeafLights& lights, const V3& d, const V& unhidden,
+HWY_INLINE void environment_light(const ExitLights& lights, const V3& d, const V& unhidden,
                                   V* sum) {
     const EnvironmentMap& map = *lights.environment;
     const V zero = number(0.0f), half = number(0.5f);

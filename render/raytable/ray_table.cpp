@@ -37,7 +37,7 @@ void each_list(const RayTableHeader& h, Parts& parts, Visit&& visit) {
     visit(parts.frames, h.facets);
     visit(parts.hit_ray, h.hits);
     visit(parts.hit_distance, h.hits);
-    visit(parts.leaf_end, h.bands * h.hits);
+    visit(parts.exits_end, h.bands * h.hits);
     visit(parts.weight, h.leaves);
     for (auto& list : parts.direction) visit(list, h.leaves);
     for (auto& list : parts.point) visit(list, h.leaves);
@@ -92,7 +92,7 @@ std::string fault_in(const RayTableHeader& h, const RayTableParts<TableSpan>& pa
         if (!(distance >= 0) || !std::isfinite(distance)) return "a ray's length";
     }
     std::uint32_t end = 0;
-    for (const std::uint32_t next : parts.leaf_end) {
+    for (const std::uint32_t next : parts.exits_end) {
         if (next < end || next > h.leaves) return "a ray's leaves";
         end = next;
     }

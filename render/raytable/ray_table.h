@@ -54,11 +54,11 @@ static_assert(sizeof(FacetFrame) == 72);
 template <template <class> class List>
 struct RayTableParts {
     List<double> wavelengths_nm;
-    List<FacetFrame> frames;       ///< of each facet
-    List<std::uint32_t> hit_ray;   ///< of each hit: pixel x samples + sample; increasing
-    List<float> hit_distance;      ///< from the eye to the stone
-    List<std::uint32_t> leaf_end;  ///< of band x hits + hit: the leaf after its last
-    List<float> weight;            ///< of each leaf
+    List<FacetFrame> frames;        ///< of each facet
+    List<std::uint32_t> hit_ray;    ///< of each hit: pixel x samples + sample; increasing
+    List<float> hit_distance;       ///< from the eye to the stone
+    List<std::uint32_t> exits_end;  ///< of band x hits + hit: the leaf after its last
+    List<float> weight;             ///< of each leaf
     std::array<List<std::int32_t>, 2> direction;
     std::array<List<std::uint16_t>, 2> point;
     List<std::uint16_t> facet;
@@ -96,7 +96,7 @@ private:
 };
 
 /// Bytes of one leaf in the file.
-constexpr std::size_t leaf_bytes(unsigned lengths) {
+constexpr std::size_t exit_bytes(unsigned lengths) {
     return 4 + 2 * 4 + 2 * 2 + 2 + 2 * static_cast<std::size_t>(lengths);
 }
 

@@ -28,13 +28,13 @@ struct RowSums {
 class Relighting {
 public:
     Relighting(const RayTable& table, const Scene& scene, const TableRays& rays,
-               const Progress& progress, LeafPrecision precision)
+               const Progress& progress, ExitPrecision precision)
         : table_(table),
           scene_(scene),
           rays_(rays),
           colours_(rays.setup.colours()),
           surroundings_(surroundings_of(scene, colours_)),
-          shader_(leaf_shader(scene, rays, colours_, *surroundings_, table, precision)),
+          shader_(exit_shader(scene, rays, colours_, *surroundings_, table, precision)),
           width_(scene.camera.width),
           nodes_(colours_.size()),
           samples_(static_cast<int>(table.header().samples)),
@@ -230,7 +230,7 @@ private:
     const TableRays& rays_;
     WavelengthSet colours_;
     std::unique_ptr<const Surroundings> surroundings_;
-    std::unique_ptr<const LeafShader> shader_;
+    std::unique_ptr<const ExitShader> shader_;
     int width_, nodes_, samples_;
     bool something_near_;
     RowLight light_;
@@ -242,7 +242,7 @@ private:
 }  // namespace
 
 RenderResult relit(const RayTable& table, const Scene& scene, const TableRays& rays,
-                   const Progress& progress, LeafPrecision precision) {
+                   const Progress& progress, ExitPrecision precision) {
     return Relighting(table, scene, rays, progress, precision).draw();
 }
 

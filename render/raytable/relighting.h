@@ -2,7 +2,7 @@
 // Pictures from a ray table.
 
 #include "render/engine/render_result.h"
-#include "render/raytable/leaf_shader.h"
+#include "render/raytable/exit_shader.h"
 #include "render/raytable/ray_table.h"
 #include "render/raytable/table_key.h"
 #include "stone/progress/progress.h"
@@ -16,6 +16,6 @@ namespace culet {
 /// `stats.remainder` and `cut` are those of the table, of a clear stone, which one that absorbs
 /// does not exceed; `absorbed` is what leaves lose on the way to where they leave.
 RenderResult relit(const RayTable& table, const Scene& scene, const TableRays& rays,
-                   const Progress& progress, LeafPrecision precision = LeafPrecision::fastest);
+                   const Progress& progress, ExitPrecision precision = ExitPrecision::fastest);
 
 }  // namespace culet

@@ -5,7 +5,7 @@
 namespace culet {
 
 RowLight::RowLight(const RayTable& table, const Scene& scene, const TableRays& rays,
-                   const LeafShader& shader, bool origins)
+                   const ExitShader& shader, bool origins)
     : table_(table),
       settings_(scene.settings),
       rays_(rays),
@@ -25,17 +25,17 @@ void RowLight::use_factors(const std::uint32_t* end, std::size_t hits, std::uint
     for (std::size_t hit = 0; hit < hits; ++hit) {
         float next = T * T;
         const std::uint32_t first = begin + static_cast<std::uint32_t>(memory.weight.size());
-        for (std::uint32_t leaf = first; leaf < end[hit]; ++leaf) {
-            memory.weight.push_back(leaf == first ? R : next);
-            if (leaf != first) next *= R;
+        for (std::uint32_t exit_event = first; exit_event < end[hit]; ++exit_event) {
+            memory.weight.push_back(exit_event == first ? R : next);
+            if (exit_event != first) next *= R;
         }
     }
 }
 
 // The leaves from .. to - 1 of the table.
-LeafRun RowLight::run_of(std::uint32_t from, std::uint32_t to) const {
+ExitRun RowLight::run_of(std::uint32_t from, std::uint32_t to) const {
     const auto& parts = table_.parts();
-    LeafRun run;
+    ExitRun run;
     run.weight = &parts.weight[from];
     for (std::size_t k = 0; k < 2; ++k) {
         run.direction[k] = &parts.direction[k][from];
@@ -56,8 +56,8 @@ double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t l
     const Band& band = rays_.setup.bands[number];
     const auto& parts = table_.parts();
     const std::size_t in_table = table_.header().bands > 1 ? number : 0;
-    const std::uint32_t* end = parts.leaf_end.data() + in_table * table_.header().hits;
-    const std::uint32_t begin = end + first == parts.leaf_end.data() ? 0 : *(end + first - 1);
+    const std::uint32_t* end = parts.exits_end.data() + in_table * table_.header().hits;
+    const std::uint32_t begin = end + first == parts.exits_end.data() ? 0 : *(end + first - 1);
     const bool factors = settings_.reflection_factor || settings_.transmission_factor;
     if (factors) use_factors(end + first, last - first, begin, memory);
     double weighed = 0;
@@ -70,15 +70,15 @@ double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t l
         if (stride > 0) {
             memory.block.resize(std::max<std::size_t>(
                 memory.block.size(), stride * static_cast<std::size_t>(band.count)));
-            LeafRun run = run_of(from, to);
+            ExitRun run = run_of(from, to);
             if (factors) run.weight = memory.weight.data() + (from - begin);
             weighed += band.count *
                        shader_.leaves(number, run, memory.block.data(), static_cast<int>(stride));
         }
         const float* seen = memory.block.data();
-        std::uint32_t leaf = from;
+        std::uint32_t exit_event = from;
         for (; hit < behind; ++hit) {
-            const std::uint32_t next = end[hit], count = next - leaf;
+            const std::uint32_t next = end[hit], count = next - exit_event;
             const int pixel = memory.hit_pixel[hit - first];
             float* sum = memory.stone.data() + band.first * width_ + pixel;
             for (int node = 0; pixel >= 0 && node < band.count; ++node, sum += width_) {
@@ -86,7 +86,7 @@ double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t l
                 for (std::uint32_t i = 0; i < count; ++i) *sum += of[i];
             }
             seen += count;
-            leaf = next;
+            exit_event = next;
         }
         from = to;
     }

@@ -3,7 +3,7 @@
 // past the stone.
 
 #include "render/raytable/air_rays.h"
-#include "render/raytable/leaf_shader.h"
+#include "render/raytable/exit_shader.h"
 
 namespace culet {
 
@@ -22,7 +22,7 @@ public:
     /// Keeps references. `origins`: near things are looked for, so that it matters where a ray
     /// past the stone starts.
     RowLight(const RayTable& table, const Scene& scene, const TableRays& rays,
-             const LeafShader& shader, bool origins);
+             const ExitShader& shader, bool origins);
 
     /// Adds what the leaves of the hits first .. last - 1 bring at the nodes of a band to
     /// `memory.stone`, where `memory.hit_pixel` says; returns their weight after absorption, summed
@@ -37,12 +37,12 @@ public:
 private:
     void use_factors(const std::uint32_t* end, std::size_t hits, std::uint32_t begin,
                      RowMemory& memory) const;
-    LeafRun run_of(std::uint32_t from, std::uint32_t to) const;
+    ExitRun run_of(std::uint32_t from, std::uint32_t to) const;
 
     const RayTable& table_;
     const RenderSettings& settings_;
     const TableRays& rays_;
-    const LeafShader& shader_;
+    const ExitShader& shader_;
     AirRayMaker air_;
     int width_;
     bool origins_;

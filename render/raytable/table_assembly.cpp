@@ -12,11 +12,11 @@ struct Box {
     static constexpr float k_none = std::numeric_limits<float>::infinity();
     float s0 = k_none, t0 = k_none, s1 = -k_none, t1 = -k_none;
 
-    void hold(const Leaf& leaf) {
-        s0 = std::min(s0, leaf.s);
-        t0 = std::min(t0, leaf.t);
-        s1 = std::max(s1, leaf.s);
-        t1 = std::max(t1, leaf.t);
+    void hold(const ExitEvent& exit_event) {
+        s0 = std::min(s0, exit_event.s);
+        t0 = std::min(t0, exit_event.t);
+        s1 = std::max(s1, exit_event.s);
+        t1 = std::max(t1, exit_event.t);
     }
     bool empty() const { return !(s0 <= s1); }
 };
@@ -38,8 +38,9 @@ public:
         for (std::vector<RowLeaves>& rows : content_.bands) {
             auto end = static_cast<std::uint32_t>(parts_.weight.size());
             for (RowLeaves& row : rows) {
-                for (const std::uint32_t count : row.count) parts_.leaf_end.push_back(end += count);
-                for (const Leaf& leaf : row.leaves) put(leaf);
+                for (const std::uint32_t count : row.count)
+                    parts_.exits_end.push_back(end += count);
+                for (const ExitEvent& exit_event : row.leaves) put(exit_event);
                 row = {};  // its room is needed
             }
         }
@@ -58,9 +59,10 @@ private:
                 remainder += row.remainder;
                 cut += row.cut;
                 header.deepest = std::max(header.deepest, static_cast<std::uint32_t>(row.deepest));
-                for (const Leaf& leaf : row.leaves) {
-                    boxes_[static_cast<std::size_t>(leaf.facet)].hold(leaf);
-                    for (const float length : leaf.length) longest_ = std::max(longest_, length);
+                for (const ExitEvent& exit_event : row.leaves) {
+                    boxes_[static_cast<std::size_t>(exit_event.facet)].hold(exit_event);
+                    for (const float length : exit_event.length)
+                        longest_ = std::max(longest_, length);
                 }
             }
         }
@@ -83,17 +85,18 @@ private:
         return {{corner.x, corner.y, corner.z}, {u.x, u.y, u.z}, {v.x, v.y, v.z}};
     }
 
-    void put(const Leaf& leaf) {
-        const Box& box = boxes_[static_cast<std::size_t>(leaf.facet)];
-        parts_.weight.push_back(leaf.weight);
-        parts_.facet.push_back(static_cast<std::uint16_t>(leaf.facet));
-        for (std::size_t k = 0; k < 2; ++k) parts_.direction[k].push_back(leaf.direction[k]);
+    void put(const ExitEvent& exit_event) {
+        const Box& box = boxes_[static_cast<std::size_t>(exit_event.facet)];
+        parts_.weight.push_back(exit_event.weight);
+        parts_.facet.push_back(static_cast<std::uint16_t>(exit_event.facet));
+        for (std::size_t k = 0; k < 2; ++k) parts_.direction[k].push_back(exit_event.direction[k]);
         parts_.point[0].push_back(
-            step(leaf.s, static_cast<double>(box.s0), static_cast<double>(box.s1)));
+            step(exit_event.s, static_cast<double>(box.s0), static_cast<double>(box.s1)));
         parts_.point[1].push_back(
-            step(leaf.t, static_cast<double>(box.t0), static_cast<double>(box.t1)));
+            step(exit_event.t, static_cast<double>(box.t0), static_cast<double>(box.t1)));
         for (std::size_t k = 0; k < content_.header.lengths; ++k)
-            parts_.length[k].push_back(step(leaf.length[k], 0, static_cast<double>(longest_)));
+            parts_.length[k].push_back(
+                step(exit_event.length[k], 0, static_cast<double>(longest_)));
     }
 
     TableContent content_;

@@ -2,7 +2,7 @@
 // From the ends of light paths to a ray table.
 
 #include "render/geometry/stone_body.h"
-#include "render/raytable/leaf_sink.h"
+#include "render/raytable/exit_sink.h"
 #include "render/raytable/ray_table.h"
 
 namespace culet {

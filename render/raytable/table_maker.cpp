@@ -64,7 +64,7 @@ private:
     }
 
     void watch_size(long long leaves) {
-        const std::size_t bytes = leaf_bytes(static_cast<unsigned>(lengths_));
+        const std::size_t bytes = exit_bytes(static_cast<unsigned>(lengths_));
         if (static_cast<double>(leaves) * static_cast<double>(bytes) > k_most_table_bytes)
             too_large_ = true;
     }
@@ -96,7 +96,7 @@ private:
         each_row([&](std::size_t y) {
             RowLeaves& row = rows[y];
             PathTrace trace{};
-            LeafSink sink(axes_, lengths_, absorption_, least, row);
+            ExitSink sink(axes_, lengths_, absorption_, least, row);
             for (const TableHit& hit : hits_[y]) {
                 if (!listener_.still_goes_on()) return;
                 row.count.push_back(0);
@@ -106,11 +106,11 @@ private:
                 limits.seed += 0x9e3779b97f4a7c15ull * (static_cast<std::uint64_t>(hit.ray) + 1) +
                                static_cast<std::uint64_t>(of.first);
                 if (general) {
-                    CrystalPaths<LeafSink> paths(body_, band, limits, sink);
+                    CrystalPaths<ExitSink> paths(body_, band, limits, sink);
                     const EyeFrame frame = eyes_.frame(eye.direction);
                     paths.trace(eye, frame.x, frame.y, hit.entry);
                 } else {
-                    LightPaths<LeafSink, false>(body_.planes(), band, limits, sink, trace)
+                    LightPaths<ExitSink, false>(body_.planes(), band, limits, sink, trace)
                         .trace(eye, hit.entry);
                 }
             }

@@ -122,9 +122,9 @@ PixelSums& PixelSums::operator+=(const PixelSums& more) {
 }
 
 PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int samples)
-    : furnished_(scene.furnished()),
+    : has_objects_(scene.has_objects()),
       has_stone_(scene.has_stone()),
-      covers_objects_(furnished_ && scene.film.alpha),
+      covers_objects_(has_objects_ && scene.film.alpha),
       body_(scene.stone.solid, scene.stone.convex),
       eyes_(scene.camera),
       setup_(prepared.setup),
@@ -138,7 +138,7 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
     limits_.obstacles = &surroundings_;
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
     // Where most of the noise is that of the surroundings, a ray need not carry all wavelengths.
-    const int usual_turns = furnished_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;
+    const int usual_turns = has_objects_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;
     take_turns(std::clamp(scene.settings.wavelength_turns.value_or(usual_turns), 1,
                           static_cast<int>(std::min(pattern_.size(), setup_.bands.size()))));
 }
@@ -230,7 +230,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
             continue;
         }
         sums.hit += share;
-        if (!furnished_) sums.counted += share;
+        if (!has_objects_) sums.counted += share;
         double* seen = memory.stone.data() + half_[i] * values;
         for (std::size_t b = 0; b < (k_has_effects ? setup_.bands.size() : 1); ++b) {
             if (k_has_effects && static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i])
@@ -278,7 +278,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
             ++sums.rays;
         }
     }
-    if (furnished_) sums.counted = 1;
+    if (has_objects_) sums.counted = 1;
     Rgb apart{};
     double luminance_apart = 0;
     for (std::size_t i = 0; i < values; ++i) {
@@ -287,7 +287,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         const double whole = share * (of_stone + (behind[0] + behind[values]));
         const double difference = of_half_[0][i] * stone[0] - of_half_[1][i] * stone[values] +
                                   behind_half_[0] * behind[0] - behind_half_[1] * behind[values];
-        sums.luminance += luminance_[i] * (furnished_ ? whole : share * of_stone);
+        sums.luminance += luminance_[i] * (has_objects_ ? whole : share * of_stone);
         luminance_apart += luminance_[i] * difference;
         for (std::size_t c = 0; c < 3; ++c) {
             apart[c] += rgb_[i][c] * difference;
@@ -299,7 +299,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         sums.halves_apart = (std::abs(apart[0]) + std::abs(apart[1]) + std::abs(apart[2])) / 6;
     // Every ray is chosen at random: the mean of two independent halves has a quarter of their
     // difference's variance, which is that much, edges within the pixel included.
-    if (furnished_ && halved_) sums.variance = 0.25 * luminance_apart * luminance_apart;
+    if (has_objects_ && halved_) sums.variance = 0.25 * luminance_apart * luminance_apart;
     return sums;
 }
 

@@ -59,7 +59,7 @@ private:
     void take_turns(int turns);
     void background(const EyeRay& ray, double* stokes) const;
 
-    bool furnished_, has_stone_, covers_objects_;
+    bool has_objects_, has_stone_, covers_objects_;
     StoneBody body_;
     EyeRays eyes_;
     const OpticalSetup& setup_;

@@ -13,7 +13,7 @@ namespace {
 // Crystals: a path splits in two at every hit while it carries more than this.
 constexpr double k_split_weight = 0.02;
 constexpr double k_roulette_weight = 1e-3;
-constexpr double k_furnished_cut = 0.1, k_furnished_roulette = 0.01;
+constexpr double k_cut_with_objects = 0.1, k_roulette_with_objects = 0.01;
 constexpr int k_pilot_pixels = 16;  // along the picture's longer side
 constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
 constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
@@ -62,8 +62,8 @@ PathLimits uncut_limits(const RenderSettings& settings, const OpticalSetup& setu
 void set_limits(const Scene& scene, PreparedScene& prepared) {
     const RenderSettings& settings = scene.settings;
     PathLimits& limits = prepared.limits;
-    if (scene.furnished()) {
-        limits = furnished_limits(scene, prepared.setup);
+    if (scene.has_objects()) {
+        limits = limits_with_objects(scene, prepared.setup);
         return;
     }
     limits = uncut_limits(settings, prepared.setup);
@@ -132,16 +132,16 @@ OpticalSetup setup_for_tolerance(const Scene& scene) {
 
 }  // namespace
 
-PathLimits furnished_limits(const Scene& scene, const OpticalSetup& setup) {
+PathLimits limits_with_objects(const Scene& scene, const OpticalSetup& setup) {
     const RenderSettings& settings = scene.settings;
     PathLimits limits = uncut_limits(settings, setup);
     if (!(settings.tolerance > 0)) return limits;
     const bool branch = paths_branch(scene, setup);
     limits.roulette = branch;
     limits.split_weight = settings.split_weight.value_or(k_split_weight);
-    const double usual = k_furnished_cut * settings.tolerance;
+    const double usual = k_cut_with_objects * settings.tolerance;
     limits.cut_weight =
-        settings.cut_weight.value_or(branch ? std::max(usual, k_furnished_roulette) : usual);
+        settings.cut_weight.value_or(branch ? std::max(usual, k_roulette_with_objects) : usual);
     return limits;
 }
 

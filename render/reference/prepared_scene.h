@@ -30,6 +30,6 @@ struct PreparedScene {
 /// How far the paths of a stone are followed where things stand around it: light is sampled at
 /// random there, and what is cut is to be less than that noise. A tenth of the tolerance is left,
 /// relative to the light that such a path would see; trees that branch play roulette.
-PathLimits furnished_limits(const Scene& scene, const OpticalSetup& setup);
+PathLimits limits_with_objects(const Scene& scene, const OpticalSetup& setup);
 
 }  // namespace culet

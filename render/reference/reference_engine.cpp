@@ -24,7 +24,7 @@ namespace culet {
 namespace {
 
 constexpr int k_tile = 16;  // pixels
-constexpr int k_samples = 16, k_pupil_samples = 64, k_furnished_samples = 64;
+constexpr int k_samples = 16, k_pupil_samples = 64, k_samples_with_objects = 64;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -32,7 +32,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 int samples_of(const Scene& scene, const OpticalSetup& setup) {
     if (scene.settings.samples > 0) return scene.settings.samples;
-    if (scene.furnished()) return k_furnished_samples;
+    if (scene.has_objects()) return k_samples_with_objects;
     return setup.on(Effects::aperture) ? k_pupil_samples : k_samples;
 }
 

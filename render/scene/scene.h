@@ -110,11 +110,11 @@ enum class Refraction {
 /// What becomes of the two waves of a crystal in beams.
 enum class CrystalBeams {
     merged,  ///< they go one way (Guy & Soler 2004, 4.2), and keep polarisation and coherence
-    parted   ///< each goes its own way, and their powers are added
+    split    ///< each goes its own way, and their powers are added
 };
 
 /// About ten seconds of two cores, in the nanoseconds of work/price.h: what `culet render` allows.
-constexpr double k_usual_allowance_ns = 2e10;
+constexpr double k_usual_budget_ns = 2e10;
 
 /// What is done to find out how near a picture is to the truth, where that is left to culet.
 enum class Check {
@@ -201,7 +201,7 @@ struct Scene {
 
     bool has_stone() const { return !stone.solid.facets.empty(); }
     /// False: the stone stands alone among the lights.
-    bool furnished() const { return !objects.empty() || !more_stones.empty(); }
+    bool has_objects() const { return !objects.empty() || !more_stones.empty(); }
 };
 
 }  // namespace culet

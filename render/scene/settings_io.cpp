@@ -84,14 +84,14 @@ void read_engine(const TomlTable& table, RenderSettings& settings) {
         settings.refraction = static_cast<Refraction>(found - k_refractions.begin());
     }
     if (const auto beams = table.text("crystal_beams")) {
-        if (*beams != "auto" && *beams != "merged" && *beams != "parted") {
-            table.fail(
-                "crystal_beams",
-                fmt::format("crystal_beams is auto, merged or parted, found \"{}\"", *beams));
+        // "parted" is the name that files had before 0.2.0.
+        if (*beams != "auto" && *beams != "merged" && *beams != "split" && *beams != "parted") {
+            table.fail("crystal_beams",
+                       fmt::format("crystal_beams is auto, merged or split, found \"{}\"", *beams));
         }
         if (*beams != "auto")
             settings.crystal_beams =
-                *beams == "merged" ? CrystalBeams::merged : CrystalBeams::parted;
+                *beams == "merged" ? CrystalBeams::merged : CrystalBeams::split;
     }
     if (const auto check = table.text("check")) {
         const auto found = std::find(k_checks.begin(), k_checks.end(), *check);
@@ -251,7 +251,7 @@ std::vector<std::pair<std::string, std::string>> written_settings(const RenderSe
     write("refraction", quoted(k_refractions[static_cast<std::size_t>(settings.refraction)]));
     if (settings.crystal_beams)
         write("crystal_beams",
-              quoted(*settings.crystal_beams == CrystalBeams::merged ? "merged" : "parted"));
+              quoted(*settings.crystal_beams == CrystalBeams::merged ? "merged" : "split"));
     write("depth", std::to_string(settings.depth));
     // Shortest decimals that read back as the same number.
     write("tolerance", fmt::format("{}", settings.tolerance));

@@ -245,7 +245,7 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     const FewWavelengths* few = nullptr;
     // Spectra, and scenes with other things in colour, are at the wavelengths themselves.
     if (setup.on(Effects::absorption) && optics.spectral_absorption && !scene.settings.spectral &&
-        !scene.furnished() && count >= k_least_fitted && count <= k_most_fitted) {
+        !scene.has_objects() && count >= k_least_fitted && count <= k_most_fitted) {
         few = &few_wavelengths(absorption_of(material, each_ray), setup.wavelengths_nm,
                                mm * diameter(scene.stone.solid));
         setup.rgb_weight = few->rgb_weight;

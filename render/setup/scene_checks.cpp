@@ -98,7 +98,7 @@ void require_nothing_in_glass(const Scene& scene) {
 }  // namespace
 
 void require_renderable(const Scene& scene) {
-    if (scene.has_stone() || !scene.furnished()) require_drawable(scene.stone);
+    if (scene.has_stone() || !scene.has_objects()) require_drawable(scene.stone);
     for (const Stone& stone : scene.more_stones) require_drawable(stone);
     require_nothing_in_glass(scene);
     if (scene.settings.depth > PathTrace::k_longest) {

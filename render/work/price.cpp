@@ -8,7 +8,7 @@ namespace culet {
 namespace {
 
 // Measured (bench_plan --prices): nanoseconds.
-constexpr double k_ray = 60, k_event = 150, k_plain_event = 135, k_leaf_node = 1.5;
+constexpr double k_ray = 60, k_event = 150, k_plain_event = 135, k_exit_node = 1.5;
 constexpr double k_general_ray = 1500, k_general_event = 450;
 // An edge at each face met: a heart in `jeweller` and in `idealscope` took so much, which counts
 // the rays that leave it and are looked for again, beside a zircon's reference at the same time.
@@ -21,7 +21,7 @@ constexpr double k_met = 600;
 // of quartz, garnet, sapphire, zircon and diamond: within a factor of 1.6. Dependence on the cut,
 // in pictures of 64 to 400 pixels across: a factor of 1.3 to 2.4 from 0.1 to 0.01. Of fine borders
 // in pictures of diamonds 200 pixels across: 1.9 to 2 from 0.03 to 0.01, 4.4 from there to 0.001.
-// Crystals' parted beams: of corundum and tanzanite 100 pixels across 2 to 2.2 where the cut fell
+// Crystals' split beams: of corundum and tanzanite 100 pixels across 2 to 2.2 where the cut fell
 // to 0.44, and 3.5 where it fell to 0.22 and the tolerance to 0.16.
 constexpr double k_stone = 8e6, k_beam = 1300, k_pixels = 1600, k_tolerance = 0.03;
 struct BeamCount {
@@ -36,8 +36,8 @@ struct BeamCount {
     }
 };
 constexpr BeamCount k_single{330, 1.1, 0.5, 0.25, 0.6, 0.2},
-    k_parted{11500, 0.45, 0.4, 0.1, 0.1, 0.85};
-constexpr double k_grown_beam = 300, k_parted_beam = 1500, k_fragment = 60;
+    k_split{11500, 0.45, 0.4, 0.1, 0.1, 0.85};
+constexpr double k_grown_beam = 300, k_split_beam = 1500, k_fragment = 60;
 // Faces that beams meet which are followed alone, and that up to eight fragments meet at once.
 constexpr double k_walked = 45, k_shaded_face = 100;
 // Of a beam's price, another wavelength along the same way.
@@ -47,8 +47,8 @@ constexpr double k_node = 0.1;
 
 double price_ns(const PathWork& work) {
     const double event = work.general     ? k_general_event + work.nodes
-                         : work.polarised ? k_event + k_leaf_node * (work.nodes - 1)
-                                          : k_plain_event + k_leaf_node * (work.nodes - 1);
+                         : work.polarised ? k_event + k_exit_node * (work.nodes - 1)
+                                          : k_plain_event + k_exit_node * (work.nodes - 1);
     return k_met * work.met + (work.general ? k_general_ray : k_ray) * work.rays +
            (event + k_edge * work.edges) * work.events;
 }
@@ -57,13 +57,13 @@ double price_ns(const DrawnBeams& work) {
     const double nodes = 1 + k_node * (work.nodes - 1);
     return k_grown_beam * static_cast<double>(work.grown) +
            k_walked * static_cast<double>(work.walked) +
-           nodes * (k_parted_beam * static_cast<double>(work.parted) +
+           nodes * (k_split_beam * static_cast<double>(work.split) +
                     k_fragment * static_cast<double>(work.fragments) +
                     k_shaded_face * static_cast<double>(work.faces));
 }
 
 double price_ns(const BeamWork& work) {
-    const double beams = (work.parted ? k_parted : k_single).at(work);
+    const double beams = (work.split ? k_split : k_single).at(work);
     const double each = work.views * work.bands * (work.polarised ? 1.08 : 1.0);
     return k_stone + each * k_beam * beams * (1 + k_node * (work.nodes - 1));
 }

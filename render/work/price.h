@@ -20,7 +20,7 @@ double price_ns(const PathWork& work);
 /// Work of beams that were drawn.
 struct DrawnBeams {
     long long grown = 0;      ///< isotropic or merged, of trees
-    long long parted = 0;     ///< of a crystal's two waves
+    long long split = 0;      ///< of a crystal's two waves
     long long walked = 0;     ///< faces met by those that are followed alone
     long long fragments = 0;  ///< pixels under them, each wavelength's pass by itself
     long long faces = 0;      ///< met by fragments, up to eight of a beam at once
@@ -32,12 +32,12 @@ double price_ns(const DrawnBeams& work);
 struct BeamWork {
     double pixels = 0;  ///< of the stone
     double bands = 1;
-    double events_per_ray = 1;  ///< of the reference's rays; parted: of their trees
+    double events_per_ray = 1;  ///< of the reference's rays; split: of their trees
     double tolerance = 0.01;    ///< of the beams' settings
     double cut = 0;    ///< their cut_weight, one way through the stone; 0: as the tolerance
     double views = 1;  ///< points of the pupil
     bool polarised = true;
-    bool parted = false;  ///< a crystal's two waves, each its own way
+    bool split = false;  ///< a crystal's two waves, each its own way
     int nodes = 1;
 };
 double price_ns(const BeamWork& work);

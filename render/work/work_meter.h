@@ -14,7 +14,7 @@
 namespace culet {
 
 /// Thrown by drawing that runs over its meter's limit; caught where that was set.
-class OverAllowance : public std::exception {
+class OverBudget : public std::exception {
 public:
     const char* what() const noexcept override { return "the work allowed is done"; }
 };
@@ -28,7 +28,7 @@ public:
     /// sees this before a piece is done, the others would have brought it there.
     bool over() const { return spent_ > limit_; }
     void require_not_over() const {
-        if (over()) throw OverAllowance();
+        if (over()) throw OverBudget();
     }
     long long spent() const { return spent_; }
     /// All of it, as far as is known: for who waits.

@@ -219,7 +219,7 @@ Design cutting_design(const Solid& solid) {
     return solid.design ? *solid.design : drawn_design(solid);
 }
 
-void join_parted_tiers(const Solid& solid, Design& design) {
+void join_split_tiers(const Solid& solid, Design& design) {
     const auto stem = [](const DesignTier& tier) {
         const std::string own = stem_of(tier.facets.front().label);
         const bool all =
@@ -234,14 +234,14 @@ void join_parted_tiers(const Solid& solid, Design& design) {
         return std::abs(a.angle_deg - b.angle_deg) > k_digits ||
                std::abs(a.distance - b.distance) > k_digits;
     };
-    std::vector<bool> parted(design.tiers.size(), false);
-    for (std::size_t t = 0; t + 1 < parted.size(); ++t) {
+    std::vector<bool> split(design.tiers.size(), false);
+    for (std::size_t t = 0; t + 1 < split.size(); ++t) {
         const std::string own = stem(design.tiers[t]);
         if (!own.empty() && own == stem(design.tiers[t + 1]) &&
             differ(design.tiers[t].setting, design.tiers[t + 1].setting))
-            parted[t] = parted[t + 1] = true;
+            split[t] = split[t + 1] = true;
     }
-    if (std::find(parted.begin(), parted.end(), true) == parted.end()) return;
+    if (std::find(split.begin(), split.end(), true) == split.end()) return;
     Solid drawn = solid;
     drawn.design.reset();
     std::map<std::string, std::size_t> group;
@@ -251,12 +251,12 @@ void join_parted_tiers(const Solid& solid, Design& design) {
     }
     std::vector<DesignTier> joined;
     std::map<std::pair<std::size_t, std::string>, std::size_t> at;
-    for (std::size_t t = 0; t < parted.size(); ++t) {
+    for (std::size_t t = 0; t < split.size(); ++t) {
         DesignTier& tier = design.tiers[t];
-        const auto key = std::pair(parted[t] ? group[tier.facets[0].facet] : 0, stem(tier));
-        const auto known = parted[t] ? at.find(key) : at.end();
+        const auto key = std::pair(split[t] ? group[tier.facets[0].facet] : 0, stem(tier));
+        const auto known = split[t] ? at.find(key) : at.end();
         if (known == at.end()) {
-            if (parted[t]) at[key] = joined.size();
+            if (split[t]) at[key] = joined.size();
             joined.push_back(std::move(tier));
             continue;
         }

@@ -72,7 +72,7 @@ Design cutting_design(const Solid& solid);
 /// Facets of one tier that a file gives line by line, because each has its own angle (a fitted
 /// stone), stand in one tier again: those of the same stem of a name (`C` of C1, `A` of A.1) that
 /// the solid's drawing has as one tier. Their tier has their mean angle and distance.
-void join_parted_tiers(const Solid& solid, Design& design);
+void join_split_tiers(const Solid& solid, Design& design);
 
 /// As lines of GemCad's .asc, that tell facets' names besides; and back. Throws InputError.
 std::string design_text(const Design& design);

@@ -95,7 +95,7 @@ Misfit misfit_of(const AxisGroup& group, const std::vector<Place>& places) {
 }
 
 // Of k corners k - 3 show how far they lie off their facet's plane.
-Misfit bends_of(const Solid& solid) {
+Misfit curvature_misfit(const Solid& solid) {
     Misfit bends;
     for (const Facet& facet : solid.facets) {
         for (const int c : facet.corners) {
@@ -122,17 +122,18 @@ public:
                   double(solid.vertices.size())),
           half_(0.5 * diameter(solid)),
           places_(places_of(solid, up, middle_)),
-          bends_(bends_of(solid)) {}
+          curvatures_(curvature_misfit(solid)) {}
 
     double half() const { return half_; }
     double digits() const { return k_digits * half_; }
-    double bend() const { return std::sqrt(bends_.variance()); }
+    double bend() const { return std::sqrt(curvatures_.variance()); }
     Misfit misfit(const AxisGroup& group) const { return misfit_of(group, places_); }
 
     bool is_near(const AxisGroup& group) const {
         const Misfit own = misfit(group);
         return own.variance() < std::pow(k_near * half_, 2) ||
-               f_tail(own.variance() / bends_.variance(), own.freedom, bends_.freedom) > k_level;
+               f_tail(own.variance() / curvatures_.variance(), own.freedom, curvatures_.freedom) >
+                   k_level;
     }
     bool loses_nothing(const AxisGroup& group) const {
         const std::vector<AxisGroup> parts = subgroups_of(group);
@@ -151,7 +152,7 @@ private:
     Vec3 middle_;
     double half_;
     std::vector<Place> places_;
-    Misfit bends_;
+    Misfit curvatures_;
 };
 
 AxisGroup no_group(std::size_t facets) {

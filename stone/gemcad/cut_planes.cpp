@@ -102,7 +102,7 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
         tier.facets[std::size_t(of_facet[i]->facet)].facet = names[i];
         cut.solid.facets[i].name = std::move(names[i]);
     }
-    join_parted_tiers(cut.solid, design);
+    join_split_tiers(cut.solid, design);
     cut.solid.design = std::make_shared<const Design>(std::move(design));
 
     // A meet that rounding alone keeps apart is exact.

@@ -56,7 +56,7 @@ bool names_unit(std::string header, std::initializer_list<std::string_view> unit
     return false;
 }
 
-// The cells of a row. A table whose columns are parted by blanks has one field a row.
+// The cells of a row. A table whose columns are split by blanks has one field a row.
 std::vector<std::string> cells_of(const CsvRow& row) {
     std::vector<std::string> cells;
     const bool by_blanks = row.fields.size() == 1;
@@ -111,7 +111,7 @@ private:
         const WrittenNumber wavelength = written_number(cells[0], comma_separates);
         if (!wavelength.problem.empty()) {
             if (header_.empty() && points_.empty()) {
-                // Of columns parted by blanks: the unit stands apart from the name.
+                // Of columns split by blanks: the unit stands apart from the name.
                 for (const std::string& cell : cells) {
                     if (!header_.empty() && (cell[0] == '(' || cell[0] == '[')) {
                         header_.back() += ' ' + cell;

@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// Reads lines of wavelength and value, parted by commas, semicolons, tabs or blanks, with one
+/// Reads lines of wavelength and value, split by commas, semicolons, tabs or blanks, with one
 /// header line or none, from short to long wavelengths or the other way. `quantity` (refractive
 /// index) is for messages.
 ///

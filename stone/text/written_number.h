@@ -21,7 +21,7 @@ struct WrittenNumber {
     WrittenUnit unit;
     std::string problem;
 };
-/// `comma_separates`: the file's fields are parted by commas, so that 1,234 may be a thousand.
+/// `comma_separates`: the file's fields are split by commas, so that 1,234 may be a thousand.
 WrittenNumber written_number(std::string_view text, bool comma_separates);
 
 }  // namespace culet

@@ -277,7 +277,7 @@ TEST(ScoreTable, HasEachKeyOnceAndSaysWhichWayIsBetter) {
         EXPECT_TRUE(keys.insert(kind.key).second) << kind.key;
         EXPECT_EQ(score_kind(kind.key), &kind);
         const double good = kind.higher_is_better() ? 0.9 : 0.1;
-        EXPECT_GE(stretch(good, kind.scale), stretch(1 - good, kind.scale)) << kind.key;
+        EXPECT_GE(stabilised(good, kind.scale), stabilised(1 - good, kind.scale)) << kind.key;
     }
     EXPECT_EQ(score_kind("none"), nullptr);
 }

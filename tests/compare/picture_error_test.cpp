@@ -22,9 +22,9 @@ Picture grey(float value, int width = 40, int height = 30) {
 }
 
 TEST(PictureError, IsNothingForEqualPictures) {
-    const PictureJudge judge(grey(0.5f));
-    const PictureError error = judge.error_of(grey(0.5f));
-    EXPECT_EQ(judge.stone_pixels(), 600);
+    const PictureMetric metric(grey(0.5f));
+    const PictureError error = metric.error_of(grey(0.5f));
+    EXPECT_EQ(metric.stone_pixels(), 600);
     EXPECT_EQ(error.mean, 0);
     EXPECT_EQ(error.rmse, 0);
     EXPECT_FALSE(error.psnr);
@@ -35,15 +35,15 @@ TEST(PictureError, IsNothingForEqualPictures) {
 // Closed forms: 0.05 of 0.5 is a tenth, white is five times 0.5, and the noise of the encoded
 // picture is the difference of the encodings.
 TEST(PictureError, OfAnOffsetHasAClosedForm) {
-    const PictureJudge judge(grey(0.5f));
-    const PictureError error = judge.error_of(grey(0.55f));
+    const PictureMetric metric(grey(0.5f));
+    const PictureError error = metric.error_of(grey(0.55f));
     EXPECT_NEAR(error.mean, 0.1, 1e-6);
     EXPECT_NEAR(error.rmse, 0.1, 1e-6);
     ASSERT_TRUE(error.psnr);
     const double apart = srgb_encoded(0.55 / 2.5) - srgb_encoded(0.5 / 2.5);
     EXPECT_NEAR(*error.psnr, -20 * std::log10(apart), 1e-3);
     EXPECT_GT(error.delta_e_mean, 0);
-    const PixelMap map = judge.difference(grey(0.55f));
+    const PixelMap map = metric.difference(grey(0.55f));
     EXPECT_NEAR(static_cast<double>(map.values.front()), 0.1, 1e-6);
     EXPECT_TRUE(std::isnan(map.values[39]));
 }
@@ -51,7 +51,7 @@ TEST(PictureError, OfAnOffsetHasAClosedForm) {
 TEST(PictureError, TellsTheMeanFromTheRootMeanSquare) {
     Picture one_pixel = grey(0.5f);
     for (int c = 0; c < 3; ++c) one_pixel.rgb[static_cast<std::size_t>(c)] = 0.8f;
-    const PictureError error = PictureJudge(grey(0.5f)).error_of(one_pixel);
+    const PictureError error = PictureMetric(grey(0.5f)).error_of(one_pixel);
     EXPECT_NEAR(error.mean, 0.6 / 600, 1e-8);
     EXPECT_NEAR(error.rmse, 0.6 / std::sqrt(600.0), 1e-7);
 }
@@ -59,17 +59,17 @@ TEST(PictureError, TellsTheMeanFromTheRootMeanSquare) {
 TEST(PictureError, DoesNotLookBesideTheStone) {
     Picture other = grey(0.5f);
     other.rgb[3 * 39] = 7;
-    EXPECT_EQ(PictureJudge(grey(0.5f)).error_of(other).mean, 0);
+    EXPECT_EQ(PictureMetric(grey(0.5f)).error_of(other).mean, 0);
 }
 
 TEST(PictureError, OfABlackTruthIsInfiniteOrNothing) {
-    const PictureJudge judge(grey(0));
-    EXPECT_EQ(judge.error_of(grey(0)).mean, 0);
-    EXPECT_TRUE(std::isinf(judge.error_of(grey(0.1f)).mean));
+    const PictureMetric metric(grey(0));
+    EXPECT_EQ(metric.error_of(grey(0)).mean, 0);
+    EXPECT_TRUE(std::isinf(metric.error_of(grey(0.1f)).mean));
 }
 
 TEST(PictureError, RefusesPicturesOfAnotherSize) {
-    EXPECT_THROW(PictureJudge(grey(0.5f)).error_of(grey(0.5f, 41)), InternalError);
+    EXPECT_THROW(PictureMetric(grey(0.5f)).error_of(grey(0.5f, 41)), InternalError);
 }
 
 }  // namespace

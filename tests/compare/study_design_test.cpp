@@ -70,7 +70,7 @@ TEST(StudyDesign, OfACrystalHasItsWaves) {
     Scene scene = test::cube_scene();
     scene.stone.material = catalogue_material("zircon_high");
     const auto design = study_design(ground_of(scene));
-    EXPECT_EQ(settings_of(design, "crystal beams"), (std::set<std::string>{"merged", "parted"}));
+    EXPECT_EQ(settings_of(design, "crystal beams"), (std::set<std::string>{"merged", "split"}));
     EXPECT_TRUE(settings_of(design, "effects").contains("without birefringence"));
 }
 

@@ -84,11 +84,11 @@ TEST(KktSolver, SolvesWhatDenseAlgebraSolves) {
         const auto all = solver.solve_all(right.topRows(n), right.bottomRows(m));
         ASSERT_TRUE(all.good);
         Eigen::MatrixXd x(n + m, 11);
-        x << all.unknowns, all.forces;
+        x << all.unknowns, all.multipliers;
         EXPECT_LT((k * x - right).lpNorm<Eigen::Infinity>(), k_left) << round;
         const auto one = solver.solve(right.col(3).head(n), right.col(3).tail(m));
         Eigen::VectorXd y(n + m);
-        y << one.unknowns, one.forces;
+        y << one.unknowns, one.multipliers;
         EXPECT_LT((k * y - right.col(3)).lpNorm<Eigen::Infinity>(), k_left) << round;
     }
 }
@@ -108,7 +108,7 @@ TEST(KktSolver, KeepsToNewNumbersRowsAndCurvature) {
         const Eigen::VectorXd right = p.dense() * Eigen::VectorXd::Ones(n + m);
         const auto s = solver.solve(right.head(n), right.tail(m));
         Eigen::VectorXd x(n + m);
-        x << s.unknowns, s.forces;
+        x << s.unknowns, s.multipliers;
         EXPECT_LT((p.dense() * x - right).lpNorm<Eigen::Infinity>(), k_left) << round;
     }
 }
@@ -134,7 +134,7 @@ TEST(KktSolver, KeepsToSoftRowsThatComeAndGo) {
         const Eigen::VectorXd right = p.dense() * Eigen::VectorXd::Ones(n + m);
         const auto s = solver.solve(right.head(n), right.tail(m));
         Eigen::VectorXd x(n + m);
-        x << s.unknowns, s.forces;
+        x << s.unknowns, s.multipliers;
         EXPECT_LT((p.dense() * x - right).lpNorm<Eigen::Infinity>(), k_left) << round;
     }
 }

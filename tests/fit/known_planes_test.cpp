@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "fit/fit.h"
-#include "fit/planes/plane_knowledge.h"
+#include "fit/planes/plane_observations.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {
@@ -16,12 +16,12 @@ constexpr double k_sigma = 1e-4;
 
 // Of a cube with edges of 2: how far the normal of X+ leans up, and how far X- lies out.
 Reading photograph(const Solid& solid, double lean, double out) {
-    auto known = std::make_shared<PlaneKnowledge>();
+    auto known = std::make_shared<PlaneObservations>();
     for (const Facet& facet : solid.facets) known->planes.push_back(facet.plane);
     const std::size_t facets = solid.facets.size();
     const auto row = [&](const char* name, const Vec3& normal, double offset, double value) {
-        PlaneKnowledge::Row one{std::vector<Vec3>(facets, Vec3(0)), std::vector<double>(facets, 0),
-                                value / k_sigma};
+        PlaneObservations::Row one{std::vector<Vec3>(facets, Vec3(0)),
+                                   std::vector<double>(facets, 0), value / k_sigma};
         const auto f = std::size_t(find_facet(solid, name));
         one.normal[f] = normal / k_sigma;
         one.offset[f] = offset / k_sigma;

@@ -21,19 +21,19 @@ using namespace culet;
 
 struct PathSums {
     double leaves = 0, left = 0, lost = 0, dropped = 0;
-    std::vector<double> leaf_weights;
+    std::vector<double> exit_weights;
     std::vector<PathEnd> ends;
     std::vector<std::string> modes;
     void path_exits(const PathEnd& end, const PathTrace& trace) {
         const double weight = end.coherency.power() * end.transmitted[0];
         leaves += weight;
-        leaf_weights.push_back(weight);
+        exit_weights.push_back(weight);
         ends.push_back(end);
         modes.emplace_back(trace.modes.begin(), trace.modes.begin() + trace.length - 1);
     }
     void path_exits(const Vec3&, const Vec3&, const NodeWeights& w, const PathTrace&) {
         leaves += w[0];
-        leaf_weights.push_back(w[0]);
+        exit_weights.push_back(w[0]);
     }
     void remainder(const NodeWeights& w) { left += w[0]; }
     void absorbed(const NodeWeights& w) { lost += w[0]; }
@@ -133,10 +133,10 @@ TEST(CrystalPaths, IsotropicStonesGiveWhatLightPathsGive) {
             PathSums special;
             LightPaths<PathSums>(body.planes(), band, limits, special)
                 .trace(ray, *body.entry(ray.origin, ray.direction));
-            ASSERT_EQ(general.leaf_weights.size(), special.leaf_weights.size());
-            for (std::size_t l = 0; l < special.leaf_weights.size(); ++l, ++leaves) {
+            ASSERT_EQ(general.exit_weights.size(), special.exit_weights.size());
+            for (std::size_t l = 0; l < special.exit_weights.size(); ++l, ++leaves) {
                 worst =
-                    std::max(worst, std::abs(general.leaf_weights[l] - special.leaf_weights[l]));
+                    std::max(worst, std::abs(general.exit_weights[l] - special.exit_weights[l]));
             }
         }
     }
@@ -268,10 +268,10 @@ TEST(CrystalPaths, VanishingBirefringenceTendsToTheIsotropicStone) {
             const EyeRay ray = random_ray(random);
             const PathSums weak = traced(body, band, limits, ray);
             const PathSums none = traced(body, isotropic, limits, ray);
-            ASSERT_EQ(weak.leaf_weights.size(), none.leaf_weights.size());
+            ASSERT_EQ(weak.exit_weights.size(), none.exit_weights.size());
             // 8 segments of 3 units at a wavelength of 6e-4: 2.5e5 radians a unit of index.
-            for (std::size_t l = 0; l < weak.leaf_weights.size(); ++l)
-                EXPECT_NEAR(weak.leaf_weights[l], none.leaf_weights[l], 1e-12 + 1e6 * split)
+            for (std::size_t l = 0; l < weak.exit_weights.size(); ++l)
+                EXPECT_NEAR(weak.exit_weights[l], none.exit_weights[l], 1e-12 + 1e6 * split)
                     << "seed " << seed;
         }
     }

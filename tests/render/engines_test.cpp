@@ -82,7 +82,7 @@ TEST(Settings, ReadBackAsTheyWereWritten) {
     const std::vector<std::vector<std::string>> cases{
         {},
         {"effects=[]", "wavelengths=[589.3]"},
-        {"engine=\"beams\"", "effects=[\"dispersion\",\"coherence\"]", "crystal_beams=\"parted\"",
+        {"engine=\"beams\"", "effects=[\"dispersion\",\"coherence\"]", "crystal_beams=\"split\"",
          "cut_weight=0.1234567890123456", "split_weight=1e-7", "tolerance=0.07",
          "clamp_indirect=12.5"},
         {"engine=\"reference\"", "samples=49", "wavelength_turns=7", "depth=12", "tolerance=0",

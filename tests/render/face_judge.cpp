@@ -262,7 +262,7 @@ void FaceJudge::judge(const Face& face, const Column& column) {
         sensitivity = std::max(sensitivity, between(column.oracles(nudged), truth).largest());
     sensitivity_ = std::max(sensitivity_, sensitivity);
     const double allowance = std::max(tolerance_, 8 * sensitivity);
-    of_allowance_ = std::max(of_allowance_, worst / allowance);
+    of_tolerance_ = std::max(of_tolerance_, worst / allowance);
     EXPECT_LE(worst, allowance) << fmt::format(
         "{}: amplitude {:.2g}, power {:.2g}, wave normal {:.2g}, ray {:.2g}, imbalance {:.2g}; "
         "sensitivity {:.2g}; gaps {:.2g} {:.2g}\n{}",
@@ -282,7 +282,7 @@ FaceJudge::~FaceJudge() {
     record("wave", wave_);
     record("ray", ray_);
     record("imbalance", imbalance_);
-    record("of_allowance", of_allowance_);
+    record("of_allowance", of_tolerance_);
 }
 
 std::string described(const Face& face) {

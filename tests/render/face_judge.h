@@ -51,7 +51,7 @@ private:
     double tolerance_;
     std::vector<oracle::Answer> nudged_;  ///< of the face at hand, when it came to that
     int faces_ = 0, columns_ = 0, excused_ = 0;
-    double amplitude_ = 0, power_ = 0, wave_ = 0, ray_ = 0, imbalance_ = 0, of_allowance_ = 0,
+    double amplitude_ = 0, power_ = 0, wave_ = 0, ray_ = 0, imbalance_ = 0, of_tolerance_ = 0,
            sensitivity_ = 0;
 };
 

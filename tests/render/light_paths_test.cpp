@@ -16,11 +16,11 @@ using namespace culet;
 
 struct Sums {
     double leaves = 0, left = 0, lost = 0, dropped = 0;
-    std::vector<double> leaf_weights;
+    std::vector<double> exit_weights;
     std::vector<Vec3> directions;
     void path_exits(const Vec3&, const Vec3& direction, const NodeWeights& w, const PathTrace&) {
         leaves += w[0];
-        leaf_weights.push_back(w[0]);
+        exit_weights.push_back(w[0]);
         directions.push_back(direction);
     }
     void remainder(const NodeWeights& w) { left += w[0]; }
@@ -75,10 +75,10 @@ TEST(LightPaths, GoThroughAnySolidAsThroughPlanes) {
             Sums by_planes, by_any;
             LightPaths<Sums>(planes, band, limits, by_planes).trace(ray, *entry);
             LightPaths<Sums, false, StoneBody>(any, band, limits, by_any).trace(ray, *entry);
-            ASSERT_EQ(by_any.leaf_weights.size(), by_planes.leaf_weights.size());
-            for (std::size_t k = 0; k < by_any.leaf_weights.size(); ++k)
+            ASSERT_EQ(by_any.exit_weights.size(), by_planes.exit_weights.size());
+            for (std::size_t k = 0; k < by_any.exit_weights.size(); ++k)
                 worst =
-                    std::max(worst, std::abs(by_any.leaf_weights[k] - by_planes.leaf_weights[k]));
+                    std::max(worst, std::abs(by_any.exit_weights[k] - by_planes.exit_weights[k]));
         }
     }
     EXPECT_LT(worst, 1e-9);
@@ -98,7 +98,7 @@ TEST(LightPaths, SlabTransmitsTheClosedSeries) {
             .trace(ray, *body.entry(ray.origin, ray.direction));
         double through = 0;
         for (std::size_t i = 0; i < sums.directions.size(); ++i) {
-            if (sums.directions[i].z < 0) through += sums.leaf_weights[i];
+            if (sums.directions[i].z < 0) through += sums.exit_weights[i];
         }
         const double R = std::pow((n - 1) / (n + 1), 2);
         EXPECT_NEAR(through, (1 - R) / (1 + R), 1e-14);
@@ -121,7 +121,7 @@ TEST(LightPaths, AbsorbingSlabFollowsBeerAndLambertAlongTheRay) {
     LightPaths<Sums>(body, band, limits, sums).trace(ray, *body.entry(ray.origin, ray.direction));
     double through = 0;
     for (std::size_t i = 0; i < sums.directions.size(); ++i) {
-        if (sums.directions[i].z < 0) through += sums.leaf_weights[i];
+        if (sums.directions[i].z < 0) through += sums.exit_weights[i];
     }
     const double inside = std::asin(std::sin(angle) / n),
                  a = std::exp(-K * thickness / std::cos(inside));
@@ -140,7 +140,7 @@ TEST(LightPaths, PolarisationIsRememberedFromFaceToFace) {
                      {std::sin(angle), 0, -std::cos(angle)}};
     const double inside = std::asin(std::sin(angle) / n);
     const double Rs = std::pow(std::sin(angle - inside) / std::sin(angle + inside), 2);
-    const auto second_leaf = [&](bool polarised) {
+    const auto second_exit = [&](bool polarised) {
         Band band;
         band.n = n;
         Sums sums;
@@ -149,10 +149,10 @@ TEST(LightPaths, PolarisationIsRememberedFromFaceToFace) {
         limits.polarised = polarised;
         LightPaths<Sums>(body, band, limits, sums)
             .trace(ray, *body.entry(ray.origin, ray.direction));
-        return sums.leaf_weights.at(1);
+        return sums.exit_weights.at(1);
     };
-    EXPECT_NEAR(second_leaf(true), 0.5 * (1 + (1 - Rs) * (1 - Rs)), 1e-15);
-    EXPECT_NEAR(second_leaf(false), std::pow(1 - 0.5 * Rs, 2), 1e-15);
+    EXPECT_NEAR(second_exit(true), 0.5 * (1 + (1 - Rs) * (1 - Rs)), 1e-15);
+    EXPECT_NEAR(second_exit(false), std::pow(1 - 0.5 * Rs, 2), 1e-15);
 }
 
 TEST(LightPaths, CrossedPlaneReflectionsPolariseAsTheProductOfJonesMatrices) {
@@ -161,7 +161,8 @@ TEST(LightPaths, CrossedPlaneReflectionsPolariseAsTheProductOfJonesMatrices) {
     // meets x then y faces.
     const double n = 1.3;
     const Vec3 inner = glm::normalize(Vec3{1, 1, 0.3});
-    // Leaf weights of the tree must be the same for the mirrored path (a symmetry of the cube).
+    // ExitEvent weights of the tree must be the same for the mirrored path (a symmetry of the
+    // cube).
     std::vector<NamedPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
         for (int sign : {-1, 1}) {
@@ -179,7 +180,7 @@ TEST(LightPaths, CrossedPlaneReflectionsPolariseAsTheProductOfJonesMatrices) {
         limits.depth = 6;
         LightPaths<Sums>(body, band, limits, sums)
             .trace(ray, *body.entry(ray.origin, ray.direction));
-        return sums.leaf_weights;
+        return sums.exit_weights;
     };
     const Vec3 start{0.1, 0.25, 3};
     const Vec3 direction = glm::normalize(Vec3{inner.x * 0.3, inner.y * 0.2, -1});

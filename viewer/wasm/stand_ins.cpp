@@ -26,7 +26,7 @@ namespace {
 std::string read_text(const std::filesystem::path& file, std::size_t) {
     refuse(file);
 }
-SolidFile read_solid(const std::filesystem::path& file, Standing) {
+SolidFile read_solid(const std::filesystem::path& file, Orientation) {
     refuse(file);
 }
 std::string doubtful_size(const Solid&) {
@@ -88,7 +88,7 @@ HalfEdges half_edges(const Solid&) {
 // Beams draw one stone alone.
 std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
                                                     const WavelengthSet& wavelengths) {
-    if (scene.furnished()) throw InputError("a page draws one stone alone, without objects");
+    if (scene.has_objects()) throw InputError("a page draws one stone alone, without objects");
     return std::make_unique<LightField>(scene.lights, wavelengths);
 }
 

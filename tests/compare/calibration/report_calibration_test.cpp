@@ -49,7 +49,7 @@ CalibratedVerdict calibrated_as_match() {
     curve.equivalent_deg = 0.1;
     curve.weight = 1;
     verdict.curves = {curve};
-    NullWorth null;
+    NullStatistics null;
     null.draws = 24;
     verdict.nulls = {null};
     verdict.hypotheses = {{World::material, k_hostile, 0.9, verdict.equivalent}};

@@ -113,9 +113,9 @@ TEST(MergedBeams, AreTheReferenceWhereTheSplitIsSmall) {
     }
 }
 
-// Parted waves are exact rays at a cell's middle and first order beside it. Powers are added, as in
-// the reference without coherence; nothing is left out but what is cut.
-TEST(PartedBeams, AreTheReferenceInCrystalsOfStrongSplit) {
+// SplitWaves waves are exact rays at a cell's middle and first order beside it. Powers are added,
+// as in the reference without coherence; nothing is left out but what is cut.
+TEST(SplitBeams, AreTheReferenceInCrystalsOfStrongSplit) {
     std::mt19937_64 random(20290);
     const std::vector<NamedCrystal> crystals{
         {"zircon", {1.925, 1.984}, {0.05, 0.3}, false},
@@ -129,7 +129,7 @@ TEST(PartedBeams, AreTheReferenceInCrystalsOfStrongSplit) {
         scene.lights.sources.push_back(
             CosinePowerLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
         give_crystal(scene, crystal.n, crystal.absorption);
-        scene.settings.crystal_beams = CrystalBeams::parted;
+        scene.settings.crystal_beams = CrystalBeams::split;
         const RenderResult beams = with_engine(scene, "beams", 1),
                            exact = with_engine(scene, "reference", 1);
         // Off by more than a hundredth: pixels next to edges, which a map displaces by a hundredth
@@ -142,12 +142,12 @@ TEST(PartedBeams, AreTheReferenceInCrystalsOfStrongSplit) {
     }
 }
 
-TEST(PartedBeams, SeePolarisedLightsAndAnalysers) {
+TEST(SplitBeams, SeePolarisedLightsAndAnalysers) {
     Scene scene = polarised_scene();
     scene.settings.depth = 4;
     give_crystal(scene, {1.925, 1.984}, {0, 0});
     scene.settings.coherence = false;
-    scene.settings.crystal_beams = CrystalBeams::parted;
+    scene.settings.crystal_beams = CrystalBeams::split;
     const Difference d = difference(with_engine(scene, "beams", 1).picture,
                                     with_engine(scene, "reference", 1).picture, 1e-2);
     EXPECT_LE(d.share_off(), 0.06) << d;
@@ -155,12 +155,12 @@ TEST(PartedBeams, SeePolarisedLightsAndAnalysers) {
 }
 
 // In a constant light of 1 a pixel that the stone fills is 1 less what is still inside.
-TEST(PartedBeams, BalanceInAFurnace) {
+TEST(SplitBeams, BalanceInAFurnace) {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
     give_crystal(scene, {1.925, 1.984}, {0, 0});
     scene.settings.depth = 5;
-    scene.settings.crystal_beams = CrystalBeams::parted;
+    scene.settings.crystal_beams = CrystalBeams::split;
     const RenderStats stats = with_engine(scene, "beams", 16).stats;
     // First order within a cell; weights next to total reflection bend.
     EXPECT_NEAR(stats.mean_radiance + stats.remainder, 1, 2e-3);
@@ -176,7 +176,7 @@ TEST(CrystalBeams, PartWhereTheTwoImagesAreSeenApart) {
     };
     scene.settings.depth = 3;
     give_crystal(scene, {1.925, 1.984}, {0, 0});
-    EXPECT_NE(said().find("parted"), std::string::npos) << said();
+    EXPECT_NE(said().find("split"), std::string::npos) << said();
     give_crystal(scene, {1.925, 1.925001}, {0, 0});
     EXPECT_NE(said().find("merged"), std::string::npos) << said();
     give_crystal(scene, {1.925, 1.984}, {0, 0});

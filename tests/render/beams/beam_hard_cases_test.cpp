@@ -49,7 +49,7 @@ TEST(HardCases, MapsOfFrontFacetsLoseAndDoubleNoArea) {
             limits.refraction = kind;
             BeamTree tree;
             build_beams(net, screen_view(scene.camera), 2.417, limits, tree);
-            EXPECT_NEAR(tree.leaf_area() / tree.front_area, 1, 4e-5);
+            EXPECT_NEAR(tree.exit_area() / tree.front_area, 1, 4e-5);
         }
     }
 }
@@ -152,7 +152,7 @@ TEST(HardCases, BeamsOfNearViewsDoNotOverlap) {
         limits.depth = 4;
         BeamTree tree;
         build_beams(net, screen_view(scene.camera), n, limits, tree);
-        EXPECT_NEAR(tree.leaf_area() / tree.front_area, 1, 4e-5)
+        EXPECT_NEAR(tree.exit_area() / tree.front_area, 1, 4e-5)
             << "seed 20287, case " << i << ", " << cut << " at " << distance << " diameters";
     }
 }

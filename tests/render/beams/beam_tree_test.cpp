@@ -101,7 +101,7 @@ BeamTree tree_of(const FacetNet& net, const ScreenView& view, const BeamLimits& 
     return tree;
 }
 double lost_share(const BeamTree& tree) {
-    return (tree.front_area - tree.leaf_area()) / tree.front_area;
+    return (tree.front_area - tree.exit_area()) / tree.front_area;
 }
 
 TEST(BeamTrees, OfHardViewsLoseNoArea) {
@@ -342,7 +342,7 @@ TEST(BeamTrees, BuiltIntoUsedMemoryAreTheSame) {
         build_beams(net, view, k_n, limits, used);
         const BeamTree fresh = tree_of(net, view, limits);
         ASSERT_EQ(used.branch_count, fresh.branch_count);
-        EXPECT_EQ(used.leaf_area(), fresh.leaf_area());
+        EXPECT_EQ(used.exit_area(), fresh.exit_area());
         for (std::size_t b = 0; b < fresh.branch_count; ++b) {
             EXPECT_EQ(used.branches[b].facets, fresh.branches[b].facets);
             EXPECT_EQ(used.branches[b].beams, fresh.branches[b].beams);

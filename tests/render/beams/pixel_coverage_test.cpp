@@ -323,10 +323,10 @@ TEST_P(Coverage, NearTheBorderIsWithinTheMargin) {
             std::sort(pixels.begin(), pixels.end());
             return pixels;
         };
-        const auto all = collected(std::numeric_limits<double>::infinity()), parted = collected(m);
-        ASSERT_EQ(parted.size(), all.size());
+        const auto all = collected(std::numeric_limits<double>::infinity()), split = collected(m);
+        ASSERT_EQ(split.size(), all.size());
         for (std::size_t k = 0; k < all.size(); ++k) {
-            ASSERT_EQ(parted[k].first, all[k].first);
+            ASSERT_EQ(split[k].first, all[k].first);
             ASSERT_TRUE(all[k].second);
             const double px = all[k].first % k_width + 0.5, py = all[k].first / k_width + 0.5;
             double nearest = 1e9;
@@ -339,7 +339,7 @@ TEST_P(Coverage, NearTheBorderIsWithinTheMargin) {
             }
             // Off a rounding unit of the places, a middle is near the border or it is not.
             if (std::abs(nearest - m) > 1e-9) {
-                ASSERT_EQ(parted[k].second, nearest < m);
+                ASSERT_EQ(split[k].second, nearest < m);
             }
         }
     }

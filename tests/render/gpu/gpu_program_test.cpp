@@ -111,9 +111,9 @@ TEST(GpuProgram, SaysWhatItDoesNotDraw) {
     Scene carved = scene;
     carved.stone.convex = false;
     refused(carved, "convex");
-    Scene furnished = scene;
-    furnished.objects.push_back({SphereShape{{5, 0, 0}, 1}, MirrorMaterial{}});
-    refused(furnished, "objects");
+    Scene has_objects = scene;
+    has_objects.objects.push_back({SphereShape{{5, 0, 0}, 1}, MirrorMaterial{}});
+    refused(has_objects, "objects");
     Scene cone = scene;
     cone.camera.cone = 0.3;
     refused(cone, "conoscope");

@@ -254,10 +254,10 @@ TEST(ObjectScenes, AThingOutOfSightChangesNothing) {
     std::mt19937_64 random(6);
     Scene alone = between_two_lights(6, 16);
     alone.stone = stone_of(random_stone(random, 20), 1.7);
-    Scene furnished = alone;
+    Scene has_objects = alone;
     // Behind the camera, in the dark half, as small as a grain.
-    furnished.objects = {{SphereShape{{30, -140, -90}, 1e-3}, DiffuseMaterial{}}};
-    expect_same(pixels_of(furnished, 12), pixels_of(alone, 2));
+    has_objects.objects = {{SphereShape{{30, -140, -90}, 1e-3}, DiffuseMaterial{}}};
+    expect_same(pixels_of(has_objects, 12), pixels_of(alone, 2));
 }
 
 // Same input, same bytes.

@@ -83,7 +83,7 @@ TEST_F(RayTableFile, ComesBackAsItWasWritten) {
     expect_equal(a.frames, b.frames);
     expect_equal(a.hit_ray, b.hit_ray);
     expect_equal(a.hit_distance, b.hit_distance);
-    expect_equal(a.leaf_end, b.leaf_end);
+    expect_equal(a.exits_end, b.exits_end);
     expect_equal(a.weight, b.weight);
     expect_equal(a.facet, b.facet);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -195,8 +195,8 @@ TEST_F(RayTableFile, IsCheckedWholeThoughItsChecksumIsRight) {
     EXPECT_NE(put(parts.hit_ray, 4, parts.hit_ray[3]), "");
     EXPECT_NE(put(parts.hit_ray, parts.hit_ray.size() - 1, 144u), "");
     EXPECT_NE(put(parts.hit_distance, 3, -1.0f), "");
-    EXPECT_NE(put(parts.leaf_end, 3, 0xffffffffu), "");
-    EXPECT_NE(put(parts.leaf_end, parts.leaf_end.size() - 1, parts.leaf_end.back() - 1), "");
+    EXPECT_NE(put(parts.exits_end, 3, 0xffffffffu), "");
+    EXPECT_NE(put(parts.exits_end, parts.exits_end.size() - 1, parts.exits_end.back() - 1), "");
     EXPECT_NE(put(parts.weight, 2, std::nanf("")), "");
     EXPECT_NE(put(parts.weight, 2, -0.5f), "");
     EXPECT_NE(put(parts.facet, 7, static_cast<std::uint16_t>(73)), "");

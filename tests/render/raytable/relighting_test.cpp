@@ -37,7 +37,7 @@ TEST(Relighting, InSmoothLightIsTheReferenceWithinTheBound) {
     const Apart fast = apart(relit_by(table, scene).picture, truth);
     EXPECT_LT(fast.worst, bound_of_lobes());
     const Apart plain =
-        apart(relit_by(table, scene, LeafPrecision::double_precision).picture, truth);
+        apart(relit_by(table, scene, ExitPrecision::double_precision).picture, truth);
     EXPECT_LT(plain.worst, 1e-9 * slope_of_lobes() + k_rounding * 7.8);
     // The figure that the issue asks for.
     EXPECT_LT(fast.mean, 1e-3);

@@ -37,14 +37,14 @@ inline double bound_of_lobes() {
 inline void expect_equal_but_for_rounding(const Scene& scene, const RayTable& table,
                                           double largest) {
     const Picture truth = by_reference(scene).picture;
-    for (const LeafPrecision precision :
-         {LeafPrecision::fastest, LeafPrecision::double_precision}) {
+    for (const ExitPrecision precision :
+         {ExitPrecision::fastest, ExitPrecision::double_precision}) {
         const Picture picture = relit_by(table, scene, precision).picture;
         EXPECT_EQ(picture.coverage, truth.coverage);
         const Apart off = apart(picture, truth);
         EXPECT_GT(off.brightest, 0.1);
         EXPECT_LT(off.worst, k_rounding * largest)
-            << (precision == LeafPrecision::fastest ? "fast" : "plain");
+            << (precision == ExitPrecision::fastest ? "fast" : "plain");
     }
 }
 

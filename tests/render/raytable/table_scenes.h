@@ -43,7 +43,7 @@ inline RayTable table_of(const Scene& scene) {
 }
 
 inline RenderResult relit_by(const RayTable& table, const Scene& scene,
-                             LeafPrecision precision = LeafPrecision::fastest) {
+                             ExitPrecision precision = ExitPrecision::fastest) {
     const TableRays rays = table_rays(scene, table.parts().wavelengths_nm);
     const std::string other = difference_to(table.header(), scene, rays);
     if (!other.empty()) throw InternalError("the table does not fit: " + other);

@@ -14,7 +14,7 @@
 namespace culet {
 
 /// The end of a light path. Lengths in the stone's unit.
-struct Leaf {
+struct ExitEvent {
     float weight = 0;  ///< of a clear stone
     int facet = 0;
     DirectionCode direction{};
@@ -31,7 +31,7 @@ struct PlaneAxes {
 
 /// What a row of pixels has, in one band.
 struct RowLeaves {
-    std::vector<Leaf> leaves;
+    std::vector<ExitEvent> leaves;
     std::vector<std::uint32_t> count;  ///< of each of the row's hits
     double remainder = 0, cut = 0;     ///< sums over hits
     int deepest = 0;
@@ -55,9 +55,9 @@ inline Band with_lengths(Band band, int lengths, double absorption) {
 }
 
 // A sink of the tracers, see light_paths.h and crystal_paths.h.
-class LeafSink {
+class ExitSink {
 public:
-    LeafSink(const std::vector<PlaneAxes>& axes, int lengths, double absorption, double least,
+    ExitSink(const std::vector<PlaneAxes>& axes, int lengths, double absorption, double least,
              RowLeaves& row)
         : axes_(axes), lengths_(lengths), absorption_(absorption), least_(least), row_(row) {}
 
@@ -84,18 +84,19 @@ private:
             row_.cut += weight;
             return;
         }
-        Leaf leaf;
-        leaf.weight = static_cast<float>(weight);
-        leaf.facet = trace.facets[trace.length - 1];
-        leaf.direction = octahedral_code(direction);
-        const PlaneAxes& axes = axes_[static_cast<std::size_t>(leaf.facet)];
-        leaf.s = static_cast<float>(glm::dot(axes.u, at));
-        leaf.t = static_cast<float>(glm::dot(axes.v, at));
+        ExitEvent exit_event;
+        exit_event.weight = static_cast<float>(weight);
+        exit_event.facet = trace.facets[trace.length - 1];
+        exit_event.direction = octahedral_code(direction);
+        const PlaneAxes& axes = axes_[static_cast<std::size_t>(exit_event.facet)];
+        exit_event.s = static_cast<float>(glm::dot(axes.u, at));
+        exit_event.t = static_cast<float>(glm::dot(axes.v, at));
         for (int k = 0; k < lengths_; ++k) {
             const double ratio = transmitted[1 + k] / transmitted[0];
-            leaf.length[k] = static_cast<float>(std::max(0.0, -std::log(ratio) / absorption_));
+            exit_event.length[k] =
+                static_cast<float>(std::max(0.0, -std::log(ratio) / absorption_));
         }
-        row_.leaves.push_back(leaf);
+        row_.leaves.push_back(exit_event);
         ++row_.count.back();
     }
 

@@ -9,7 +9,7 @@ namespace culet {
 
 /// Made linear: for each row, the sum over the facets of normal . (n - planes.normal) +
 /// offset * (d - planes.offset) is `value` within one.
-struct PlaneKnowledge {
+struct PlaneObservations {
     struct Row {
         std::vector<Vec3> normal;    ///< of each facet
         std::vector<double> offset;  ///< of each facet, per length

@@ -32,10 +32,10 @@ struct WorldDraw {
     int which = 0;  ///< of the world's kinds
 };
 
-class OtherWorlds {
+class Alternatives {
 public:
     /// `notes` gets which worlds there are none of, and why. The model must outlive this.
-    OtherWorlds(const Scene& model, const WorldsAsked& asked, std::vector<std::string>& notes);
+    Alternatives(const Scene& model, const WorldsAsked& asked, std::vector<std::string>& notes);
 
     /// Of every world some early on, so that a budget that ends leaves a whole.
     const std::vector<WorldDraw>& draws() const { return draws_; }

@@ -1,4 +1,4 @@
-#include "render/raytable/leaf_shader.h"
+#include "render/raytable/exit_shader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ Vec3 middle_of(const RayTable& table) {
 }
 
 // Absorption of a step of each length, at the nodes of a band.
-LeafAbsorption absorption_of(const Band& band, const RayTableHeader& header) {
-    LeafAbsorption absorption;
+ExitAbsorption absorption_of(const Band& band, const RayTableHeader& header) {
+    ExitAbsorption absorption;
     for (std::uint32_t k = 0; band.absorbs && k < header.lengths; ++k) {
         for (int node = 0; node < band.count; ++node) {
             absorption[k].push_back(
@@ -34,12 +34,12 @@ LeafAbsorption absorption_of(const Band& band, const RayTableHeader& header) {
 }
 
 // Without the lengths where nothing is absorbed.
-LeafRun with_lengths_if(bool absorbs, LeafRun run) {
+ExitRun with_lengths_if(bool absorbs, ExitRun run) {
     if (!absorbs) run.length = {};
     return run;
 }
 
-class FastShader : public LeafShader {
+class FastShader : public ExitShader {
 public:
     FastShader(const Scene& scene, const TableRays& rays, const WavelengthSet& colours,
                const RayTable& table)
@@ -61,7 +61,7 @@ public:
         put(&FacetFrame::v, Vec3(0));
     }
 
-    double leaves(std::size_t band, const LeafRun& run, float* radiance,
+    double leaves(std::size_t band, const ExitRun& run, float* radiance,
                   int stride) const override {
         return shade_leaves(lights_[band], frames_,
                             with_lengths_if(!absorption_[band][0].empty(), run), absorption_[band],
@@ -77,17 +77,17 @@ public:
 
 private:
     Vec3 middle_;
-    std::vector<LeafLights> lights_;
-    std::vector<LeafAbsorption> absorption_;
-    LeafFrames frames_;
+    std::vector<ExitLights> lights_;
+    std::vector<ExitAbsorption> absorption_;
+    ExitFrames frames_;
 };
 
-class PlainShader : public LeafShader {
+class PlainShader : public ExitShader {
 public:
     PlainShader(const TableRays& rays, const Surroundings& surroundings, const RayTable& table)
         : bands_(rays.setup.bands), surroundings_(surroundings), table_(table) {}
 
-    double leaves(std::size_t number, const LeafRun& run, float* radiance,
+    double leaves(std::size_t number, const ExitRun& run, float* radiance,
                   int stride) const override {
         const Band& band = bands_[number];
         double weighed = 0;
@@ -145,13 +145,13 @@ private:
 
 }  // namespace
 
-std::unique_ptr<const LeafShader> leaf_shader(const Scene& scene, const TableRays& rays,
+std::unique_ptr<const ExitShader> exit_shader(const Scene& scene, const TableRays& rays,
                                               const WavelengthSet& colours,
                                               const Surroundings& surroundings,
-                                              const RayTable& table, LeafPrecision precision) {
+                                              const RayTable& table, ExitPrecision precision) {
     // Whatever else stands around the stone, these are the lights and nothing but lights.
     const bool lights_alone = dynamic_cast<const LightField*>(&surroundings) != nullptr;
-    if (precision == LeafPrecision::fastest && lights_alone && !LeafLights::too_many(scene.lights))
+    if (precision == ExitPrecision::fastest && lights_alone && !ExitLights::too_many(scene.lights))
         return std::make_unique<FastShader>(scene, rays, colours, table);
     return std::make_unique<PlainShader>(rays, surroundings, table);
 }

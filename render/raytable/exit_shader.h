@@ -4,21 +4,21 @@
 
 #include <memory>
 
-#include "render/raytable/leaf_lights.h"
+#include "render/raytable/exit_lights.h"
 #include "render/raytable/table_key.h"
 #include "render/reference/surroundings.h"
 
 namespace culet {
 
-class LeafShader {
+class ExitShader {
 public:
-    LeafShader() = default;
-    LeafShader(const LeafShader&) = delete;
-    LeafShader& operator=(const LeafShader&) = delete;
-    virtual ~LeafShader() = default;
+    ExitShader() = default;
+    ExitShader(const ExitShader&) = delete;
+    ExitShader& operator=(const ExitShader&) = delete;
+    virtual ~ExitShader() = default;
 
     /// As shade_leaves and shade_rays, at the nodes of a band of the scene's setup.
-    virtual double leaves(std::size_t band, const LeafRun& run, float* radiance,
+    virtual double leaves(std::size_t band, const ExitRun& run, float* radiance,
                           int stride) const = 0;
     virtual void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const = 0;
     /// How far along rays the nearest thing is that hides what lies behind it.
@@ -28,12 +28,12 @@ public:
 };
 
 /// Which of the two: tests compare them. Rays past the stone are single precision in both.
-enum class LeafPrecision { fastest, double_precision };
+enum class ExitPrecision { fastest, double_precision };
 
 /// `surroundings` must outlive it, as `table`.
-std::unique_ptr<const LeafShader> leaf_shader(const Scene& scene, const TableRays& rays,
+std::unique_ptr<const ExitShader> exit_shader(const Scene& scene, const TableRays& rays,
                                               const WavelengthSet& colours,
                                               const Surroundings& surroundings,
-                                              const RayTable& table, LeafPrecision precision);
+                                              const RayTable& table, ExitPrecision precision);
 
 }  // namespace culet

@@ -13,8 +13,8 @@
 namespace culet {
 
 /// Lights of any type, none polarised, at the nodes of one band. Points are about `middle`.
-struct LeafLights {
-    LeafLights(const Lights& lights, const WavelengthSet& colours, const Band& band,
+struct ExitLights {
+    ExitLights(const Lights& lights, const WavelengthSet& colours, const Band& band,
                const Vec3& middle);
     /// Whether these are too many for it: the surroundings are then asked leaf by leaf.
     static bool too_many(const Lights& lights);
@@ -37,7 +37,7 @@ struct LeafLights {
 };
 
 /// Leaves that follow each other in a table; `weight` may be another than the table's.
-struct LeafRun {
+struct ExitRun {
     const float* weight = nullptr;
     std::array<const std::int32_t*, 2> direction{};
     std::array<const std::uint16_t*, 2> point{};
@@ -46,17 +46,17 @@ struct LeafRun {
     int count = 0;
 };
 /// Frames of a table's facets: nine planes of as many numbers as there are facets.
-struct LeafFrames {
+struct ExitFrames {
     std::vector<float> numbers;
     int facets = 0;
 };
 /// Absorption per step of a leaf's lengths: [length][node].
-using LeafAbsorption = std::array<std::vector<float>, 3>;
+using ExitAbsorption = std::array<std::vector<float>, 3>;
 
 /// Radiance that leaves bring, to `radiance[node * stride + leaf]`; what is absorbed on the way is
 /// left out. Returns the sum over leaves of their weight after absorption, mean over nodes.
-double shade_leaves(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
-                    const LeafAbsorption& absorption, float* radiance, int stride);
+double shade_leaves(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                    const ExitAbsorption& absorption, float* radiance, int stride);
 
 /// Rays through the air: origins about the middle, unit directions, as planes.
 struct AirRays {
@@ -64,8 +64,8 @@ struct AirRays {
     int count = 0;
 };
 /// How far along them the nearest near light is; beyond all lengths where there is none.
-void nearest_lights(const LeafLights& lights, const AirRays& rays, float* distance);
+void nearest_lights(const ExitLights& lights, const AirRays& rays, float* distance);
 /// Radiance along them, to `radiance[node * stride + ray]`.
-void shade_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride);
+void shade_rays(const ExitLights& lights, const AirRays& rays, float* radiance, int stride);
 
 }  // namespace culet

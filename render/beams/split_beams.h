@@ -30,21 +30,21 @@ struct LeavingBeam {
     int facets = 1;                            ///< met so far
 };
 
-struct PartedLimits {
+struct SplitLimits {
     int depth = 8;  ///< at most 200
     double cut_weight = 1e-3;
     /// Asked now and then with the number of beams so far; false: no more are followed.
     std::function<bool(long long)> goes_on = {};
 };
 
-class PartedBeams {
+class SplitBeams {
 public:
     using Sink =
         std::function<void(const LeavingBeam&, const ScreenPoint* corners, std::size_t count)>;
 
     /// `response`: of the eye (stokes.h).
-    PartedBeams(const FacetNet& net, const Band& band, const PartedLimits& limits,
-                const Stokes& response);
+    SplitBeams(const FacetNet& net, const Band& band, const SplitLimits& limits,
+               const Stokes& response);
 
     /// Calls `sink` for all that leaves the stone within a region of a front facet's outline.
     void grow(const ScreenView& view, int facet, const ScreenPoint* region, std::size_t count,
@@ -72,7 +72,7 @@ private:
 
     const FacetNet& net_;
     const Band& band_;
-    PartedLimits limits_;
+    SplitLimits limits_;
     Stokes response_;
     RegionSplitter splitter_;
     std::vector<ScreenPoint> pool_;

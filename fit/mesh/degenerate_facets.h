@@ -15,6 +15,6 @@ struct ComeToNothing {
     /// `A|B`: neighbours within 0.001 degrees of one plane, which have no edge.
     std::vector<std::string> edges;
 };
-ComeToNothing come_to_nothing(const Solid& solid);
+ComeToNothing degenerate_facets(const Solid& solid);
 
 }  // namespace culet

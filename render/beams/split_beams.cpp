@@ -1,4 +1,4 @@
-#include "render/beams/parted_beams.h"
+#include "render/beams/split_beams.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,21 +39,21 @@ double seen(const Stokes& response, const Complex& x, const Complex& y) {
 
 }  // namespace
 
-PartedBeams::PartedBeams(const FacetNet& net, const Band& band, const PartedLimits& limits,
-                         const Stokes& response)
+SplitBeams::SplitBeams(const FacetNet& net, const Band& band, const SplitLimits& limits,
+                       const Stokes& response)
     : net_(net), band_(band), limits_(limits), response_(response) {
     limits_.depth = std::min(limits_.depth, k_deepest_call);
     splitter_.prepare(net);
 }
 
-double PartedBeams::mean_transmitted(const Ray& ray) const {
+double SplitBeams::mean_transmitted(const Ray& ray) const {
     double sum = 0;
     for (int i = 0; i < band_.count; ++i) sum += ray.transmitted[static_cast<std::size_t>(i)];
     return sum / band_.count;
 }
 
-void PartedBeams::grow(const ScreenView& view, int facet, const ScreenPoint* region,
-                       std::size_t count, const Sink& sink) {
+void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* region,
+                      std::size_t count, const Sink& sink) {
     sink_ = &sink;
     pool_.assign(region, region + count);
     reference_ = middle_of(region, count);
@@ -116,7 +116,7 @@ void PartedBeams::grow(const ScreenView& view, int facet, const ScreenPoint* reg
 }
 
 // The rays' places as the eye sees them, to first order; exact to first order at `length`.
-InsideView PartedBeams::view_of(const Rays& rays, double length) const {
+InsideView SplitBeams::view_of(const Rays& rays, double length) const {
     const Vec3 &x0 = rays[0].point, &t0 = rays[0].mode.ray;
     const auto change = [](const Vec3& a, const Vec3& b) { return (b - a) / k_beside; };
     const Vec3 X_u = change(x0, rays[1].point), X_v = change(x0, rays[2].point);
@@ -151,7 +151,7 @@ InsideView PartedBeams::view_of(const Rays& rays, double length) const {
 }
 
 // A beam that left facet `facet` as its `event`th.
-void PartedBeams::follow(const Rays& rays, int facet, const FacetRegion& part, int event) {
+void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, int event) {
     ++beams_;
     constexpr long long k_asked_after = 1024;
     if (beams_ % k_asked_after == 0 && limits_.goes_on && !limits_.goes_on(beams_)) stopped_ = true;
@@ -217,8 +217,8 @@ void PartedBeams::follow(const Rays& rays, int facet, const FacetRegion& part, i
     pool_.resize(pool_before);
 }
 
-void PartedBeams::leave(const std::array<CrystalHit, 3>& hits, const Rays& at,
-                        const FacetRegion& part, int event) {
+void SplitBeams::leave(const std::array<CrystalHit, 3>& hits, const Rays& at,
+                       const FacetRegion& part, int event) {
     LeavingBeam beam;
     beam.reference = reference_;
     beam.facets = event;

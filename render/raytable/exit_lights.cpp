@@ -1,4 +1,4 @@
-#include "render/raytable/leaf_lights.h"
+#include "render/raytable/exit_lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@ float chord_squared(double angle) {
 
 }  // namespace
 
-bool LeafLights::too_many(const Lights& lights) {
+bool ExitLights::too_many(const Lights& lights) {
     return std::count_if(lights.sources.begin(), lights.sources.end(),
                          [](const Light& light) { return is_near(light); }) > k_most_near_lights;
 }
 
-LeafLights::LeafLights(const Lights& lights, const WavelengthSet& colours, const Band& band,
+ExitLights::ExitLights(const Lights& lights, const WavelengthSet& colours, const Band& band,
                        const Vec3& middle)
     : environment(lights.environment), nodes(band.count) {
     Lights rest;

@@ -1,4 +1,4 @@
-#include "fit/mesh/come_to_nothing.h"
+#include "fit/mesh/degenerate_facets.h"
 
 #include "stone/numbers/units.h"
 #include "stone/solid/half_edges.h"
@@ -12,7 +12,7 @@ constexpr double k_no_width = 1e-5, k_one_plane_deg = 1e-3;
 
 }  // namespace
 
-ComeToNothing come_to_nothing(const Solid& solid) {
+ComeToNothing degenerate_facets(const Solid& solid) {
     ComeToNothing result;
     const double least = k_no_width * diameter(solid);
     for (const Facet& facet : solid.facets) {

@@ -1,9 +1,9 @@
-#include "render/raytable/leaf_lights.h"
+#include "render/raytable/exit_lights.h"
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "render/raytable/leaf_shading.cpp"
+#define HWY_TARGET_INCLUDE "render/raytable/exit_shading.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, each after the one before; clang-format must not sort them.
 // clang-format off
@@ -39,7 +39,7 @@ HWY_INLINE V3 direction_at(const std::int32_t* first, const std::int32_t* second
     return number(1.0f) / length_of(d) * d;
 }
 
-HWY_INLINE V3 point_at(const LeafFrames& frames, const LeafRun& run, int i) {
+HWY_INLINE V3 point_at(const ExitFrames& frames, const ExitRun& run, int i) {
     const V step = number(1 / 65535.0f);
     const V s = step * number_at(run.point[0] + i), t = step * number_at(run.point[1] + i);
     const auto facet = whole_at(run.facet + i);
@@ -71,13 +71,13 @@ struct Sums {
 };
 
 template <int kNodes>
-HWY_INLINE void all_light(const LeafLights& lights, const Ray& ray, V* sum) {
+HWY_INLINE void all_light(const ExitLights& lights, const Ray& ray, V* sum) {
     const Sums<kNodes> sums{sum, lights.nodes};
     for (int i = 0; i < sums.nodes(); ++i) sum[i] = number(0.0f);
     V unhidden = number(1.0f);
     if (lights.any_near) unhidden = near_light<false>(lights.others, ray, number(3e38f), sums);
     distant_light<false>(lights.others, ray, unhidden, sums);
-    for (const LeafLights::Cap& cap : lights.caps) {
+    for (const ExitLights::Cap& cap : lights.caps) {
         const V3 beside = plus(vector(cap.axis), number(-1.0f), ray.direction);
         const V chord = dot(beside, beside);
         const M within = hn::And(chord < number(cap.outer), chord >= number(cap.inner));
@@ -89,8 +89,8 @@ HWY_INLINE void all_light(const LeafLights& lights, const Ray& ray, V* sum) {
 // Shades the leaves i .. i + lanes - 1, to out[node * stride]. Adds what they weigh after
 // absorption, of all nodes.
 template <int kNodes>
-HWY_INLINE void shade_vector(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
-                             const LeafAbsorption& absorption, int i, float* out, int stride,
+HWY_INLINE void shade_vector(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                             const ExitAbsorption& absorption, int i, float* out, int stride,
                              V& weighed) {
     const V3 none{number(0.0f), number(0.0f), number(0.0f)};
     Ray ray{none, direction_at(run.direction[0] + i, run.direction[1] + i), none, none, none, none};
@@ -123,9 +123,9 @@ struct Tail {
                   length[3][k_most_lanes] = {};
     float out[k_band_nodes * k_most_lanes];
 
-    LeafRun of(const LeafRun& run, int from) {
+    ExitRun of(const ExitRun& run, int from) {
         const int count = run.count - from;
-        LeafRun tail;
+        ExitRun tail;
         const auto copy = [&](auto* to, const auto* list) {
             std::copy_n(list + from, count, to);
             return to;
@@ -144,8 +144,8 @@ struct Tail {
 };
 
 template <int kNodes>
-double shade_all(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
-                 const LeafAbsorption& absorption, float* radiance, int stride) {
+double shade_all(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                 const ExitAbsorption& absorption, float* radiance, int stride) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));
     V weighed = number(0.0f);
     int i = 0;
@@ -153,7 +153,7 @@ double shade_all(const LeafLights& lights, const LeafFrames& frames, const LeafR
         shade_vector<kNodes>(lights, frames, run, absorption, i, radiance + i, stride, weighed);
     if (i < run.count) {
         Tail tail;
-        const LeafRun rest = tail.of(run, i);
+        const ExitRun rest = tail.of(run, i);
         shade_vector<kNodes>(lights, frames, rest, absorption, 0, tail.out, lanes, weighed);
         for (int node = 0; node < lights.nodes; ++node)
             std::copy_n(tail.out + node * lanes, run.count - i, radiance + node * stride + i);
@@ -165,8 +165,8 @@ double shade_all(const LeafLights& lights, const LeafFrames& frames, const LeafR
     return sum / lights.nodes;
 }
 
-double ShadeLeaves(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
-                   const LeafAbsorption& absorption, float* radiance, int stride) {
+double ShadeLeaves(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                   const ExitAbsorption& absorption, float* radiance, int stride) {
     const auto shade = lights.nodes == 1   ? shade_all<1>
                        : lights.nodes == 3 ? shade_all<3>
                                            : shade_all<0>;
@@ -202,7 +202,7 @@ HWY_INLINE void store_some(const V& v, int count, float* to) {
 }
 
 template <int kNodes>
-void shade_all_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+void shade_all_rays(const ExitLights& lights, const AirRays& rays, float* radiance, int stride) {
     V sum[kNodes > 0 ? kNodes : k_band_nodes];
     each_ray(rays, [&](const Ray& ray, int first, int count) HWY_ATTR {
         all_light<kNodes>(lights, ray, sum);
@@ -211,14 +211,14 @@ void shade_all_rays(const LeafLights& lights, const AirRays& rays, float* radian
     });
 }
 
-void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+void ShadeRays(const ExitLights& lights, const AirRays& rays, float* radiance, int stride) {
     const auto shade = lights.nodes == 1   ? shade_all_rays<1>
                        : lights.nodes == 3 ? shade_all_rays<3>
                                            : shade_all_rays<0>;
     shade(lights, rays, radiance, stride);
 }
 
-void NearestLights(const LeafLights& lights, const AirRays& rays, float* distance) {
+void NearestLights(const ExitLights& lights, const AirRays& rays, float* distance) {
     const V far = number(3e38f);
     each_ray(rays, [&](const Ray& ray, int first, int count) HWY_ATTR {
         V nearest = far;
@@ -244,16 +244,16 @@ HWY_EXPORT(ShadeLeaves);
 HWY_EXPORT(ShadeRays);
 HWY_EXPORT(NearestLights);
 
-double shade_leaves(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
-                    const LeafAbsorption& absorption, float* radiance, int stride) {
+double shade_leaves(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                    const ExitAbsorption& absorption, float* radiance, int stride) {
     return HWY_DYNAMIC_DISPATCH(ShadeLeaves)(lights, frames, run, absorption, radiance, stride);
 }
 
-void shade_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+void shade_rays(const ExitLights& lights, const AirRays& rays, float* radiance, int stride) {
     HWY_DYNAMIC_DISPATCH(ShadeRays)(lights, rays, radiance, stride);
 }
 
-void nearest_lights(const LeafLights& lights, const AirRays& rays, float* distance) {
+void nearest_lights(const ExitLights& lights, const AirRays& rays, float* distance) {
     HWY_DYNAMIC_DISPATCH(NearestLights)(lights, rays, distance);
 }
 

@@ -1,4 +1,4 @@
-#include "compare/calibration/other_worlds.h"
+#include "compare/calibration/alternatives.h"
 
 #include <fmt/format.h>
 
@@ -64,8 +64,8 @@ glm::dmat3 wrong_light(Chance& chance) {
 
 }  // namespace
 
-OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
-                         std::vector<std::string>& notes)
+Alternatives::Alternatives(const Scene& model, const WorldsAsked& asked,
+                           std::vector<std::string>& notes)
     : model_(model),
       middle_(centroid(model.stone.solid)),
       view_sigma_(asked.view_sigma),
@@ -123,7 +123,7 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
     }
 }
 
-glm::dmat3 OtherWorlds::wrong_pose(Chance& chance) const {
+glm::dmat3 Alternatives::wrong_pose(Chance& chance) const {
     // A stone of n-fold symmetry is the same stone again after 1/n of a turn: stay between.
     const double period = 2 * std::numbers::pi / turns_alike_;
     const Vec3& up = model_.stone.up;
@@ -136,7 +136,7 @@ glm::dmat3 OtherWorlds::wrong_pose(Chance& chance) const {
            rotation_about(up, azimuth);
 }
 
-glm::dmat3 OtherWorlds::unsure_view(Chance& chance) const {
+glm::dmat3 Alternatives::unsure_view(Chance& chance) const {
     const EyePlace eye = eye_of(stone_view(model_.camera, middle_));
     const Vec3 sight = glm::normalize(eye.parallel ? eye.place : eye.place - middle_);
     const Vec3 away = std::abs(sight.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
@@ -145,7 +145,7 @@ glm::dmat3 OtherWorlds::unsure_view(Chance& chance) const {
     return rotation_by(a * u + b * v);
 }
 
-void OtherWorlds::make_wrong(Scene& scene, int which, Chance& chance) const {
+void Alternatives::make_wrong(Scene& scene, int which, Chance& chance) const {
     Stone& stone = scene.stone;
 
     const Material& material = model_.stone.material;
@@ -177,7 +177,7 @@ void OtherWorlds::make_wrong(Scene& scene, int which, Chance& chance) const {
     }
 }
 
-Scene OtherWorlds::scene_of(const WorldDraw& job) const {
+Scene Alternatives::scene_of(const WorldDraw& job) const {
     Scene scene = model_;
     Chance chance(seed_of(job.seed, 7, 0));
     Stone& stone = scene.stone;
