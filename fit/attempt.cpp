@@ -21,12 +21,12 @@ namespace culet {
 
 namespace {
 
-// From an earlier result, where it leads to an end; else from the starts.
+// Continues from an earlier result if that leads to a local minimum, else tries the starts.
 Multistart search(const FitModel& model, const FitOptions& options, const Progress& progress) {
     if (const auto shape = options.start ? shape_of(model, *options.start) : std::nullopt) {
         Multistart again;
         again.best = refit_from(model, *shape, options.iterations);
-        // Outlines have led to the stone already: other starts would lead to none.
+        // Outlines have already led to the stone; no other start does better.
         if (again.best.is_local_minimum() || model.has_outlines()) return again;
     }
     return fit_from_starts(model, options, progress);
@@ -62,8 +62,8 @@ bool asks_for_evidence(const FitModel& model, const FitOptions& options) {
            !options.free_corners && !model.has_outlines();
 }
 
-// Beside a prior nothing else would contradict exact meets: they would pull planes off good
-// readings. The model and the stone that the readings make likelier.
+// Beside a prior nothing would contradict exact meets, which would then pull planes off good
+// readings. Replaces the model and the stone by the alternative that the readings make likelier.
 void decide_meets(const Problem& problem, FitOptions& options, std::optional<FitModel>& model,
                   Candidate& best) {
     if (!best.is_local_minimum() || !asks_for_evidence(*model, options)) return;

@@ -1,5 +1,5 @@
 #pragma once
-// One fit of a problem as it stands. Private to the room.
+// Fits one problem as it stands, without trying hypotheses about its readings. Private to the room.
 
 #include "fit/hypotheses/problem.h"
 #include "stone/progress/progress.h"

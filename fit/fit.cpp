@@ -38,7 +38,7 @@ namespace {
 FitResult solved(const Problem& given, std::span<const Hypothesis> hypotheses,
                  const Progress& progress);
 
-// By the same measure: chi-square with what was given, and with what was changed.
+// Compares by one measure: chi-square of the problem as given and as changed.
 void say_what_changed(const std::string& what, const FitResult& given, FitResult& result) {
     if (what.empty()) return;
     const double before = given.statistics.chi2, after = result.statistics.chi2;
@@ -50,8 +50,8 @@ void say_what_changed(const std::string& what, const FitResult& given, FitResult
     result.message += "; " + note;
 }
 
-// The result under the first hypothesis that explains what the first attempt does not; each is
-// tried with those after it in the list.
+// Returns the result under the first hypothesis that explains what the first attempt does not. Each
+// hypothesis is tried together with those after it in the list.
 std::optional<FitResult> explained(const Problem& given, const Attempt& first,
                                    std::span<const Hypothesis> hypotheses,
                                    const Progress& progress) {
@@ -126,12 +126,12 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const auto begin = std::chrono::steady_clock::now();
     StopsHeeded stops(progress);
     Problem given{stone, readings, options};
-    given.stone.changed.clear();  // listed once, in the end
+    given.stone.changed.clear();  // listed once, at the end
     if (has_outlines(readings)) prepare_for_outlines(stone, given.options);
-    // What a photograph tells leads away from the mesh's corners, as a stone's planes do.
+    // Like outlines, photographs move planes away from the mesh's corners.
     if (has_photographs(readings) && !options.meets_named)
         given.options = with_free_corners(stone, given.options);
-    // A change of the topology goes by what was found out.
+    // Changes of the topology are chosen from the findings.
     given.options.findings = options.findings || options.allow_topology;
     const bool asks = options.first_check || options.prior.source != Prior::Source::none;
     given.read_in_full = !asks || readings_hold_all(stone, readings, options);
@@ -147,7 +147,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const bool is_design = options.prior.source == Prior::Source::catalogue;
     result.findings.named_tiers =
         tier_findings(stone, readings, result.findings.suspects, is_design);
-    // As they were asked for; the prior as it was used.
+    // Report the options as asked for, but the prior and the meets as used.
     const FitOptions used = result.log.options;
     result.log.options = options;
     result.log.options.prior = used.prior;

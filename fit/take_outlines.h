@@ -1,6 +1,6 @@
 #pragma once
-// The [[silhouette]] tables of a stone in its fit: the outlines move the mesh first, and what they
-// tell of its planes is then weighed against all other readings. Private to the room.
+// Takes a stone's [[silhouette]] tables into its fit. The outlines first move the mesh; what they
+// tell of its planes is then weighted like all other readings. Private to the room.
 
 #include <string>
 #include <vector>
@@ -12,35 +12,36 @@
 
 namespace culet {
 
-/// Outlines in the mesh's frame turn with the mesh (Stone::file_up).
+/// Turns outlines given in the file's frame as the mesh was turned (Stone::file_up).
 std::vector<WrittenReading> outlines_turned(const Vec3& file_up,
                                             std::vector<WrittenReading> written);
 
 struct TakenOutlines {
-    Stone stone;                    ///< the mesh as the outlines show it
-    std::vector<Reading> readings;  ///< of kind silhouette; empty: there are no outlines
+    Stone stone;                    ///< the mesh, fitted to the outlines
+    std::vector<Reading> readings;  ///< of kind silhouette; empty without outlines
     std::vector<std::string> notes;
 };
-/// Of the written readings those with outlines. Throws InputError for corners of the mesh that are
-/// named by number, which outlines move and part.
+/// Takes those of the written readings that have outlines. Throws InputError for corners of the
+/// mesh that are named by number: outlines move and split them.
 TakenOutlines take_outlines(const Stone& mesh, const std::vector<WrittenReading>& written);
 
-/// Appends them to the other readings of the stone. Throws InputError for an id that is taken.
+/// Appends them to the stone's other readings. Throws InputError when an id is taken.
 void add_outlines(TakenOutlines taken, std::vector<Reading>& readings,
                   std::vector<std::string>& notes);
 
 bool has_outlines(const std::vector<Reading>& readings);
 bool has_photographs(const std::vector<Reading>& readings);
 
-/// Each plane lies where it is known to be, and meets are as they come: so beside outlines and
-/// photographs. The fit goes on from `stone`, unless it has a start.
+/// For readings of outlines and photographs, which locate each plane: meets are released, and the
+/// fit starts from `stone` unless the options have a start.
 FitOptions with_free_corners(const Stone& stone, FitOptions options);
 
-/// The fit goes on from the stone of the outlines, whose corners are where its planes meet. Throws
-/// InputError when its options ask for meets of the mesh.
+/// Starts the fit from the stone of the outlines, with released meets. Throws InputError when the
+/// options ask for other meets.
 void prepare_for_outlines(const Stone& stone, FitOptions& options);
 
-/// How far the outlines lie from the fitted stone; and whether by more than they are said to.
+/// Reports how far the outlines lie from the fitted stone, and marks the result contradictory when
+/// that is more than their sigma allows.
 void describe_outlines(const std::vector<Reading>& readings, FitResult& result);
 
 }  // namespace culet

@@ -7,7 +7,7 @@ namespace culet {
 
 namespace {
 
-// Of the diameter, and of a degree: no caliper and no goniometer tells so little.
+// Parts of the diameter, and degrees: below what calipers and goniometers resolve.
 constexpr double k_no_width = 1e-5, k_one_plane_deg = 1e-3;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Which parts of a stone whose facets and meets could not be brought together stand in the way.
-// Private to the room.
+// Finds the degenerate parts of a stone whose facets and meets could not be reconciled. Private to
+// the room.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace culet {
 
-/// By name, in the solid's order.
+/// Names, in the solid's order.
 struct ComeToNothing {
-    std::vector<std::string> facets;  ///< narrower than a hundred-thousandth of the diameter
-    /// `A|B`: neighbours within 0.001 degrees of one plane, which have no edge.
+    std::vector<std::string> facets;  ///< narrower than 1e-5 of the diameter
+    /// `A|B`: neighbours within 0.001 degrees of one plane, whose edge is undefined.
     std::vector<std::string> edges;
 };
 ComeToNothing degenerate_facets(const Solid& solid);

@@ -1,4 +1,4 @@
-// Names that run round the other way than they are drawn.
+// Detects names that run round the other way than drawn, and mirrors the mesh.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,12 +12,13 @@ namespace culet {
 
 std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
                                           const std::vector<Reading>& readings) {
-    // Azimuths read less those drawn agree up to one turn, or their sums do: mean directions.
+    // The azimuths read minus (or, if mirrored, plus) those drawn share one turn: compare the mean
+    // resultant lengths.
     const PlanFrame frame = plan_frame(up_of(stone));
     double ways[2][2] = {{0, 0}, {0, 0}};
     int count = 0;
     for (const Reading& r : readings) {
-        // Outlines and photographs have shown which way round it is.
+        // Outlines and photographs have already shown the handedness.
         if (r.told || r.photograph) return std::nullopt;
         if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
         const Vec3& n = stone.solid.facets[r.facets[0]].plane.normal;

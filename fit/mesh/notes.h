@@ -1,5 +1,5 @@
 #pragma once
-// What the fit had to do to the mesh before its readings suited it. Private to the room.
+// Notes on what the fit changed in the mesh to suit the readings. Private to the room.
 
 #include <string>
 
@@ -7,10 +7,11 @@
 
 namespace culet {
 
-/// Azimuths are said to count from the mesh, and count from elsewhere; empty where they do not.
+/// Says that azimuths declared to count from the mesh count from elsewhere; empty where they do
+/// not.
 std::string other_turn(const FitModel& model);
 
-/// The mesh was drawn in another unit, most likely; empty where it was not.
+/// Says that the mesh was probably drawn in another unit; empty where it was not.
 std::string other_size(const FitModel& model);
 
 }  // namespace culet

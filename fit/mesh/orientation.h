@@ -1,5 +1,5 @@
 #pragma once
-// Which way round the facets of a mesh run. Private to the room.
+// Orients the facets of a mesh. Private to the room.
 
 #include <optional>
 
@@ -7,15 +7,15 @@
 
 namespace culet {
 
-/// The facet's plane from its corners as they are now.
+/// Recomputes the facet's plane from its corners.
 void renew_plane(Solid& solid, Facet& facet);
 
-/// Turns facets so that neighbours run along their common side in opposite ways and the whole faces
-/// outwards. How many were turned; nothing when some side is not of two facets, the mesh does not
-/// hang together, or no turning helps.
+/// Turns facets so that neighbours traverse their common side in opposite directions and the whole
+/// faces outwards. Returns how many were turned; nothing when a side does not belong to two facets,
+/// the mesh is not connected, or no turning helps.
 std::optional<int> orient(Solid& solid);
 
-/// Every facet the other way round.
+/// Reverses every facet.
 void turn_round(Solid& solid);
 
 }  // namespace culet

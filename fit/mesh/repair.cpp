@@ -20,16 +20,16 @@ namespace culet {
 
 namespace {
 
-// Pieces of one facet that a hand drew with slightly different planes.
+// Largest tilt between hand-drawn pieces of one facet.
 constexpr double k_piece_tilt_deg = 15;
-// A polygon cut into triangles is warped as far as its corners are off. One whose name is read, and
-// its pieces' are not, is one facet.
+// A polygon cut into triangles is warped by its corners' errors. It is one facet if its name is
+// read and its pieces' names are not.
 constexpr double k_triangle_tilt_deg = 40;
-// Of the diameter: pieces less wide, and less out of one plane, may face anywhere.
+// Parts of the diameter: pieces narrower than this, and flatter, may face anywhere.
 constexpr double k_narrow = 0.02;
-// Welding looks at all pairs of corners.
+// Welding compares all pairs of corners.
 constexpr std::size_t k_most_corners = 8000;
-// Corners further apart than this part of the diameter are not meant as one.
+// Corners further apart than this part of the diameter are distinct.
 constexpr double k_weld = 0.25;
 
 void drop_unused(Solid& solid) {
@@ -52,7 +52,7 @@ struct NearPair {
     int one, other;
 };
 
-// Corners of facets that lie near each other, the nearest pair first.
+// Pairs of nearby corners that facets use, the nearest first.
 std::vector<NearPair> near_pairs(const Solid& solid, const std::vector<std::set<int>>& facets) {
     std::vector<NearPair> pairs;
     const double limit = k_weld * diameter(solid);
@@ -69,7 +69,7 @@ std::vector<NearPair> near_pairs(const Solid& solid, const std::vector<std::set<
     return pairs;
 }
 
-// Kruskal (1956) with the rule that no facet has a corner twice.
+// Kruskal (1956), with the rule that no facet has a corner twice.
 std::optional<Solid> welded(const Solid& solid) {
     const int count = static_cast<int>(solid.vertices.size());
     if (solid.vertices.size() > k_most_corners) return std::nullopt;
@@ -126,8 +126,8 @@ std::string base_name(const std::string& name) {
                                                                               : name;
 }
 
-// Pieces so narrow that a rough mesh does not tell which way they face: they lie in one plane as
-// far as it tells.
+// Whether the pieces are so narrow that a rough mesh does not show which way they face, and lie in
+// one plane within its error.
 bool lie_flat(const Solid& solid, const std::vector<int>& pieces, const Vec3& normal, double size) {
     double low = 1e300, high = -1e300, longest = 0;
     for (const int f : pieces) {
@@ -147,7 +147,7 @@ bool lie_flat(const Solid& solid, const std::vector<int>& pieces, const Vec3& no
     return high - low < k_narrow * size && high - low < 0.1 * longest;
 }
 
-// The one outline of several facets, or nothing.
+// The single outline of several facets, or empty.
 std::vector<int> outline_of(const Solid& solid, const std::vector<int>& pieces) {
     std::set<std::pair<int, int>> sides;
     for (int f : pieces) {
@@ -173,7 +173,7 @@ std::vector<int> outline_of(const Solid& solid, const std::vector<int>& pieces) 
     return loop.size() == next.size() ? loop : std::vector<int>();
 }
 
-// Facets in pieces, each made one; their names.
+// Joins the pieces of facets, and returns the facets' names.
 std::vector<std::string> join_pieces(Solid& solid, const std::set<std::string>& read) {
     std::map<std::string, std::vector<int>> groups;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -184,7 +184,7 @@ std::vector<std::string> join_pieces(Solid& solid, const std::set<std::string>& 
     const double size = diameter(solid);
     for (const auto& [name, pieces] : groups) {
         if (pieces.size() < 2 || solid.facets[pieces[0]].name != name) continue;
-        // Who reads NAME.1 means a facet of its own.
+        // A reading of NAME.1 means a separate facet.
         if (std::any_of(pieces.begin() + 1, pieces.end(),
                         [&](int f) { return read.count(solid.facets[f].name) > 0; })) {
             continue;
@@ -194,7 +194,7 @@ std::vector<std::string> join_pieces(Solid& solid, const std::set<std::string>& 
         if (!(glm::length(mean) > 0)) continue;
         mean = glm::normalize(mean);
         const std::vector<int> outline = outline_of(solid, pieces);
-        // A polygon cut into triangles between its own corners, or pieces of a facet.
+        // The pieces are triangles of one polygon.
         const bool cut = outline.size() == pieces.size() + 2 && read.count(name) > 0;
         const double limit = std::cos(radians(cut ? k_triangle_tilt_deg : k_piece_tilt_deg));
         const bool alike = std::all_of(pieces.begin(), pieces.end(), [&](int f) {
@@ -212,7 +212,7 @@ std::vector<std::string> join_pieces(Solid& solid, const std::set<std::string>& 
         if (gone.count(static_cast<int>(f)) == 0) left.push_back(std::move(solid.facets[f]));
     }
     solid.facets = std::move(left);
-    // A corner of two facets only is no corner.
+    // A corner that only two facets share is no corner.
     std::vector<int> uses(solid.vertices.size(), 0);
     for (const Facet& facet : solid.facets) {
         for (int corner : facet.corners) ++uses[corner];

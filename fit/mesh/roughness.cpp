@@ -8,7 +8,7 @@ namespace culet {
 
 std::optional<MeshRoughness> MeshRoughness::of(const FitModel& model) {
     const Shape& mesh = model.mesh_shape();
-    // Of k corners k - 3 show how far they lie off a plane.
+    // A facet with k corners has k - 3 redundant ones.
     double squares = 0, redundancy = 0;
     for (std::size_t f = 0; f < mesh.normals.size(); ++f) {
         const std::vector<int>& loop = model.mesh_outline()->loops[f];
@@ -25,7 +25,7 @@ std::optional<MeshRoughness> MeshRoughness::of(const FitModel& model) {
 
 double MeshRoughness::tilt(int facet) const {
     const Vec3& n = model_->mesh_shape().normals[std::size_t(facet)];
-    // A level facet has no way down: any will do.
+    // A level facet has no downward direction: take any.
     const Vec3 across =
         std::hypot(n.x, n.y) > 0 ? glm::normalize(Vec3{-n.y, n.x, 0}) : Vec3{1, 0, 0};
     const Vec3 down = glm::cross(n, across);
@@ -36,7 +36,7 @@ double MeshRoughness::tilt(int facet) const {
         acrosses += a * a;
         both += d * a;
     }
-    // Of a plane laid through the corners by least squares.
+    // Standard error of the tilt of a least-squares plane through the corners.
     const double determinant = downs * acrosses - both * both;
     return determinant > 0 ? corner_ * std::sqrt(acrosses / determinant)
                            : std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 #pragma once
-// How far the corners of a hand-made mesh lie off the planes of their facets, and so how surely it
-// says which way a facet faces. In half diameters and radians. Private to the room.
+// How far the corners of a hand-made mesh lie off their facets' planes, and so how reliably it
+// shows which way a facet faces. Half diameters and radians. Private to the room.
 
 #include <optional>
 #include <vector>
@@ -11,15 +11,14 @@ namespace culet {
 
 class MeshRoughness {
 public:
-    /// Nothing when no facet has more than three corners: none of them shows that it is off.
+    /// Nothing when all facets are triangles, which show no error.
     static std::optional<MeshRoughness> of(const FitModel& model);
 
-    /// Of a corner, across its facet: the root of the mean square over all corners beyond three of
-    /// each facet.
+    /// Error of a corner across its facet: root mean square over the corners beyond three of each
+    /// facet.
     double corner() const { return corner_; }
-    /// Of a facet's inclination alone, by its corners' errors and how far they reach up and down:
-    /// slender facets are told well along, badly across. Infinite where its corners are all in
-    /// line.
+    /// Error of a facet's inclination, from its corners' errors and their extent up and down: a
+    /// slender facet tilts little along and much across. Infinite where its corners are collinear.
     double tilt(int facet) const;
 
 private:

@@ -1,4 +1,4 @@
-// What angles should have been.
+// Expected values of angles.
 
 #include "fit/model/residuals.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 using By = Quantity::By;
 
-// Angle between unit vectors, folded to 0..pi/2, and its slopes. Both atan2 arguments keep full
-// precision near 0 and near pi/2. Where the vectors are parallel the slope is taken as zero.
+// Acute angle between unit vectors, 0..pi/2, and its slopes. Both arguments of atan2 keep full
+// precision near 0 and near pi/2. The slope is set to zero for parallel vectors.
 struct AcuteAngle {
     double value;
     Vec3 by_a, by_b;
@@ -123,7 +123,7 @@ Formula tilt_from_plane(int facet, std::vector<Corner> corners) {
         q.add(By::normal, facet, angle.by_a);
         const Vec3 back = least.pseudo_inverse * angle.by_b;
         for (const Corner& c : corners) {
-            // The mean's own motion drops out: the r sum to zero.
+            // The mean's own derivative drops out: the r sum to zero.
             const Vec3 r = place_of(shape, c) - mean;
             add_corner(q, shape, c,
                        -(back * glm::dot(r, least.vector) + least.vector * glm::dot(r, back)));

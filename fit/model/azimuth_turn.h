@@ -1,5 +1,5 @@
 #pragma once
-// How far the azimuths read stand turned against a shape.
+// Finds the turn between the azimuths read and those of a shape.
 
 #include <functional>
 #include <vector>
@@ -8,11 +8,13 @@
 
 namespace culet {
 
-/// The turn about up, in radians, after which the normals' azimuths agree best with those read: the
-/// mean direction of their differences. 0 where none was read. With `zero_is_meshs` they were said
-/// to count from where the shape's do: 0 also where the mean direction is not five of its standard
-/// errors away, sqrt((1 - R2) / 2n) / R with the mean resultant lengths R and, about the mean and
-/// of doubled angles, R2 (Fisher 1993, 4.4.4). A rough drawing's facets are turned by chance.
+/// Returns the turn about up, in radians, that best brings the normals' azimuths to those read: the
+/// mean direction of the differences. 0 when none was read.
+///
+/// With `zero_is_meshs` the azimuths were said to count from where the shape's do. The turn is then
+/// also 0 unless it exceeds five of its standard errors, because a rough drawing's facets are
+/// turned by chance. The standard error is sqrt((1 - R2) / 2n) / R, with the mean resultant lengths
+/// R and, of doubled angles about the mean, R2 (Fisher 1993, 4.4.4).
 double azimuth_turn(const std::vector<Reading>& readings,
                     const std::function<Vec3(int facet)>& normal_of, bool zero_is_meshs);
 

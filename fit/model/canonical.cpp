@@ -1,8 +1,8 @@
-// By circles that touch (Bobenko & Springborn 2004, section on circle patterns with orthogonal
-// circles): a circle for each vertex and each facet; circles of neighbouring vertices touch at the
-// edge's point, so do those of neighbouring facets, and the two pairs cross at right angles. With
-// one edge's point at infinity its four circles are lines, and the logarithms u of the other radii
-// minimise a convex function:
+// Uses circle patterns (Bobenko & Springborn 2004, section on orthogonal circles): one circle for
+// each vertex and each facet. The circles of neighbouring vertices touch at the edge's point, as do
+// those of neighbouring facets; the two pairs cross there at right angles. With one edge's point at
+// infinity its four circles are lines, and the logarithms u of the other radii minimise a convex
+// function whose gradient vanishes where
 //
 //     sum over crossing circles j of 2 atan(exp(u_j - u_i)) = 2 pi - pi (number of crossing lines)
 
@@ -31,7 +31,7 @@ constexpr double k_pi = std::numbers::pi;
 // Circles are numbered: vertices, then facets.
 struct Pattern {
     int vertices = 0, circles = 0;
-    std::vector<std::vector<int>> crossing;  // in turn
+    std::vector<std::vector<int>> crossing;  // in cyclic order
     std::vector<std::vector<int>> between;   // between[i][k]: edge between crossing k and k + 1
     std::vector<bool> is_line;
 };
@@ -43,7 +43,7 @@ Pattern pattern_of(const Solid& solid, const HalfEdges& half, int infinite) {
     pattern.crossing.resize(std::size_t(pattern.circles));
     pattern.between.resize(std::size_t(pattern.circles));
     pattern.is_line.assign(std::size_t(pattern.circles), false);
-    std::map<std::pair<int, int>, int> edge_of;  // by its ends, either way; and by its facets
+    std::map<std::pair<int, int>, int> edge_of;  // by its ends, in either direction
     std::map<std::pair<int, int>, int> edge_of_facets;
     for (std::size_t e = 0; e < half.edges.size(); ++e) {
         const Edge& edge = half.edges[e];
@@ -74,14 +74,14 @@ Pattern pattern_of(const Solid& solid, const HalfEdges& half, int infinite) {
     return pattern;
 }
 
-// Newton's method; nothing when the pattern cannot be drawn.
-// Of the same sum: its Hessian at `at`. `index`: the unknown of each circle, -1 for lines.
+// Sets the Hessian of the convex function at `at`. `index`: the unknown of each circle, -1 for
+// lines.
 void set_hessian(const Pattern& pattern, const std::vector<int>& index,
                  const std::vector<double>& at, Eigen::SparseMatrix<double>& hessian) {
     std::vector<Eigen::Triplet<double>> entries;
     for (int i = 0; i < pattern.circles; ++i) {
         if (index[i] < 0) continue;
-        // One circle's size is free: the drawing has no scale.
+        // Fix one circle's size: the pattern has no scale.
         double sum = index[i] == 0 ? 1.0 : 1e-14;
         for (int j : pattern.crossing[i]) {
             if (pattern.is_line[j]) continue;
@@ -94,6 +94,7 @@ void set_hessian(const Pattern& pattern, const std::vector<int>& index,
     hessian.setFromTriplets(entries.begin(), entries.end());
 }
 
+// Minimises it by Newton's method; nothing when the pattern cannot be drawn.
 std::optional<std::vector<double>> log_radii(const Pattern& pattern) {
     std::vector<int> index(std::size_t(pattern.circles), -1);
     int count = 0;
@@ -145,12 +146,12 @@ std::optional<std::vector<double>> log_radii(const Pattern& pattern) {
     return std::nullopt;
 }
 
-// The touching points of all edges but the one at infinity.
+// Returns the touching points of all edges but the one at infinity.
 std::optional<std::vector<Complex>> drawn(const Pattern& pattern, const std::vector<double>& u,
                                           std::size_t edges, int infinite) {
     std::vector<Complex> point(edges), centre(std::size_t(pattern.circles));
     std::vector<bool> known(edges, false), placed(std::size_t(pattern.circles), false);
-    // The direction in which a placed circle sees one of the circles that cross it.
+    // A crossing circle of each placed circle, and the direction in which it sees it.
     std::vector<std::pair<int, double>> seen(std::size_t(pattern.circles));
     int first = -1;
     double largest = -1e300;
@@ -197,8 +198,8 @@ std::optional<std::vector<Complex>> drawn(const Pattern& pattern, const std::vec
     return point;
 }
 
-// Moebius maps of the ball that bring the mean of points on the sphere to its middle. Newton's
-// method: mapping a to the middle moves p by -2 (a - (a.p) p), to first order.
+// Moves the mean of points on the sphere to its centre by Moebius maps of the ball. Newton's
+// method: to first order, mapping a to the centre moves p by -2 (a - (a.p) p).
 bool centre_on_sphere(std::vector<Vec3>& points) {
     const double share = 1 / static_cast<double>(points.size());
     for (int round = 0; round < 200; ++round) {
@@ -222,7 +223,7 @@ bool centre_on_sphere(std::vector<Vec3>& points) {
     return false;
 }
 
-// The edge between the facets with most corners: its four circles are large in any drawing.
+// The edge between the facets with most corners: its four circles are large in any pattern.
 int edge_at_infinity(const Solid& solid, const HalfEdges& half) {
     int infinite = 0;
     std::size_t most = 0;
@@ -237,7 +238,7 @@ int edge_at_infinity(const Solid& solid, const HalfEdges& half) {
     return infinite;
 }
 
-// Onto the sphere by stereographic projection; the edge at infinity touches at the pole.
+// Maps onto the sphere by stereographic projection; the edge at infinity touches at the pole.
 std::vector<Vec3> on_sphere(const std::vector<Complex>& flat, int infinite) {
     Complex mean(0, 0);
     for (const Complex& z : flat) mean += z / double(flat.size());
@@ -248,7 +249,7 @@ std::vector<Vec3> on_sphere(const std::vector<Complex>& flat, int infinite) {
     for (std::size_t e = 0; e < flat.size(); ++e) {
         const Complex z = (flat[e] - mean) * scale;
         const double r2 = std::norm(z);
-        // Seen from outside, the sphere's drawing from its pole is turned over: y changes sign.
+        // y changes sign because the pattern is seen from outside the sphere.
         touch.push_back(static_cast<int>(e) == infinite
                             ? Vec3{0, 0, 1}
                             : Vec3{2 * z.real(), -2 * z.imag(), r2 - 1} / (r2 + 1));

@@ -1,8 +1,8 @@
 #pragma once
-// The canonical polyhedron of a solid's facets and meets: the one whose edges all touch the unit
-// sphere, with the mean of the touching points in its middle. Every solid whose facets meet as
-// those of a convex one has exactly one (Koebe, Andreev, Thurston; Springborn 2005), with all the
-// symmetry that who meets whom allows. It owes nothing to where the mesh's corners lie.
+// The canonical polyhedron of a solid's topology: its edges all touch the unit sphere, and the mean
+// of the touching points is the centre. Every solid with the topology of a convex one has exactly
+// one (Koebe, Andreev, Thurston; Springborn 2005), with all the symmetry that the topology allows.
+// It does not depend on the positions of the mesh's corners.
 
 #include <optional>
 
@@ -12,13 +12,13 @@
 
 namespace culet {
 
-/// Normals, offsets and points in the solid's order; no extras. Nothing when the facets do not meet
-/// as those of a convex solid (two facets that share two edges, say).
+/// Returns normals, offsets and points in the solid's order, without extras. Nothing when the
+/// topology is not that of a convex solid (two facets share two edges, say).
 std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& edges);
 
-/// Whether the corners lie as in a mirror, or the facets run clockwise seen from outside: the
-/// canonical polyhedron would have to be mirrored to lie nearest to the mesh. Unlike the sign of
-/// the volume this is no matter of a few wild corners. False when there is no canonical polyhedron.
+/// Whether the mesh is a mirror image or its facets run clockwise seen from outside: the canonical
+/// polyhedron fits it better when mirrored. Unlike the sign of the volume, this does not depend on
+/// a few wild corners. Without a canonical polyhedron the sign of the volume decides.
 bool lies_mirrored(const Solid& solid, const HalfEdges& edges);
 
 }  // namespace culet

@@ -11,7 +11,7 @@ struct FrameConstants {
     double snap_deg = 20;
     /// Facets within this of upright belong to the girdle; crown and pavilion facets stay far away.
     double girdle_tilt_deg = 10;
-    int width_directions = 36;  ///< in which a width in plan is looked for: every 5 degrees
+    int width_directions = 36;  ///< searched for the greatest width in plan: every 5 degrees
     /// Standard errors. The mesh is turned only by a difference that exceeds this many.
     double sure_turn = 5;
     /// With fewer differences their scatter is unknown.
@@ -29,7 +29,8 @@ struct ShapeConstants {
     double tight = 1e6;
     /// Weight in the metric of a released meet's point, relative to other points.
     double loose_point = 0.08;
-    /// Exact meets show as edges as long as rounding; real edges are far longer than this.
+    /// Exact meets show up as edges of about the rounding error; real edges are far longer than
+    /// this.
     double rounding_edge = 1e-10;
     /// Sigma of released incidences: planes come apart this far before the meet's point lags.
     double released_sigma = 0.2;

@@ -39,7 +39,7 @@ Eigen::MatrixXd datum_defect(const Linearised& linear) {
 
 Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd& information,
                         const Eigen::VectorXd& metric) {
-    // The variance that is left of each unknown, over what the mesh leaves.
+    // Remaining variance of each unknown, relative to the mesh's.
     Eigen::VectorXd left = Eigen::VectorXd::Zero(metric.size());
     Eigen::Index open = directions.cols();
     for (; open > 0; --open) {

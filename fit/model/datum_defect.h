@@ -1,6 +1,6 @@
 #pragma once
-// Motions of the whole stone that no reading sees, and what else is undetermined. Private to the
-// room: shows Eigen.
+// The gauge freedoms of a fit (motions of the whole stone that no reading sees) and its other
+// unobservable directions. Private to the room: shows Eigen.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -9,14 +9,15 @@
 
 namespace culet {
 
-/// Orthonormal in the metric, one a column. The turn about up is one of them also where readings
-/// see it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's
-/// shape.
+/// Returns the gauge freedoms, orthonormal in the metric, one a column. The turn about up counts as
+/// one also where readings see it (widths along azimuths) but hold it less than twice as tightly as
+/// the mesh: it is no freedom of the stone's shape.
 Eigen::MatrixXd datum_defect(const Linearised& linear);
 
-/// How many of these directions are open, the loosest first: as many as it takes until the others
-/// together leave no unknown half as uncertain as the mesh does. `directions`: orthonormal in the
-/// metric, all there are, one a column; `information`: what the readings say of each, increasing.
+/// Returns the number of unobservable directions, the weakest first: as many as are needed until
+/// the others together leave each unknown less than half as uncertain as the mesh does.
+/// `directions`: all, orthonormal in the metric, one a column. `information`: of the readings on
+/// each, increasing.
 Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd& information,
                         const Eigen::VectorXd& metric);
 

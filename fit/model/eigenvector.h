@@ -1,5 +1,5 @@
 #pragma once
-// The direction of least scatter, and how it turns when the scatter changes.
+// The direction of least scatter, and its derivative by the scatter matrix.
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -8,11 +8,11 @@ namespace culet {
 
 struct LeastEigenvector {
     glm::dvec3 vector{0, 0, 1};      ///< unit; z >= 0
-    glm::dmat3 pseudo_inverse{0.0};  ///< of S - l, so that d(vector) = -(S - l)^+ dS vector
+    glm::dmat3 pseudo_inverse{0.0};  ///< of S - l: d(vector) = -(S - l)^+ dS vector
 };
 
-/// Of a symmetric matrix. When the least eigenvalue is repeated the direction is arbitrary and the
-/// pseudo-inverse leaves that plane out.
+/// Takes a symmetric matrix. If the least eigenvalue is repeated, the direction is arbitrary and
+/// the pseudo-inverse omits the eigenspace.
 LeastEigenvector least_eigenvector(const glm::dmat3& symmetric);
 
 }  // namespace culet

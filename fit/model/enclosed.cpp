@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// The three of these planes that cross most squarely.
+// The three of these planes that cross most nearly at right angles.
 std::array<int, 3> squarest(const Shape& shape, const std::vector<int>& planes) {
     std::array<int, 3> best{planes[0], planes[1], planes[2]};
     double most = -1;
@@ -68,7 +68,7 @@ Enclosed enclosed_by(const FitModel& model, const Shape& shape) {
         if (!present[f]) result.missing.push_back(planes[f].name);
     }
 
-    // Points whose every incidence is exact stand for themselves.
+    // A corner at a point whose incidences are all exact is that point.
     std::vector<bool> exact(shape.points.size(), true);
     for (const Incidence& incidence : model.meets().incidences) {
         if (incidence.how != MeetTreatment::exact) exact[incidence.point] = false;

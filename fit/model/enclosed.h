@@ -1,5 +1,5 @@
 #pragma once
-// The solid that a shape's planes enclose, and its corners in terms of the unknowns.
+// The solid that a shape's planes enclose, with its corners as functions of the unknowns.
 
 #include <memory>
 #include <string>
@@ -13,16 +13,16 @@ namespace culet {
 struct Enclosed {
     Solid solid;
     std::shared_ptr<const Outline> outline;
-    bool closed = false;               ///< false: the planes do not close
-    std::vector<std::string> missing;  ///< facets that have no part in the solid
+    bool closed = false;               ///< false: the planes enclose no bounded solid
+    std::vector<std::string> missing;  ///< facets that are not part of the solid
 };
 Enclosed enclosed_by(const FitModel& model, const Shape& shape);
 
-/// The solid of the mesh's own facets and the shape's points.
+/// Returns the solid of the mesh's facets and the shape's points.
 Solid met_solid(const FitModel& model, const Shape& shape);
 
-/// Facets, and the corners of their neighbours, which stay below them: in order. None of a stone
-/// that need not be convex.
+/// Returns the hinges, sorted: pairs of a facet and a neighbour's corner that must stay below it.
+/// Empty for a stone that need not be convex.
 std::vector<std::pair<int, int>> hinges_of(const FitModel& model);
 
 }  // namespace culet

@@ -1,4 +1,4 @@
-// From readings to equations, for the corners that carry them at a given shape.
+// Lists all equations of a fit: the frame's, the incidences and those of the readings.
 
 #include <algorithm>
 #include <iterator>
@@ -12,7 +12,7 @@ std::vector<Equation> all_equations(const FitModel& model, const Shape& shape,
     const Meets& meets = model.meets();
     const int up_facet = model.frame().up_facet();
     std::vector<Equation> all;
-    // The up facet is horizontal: that is what the frame means.
+    // The frame is defined by the up facet being level.
     if (up_facet >= 0) {
         for (int k = 0; k < 2; ++k) {
             Equation e;

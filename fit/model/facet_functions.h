@@ -1,6 +1,6 @@
 #pragma once
-// A facet's inclination, azimuth and distance from the middle as linear functions of the unknowns.
-// Private to the room: shows Eigen.
+// A facet's inclination, azimuth and distance from the middle, linearised in the unknowns. Private
+// to the room: shows Eigen.
 
 #include <array>
 
@@ -10,7 +10,7 @@
 namespace culet {
 
 /// Inclination and azimuth in radians, offset in half diameters from `middle`. The azimuth of a
-/// level facet has no function: all zero.
+/// level facet is undefined: its row is zero.
 std::array<FunctionRow, 3> facet_functions(const Shape& shape, int f, const Layout& layout,
                                            const Vec3& middle);
 

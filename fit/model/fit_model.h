@@ -1,7 +1,7 @@
 #pragma once
-// The model of one fit: the mesh in the frame of the fit, the readings as they count, and what they
-// bind: meets, symmetries, the prior and the planes that outlines know. equations.h writes them
-// out.
+// The model of one fit: the mesh in the fit's frame, the readings with their effective sigmas,
+// meets, symmetries, the prior and the planes known from outlines. equations.h makes equations of
+// it.
 
 #include <memory>
 #include <utility>
@@ -25,14 +25,14 @@ public:
     const Stone& stone() const { return stone_; }
     const Frame& frame() const { return frame_; }
     const HalfEdges& edges() const { return edges_; }
-    /// The mesh as it starts, and its corners.
+    /// The mesh at the start, and its corners.
     const Shape& mesh_shape() const { return mesh_shape_; }
     const std::shared_ptr<const Outline>& mesh_outline() const { return mesh_outline_; }
     Layout layout() const { return layout_of(mesh_shape_); }
 
-    /// With the sigmas with which they count.
+    /// With their effective sigmas.
     const std::vector<Reading>& readings() const { return readings_; }
-    /// Readings of one quantity, which share an equation: their indices.
+    /// Indices of readings of one quantity, which share an equation.
     const std::vector<std::vector<int>>& replicated() const { return replicated_; }
     const Meets& meets() const { return meets_; }
     const Symmetries& symmetries() const { return symmetries_; }
@@ -45,11 +45,11 @@ public:
     Parameters parameters() const { return symmetries_.parameters(mesh_shape_, frame_.up_facet()); }
 
     void set_group_sigmas(const std::array<double, 2>& sigmas) { meets_.group_sigmas = sigmas; }
-    /// Of a reading from now on, in its unit (robust weights).
+    /// Changes a reading's sigma, in its unit (robust weights).
     void set_reading_sigma(int reading, double sigma) {
         readings_[std::size_t(reading)].sigma = sigma;
     }
-    /// From now on every reading has an equation of its own.
+    /// Gives every reading an equation of its own from now on.
     void keep_replicates_apart() { replicated_.clear(); }
 
 private:

@@ -37,12 +37,12 @@ Frame::Frame(const Stone& stone, const std::vector<Reading>& readings)
 }
 
 double Frame::scale_of_readings(const std::vector<Reading>& readings, const Vec3& up) const {
-    // Outlines have given the mesh its size.
+    // Outlines have already scaled the mesh.
     if (std::any_of(readings.begin(), readings.end(),
                     [](const Reading& r) { return r.told != nullptr; })) {
         return 1;
     }
-    // In logarithms, read over drawn: of the overall lengths, then of single edges too.
+    // Logarithms of read over drawn lengths: first of overall lengths, later of single edges too.
     std::vector<double> logs;
     for (const Reading& r : readings) {
         double mine = 0;
@@ -57,14 +57,14 @@ double Frame::scale_of_readings(const std::vector<Reading>& readings, const Vec3
         if (mine > 0 && r.value > 0) logs.push_back(std::log(r.value / mine));
     }
     const auto [least, most] = std::minmax_element(logs.begin(), logs.end());
-    // Within the errors of a drawing.
+    // Largest error of a drawing.
     const double drawn = std::log(3.0);
     const bool any_overall = !logs.empty();
     if (any_overall && *most - *least < drawn) {
         return std::exp(std::accumulate(logs.begin(), logs.end(), 0.0) / double(logs.size()));
     }
-    // A needle whose table is drawn askew is as wide as it is long: there, and where nothing
-    // overall was read, the middle one of what single lengths say.
+    // A needle whose table is drawn askew may be as wide as it is long. If overall lengths
+    // disagree, or none was read, take the median over single edges too.
     const HalfEdges edges = half_edges(solid_);
     for (const Reading& r : readings) {
         if (r.kind != ReadingKind::edge || r.facets.size() != 2 || !(r.value > 0)) continue;
@@ -77,7 +77,7 @@ double Frame::scale_of_readings(const std::vector<Reading>& readings, const Vec3
     }
     if (logs.empty()) return 1;
     const double middle = upper_median(logs);
-    // The mesh's own size is as good as edges that differ no more than drawings do.
+    // If edges differ from the mesh no more than drawings do, keep the mesh's size.
     return !any_overall && std::abs(middle) < drawn ? 1 : std::exp(middle);
 }
 
@@ -117,7 +117,7 @@ void Frame::bring_upright(const std::vector<Reading>& readings) {
     for (Vec3& v : solid_.vertices) v = inside(v);
     for (Facet& facet : solid_.facets) facet.plane = plane_of(facet);
 
-    // Where the readings' azimuths begin on the mesh: the mean direction of their differences.
+    // Turn the mesh to the readings' azimuths.
     turn_ = azimuth_turn(
         readings, [&](int facet) { return solid_.facets[facet].plane.normal; },
         stone_.azimuth_from_mesh);

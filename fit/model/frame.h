@@ -1,6 +1,6 @@
 #pragma once
-// The frame of the fit ("inside"): the mesh upright, its middle at the origin, half diameter 1; and
-// the way back to the mesh's own frame ("outside").
+// The frame of the fit ("inside"): the mesh upright, its middle at the origin, half diameter 1. And
+// the transformation back to the mesh's own frame ("outside").
 
 #include <vector>
 
@@ -12,43 +12,43 @@ namespace culet {
 
 class Frame {
 public:
-    /// Brings the mesh upright, to half diameter 1 and, when lengths were read, to their scale;
-    /// with azimuths of free zero it is turned until they fit best. Throws InputError.
+    /// Brings the mesh upright, scales it to half diameter 1 and, when lengths were read, to their
+    /// scale. When azimuths have a free zero, turns it to where they fit best. Throws InputError.
     Frame(const Stone& stone, const std::vector<Reading>& readings);
 
     /// The mesh, inside.
     const Solid& solid() const { return solid_; }
     int up_facet() const { return up_facet_; }
-    /// Within 10 degrees of upright in the mesh.
+    /// Whether it is within 10 degrees of upright in the mesh.
     bool is_girdle(int facet) const;
-    /// Of the mesh, the widest in plan.
+    /// Half the mesh's greatest width in plan.
     double half_width() const;
 
-    /// Length of the stone's unit that is 1 inside.
+    /// The stone's unit per unit inside.
     double scale() const { return scale_; }
-    /// By how much the mesh was made larger to suit the lengths read.
+    /// Factor by which the mesh was enlarged to match the lengths read.
     double mesh_scale() const { return mesh_scale_; }
-    /// By how much it was turned about up, to stand as the azimuths read say.
+    /// Turn of the mesh about up, in radians, to match the azimuths read.
     double mesh_turn() const { return turn_; }
-    /// What a quantity of a reading is multiplied by to be in the reading's unit.
+    /// Factor from a quantity inside to the reading's unit.
     double unit_of(const Reading& reading) const;
 
-    /// From the mesh's frame: a direction, and a point.
+    /// Turns a direction of the mesh's frame inside.
     Vec3 inside_direction(const Vec3& direction) const;
-    /// From outlines (which were drawn beside the mesh) or a photograph (of the fitted stone, which
-    /// stands straight).
+    /// Outlines are given in the mesh's frame, a photograph in that of the fitted stone, whose up
+    /// is exactly along an axis.
     enum class From { mesh, fitted };
     glm::dmat3 turn_inside(From from) const;
     const Vec3& middle() const { return middle_; }  ///< of the mesh, in the stone's unit
 
-    /// Turns inside positions back into the stone's unit and the mesh's pose; the rest of the
-    /// motion (a free azimuth, a drift) is chosen so that the points lie nearest to the mesh's.
+    /// Motion from inside to the stone's unit and the mesh's pose. What the readings leave free of
+    /// it (azimuth, drift) brings the points nearest to the mesh's.
     struct Pose {
-        double turn = 0;  ///< about up, from inside to outside: there the readings' azimuth 0 lies
+        double turn = 0;  ///< about up, from inside to outside: where the readings' azimuth 0 lies
         Vec3 shift{0, 0, 0};
     };
     Pose pose_of(const Shape& shape) const;
-    /// The pose's turn, with its derivatives by the points; none when azimuths count from the mesh.
+    /// The pose's turn with its derivatives by the points; zero when azimuths count from the mesh.
     Quantity turn_of(const Shape& shape) const;
     Vec3 outside_point(const Vec3& p, const Pose& pose) const;
     Plane outside_plane(const Plane& plane, const Pose& pose) const;

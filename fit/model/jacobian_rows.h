@@ -1,12 +1,12 @@
 #pragma once
-// Equations on their way to the solver, row by row. Private to the room: shows Eigen.
+// Linearised equations for the solver, built row by row. Private to the room: shows Eigen.
 
 #include <Eigen/Core>
 #include <vector>
 
 namespace culet {
 
-/// Rows under construction: columns and slopes, what is left of the equation, and its variance.
+/// Sparse rows with the equation's residual and variance.
 struct JacobianRows {
     std::vector<int> begin{0}, column;
     std::vector<double> slope, residual, variance;
@@ -32,7 +32,7 @@ struct JacobianRows {
     }
 };
 
-/// Of a symmetric matrix, in its lower half.
+/// An entry in the lower half of a symmetric matrix.
 struct SymmetricEntry {
     int row, column;
     double value;

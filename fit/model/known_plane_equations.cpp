@@ -1,4 +1,4 @@
-// What outlines and photographs tell of the planes as equations of the fit.
+// Makes equations of the planes known from outlines and photographs.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -14,8 +14,8 @@ namespace culet {
 
 namespace {
 
-// About up, from where the stone was seen to where it stands now: of all normals together, those
-// that look sideways more.
+// Turn about up from the stone as seen to the shape now: the mean over all normals, weighted by how
+// far they look sideways.
 double turn_about_up(const KnownPlanes& seen, const Shape& shape) {
     double along = 0, across = 0;
     for (std::size_t f = 0; f < seen.planes.size(); ++f) {
@@ -26,8 +26,8 @@ double turn_about_up(const KnownPlanes& seen, const Shape& shape) {
     return along == 0 && across == 0 ? 0 : std::atan2(across, along);
 }
 
-// Slopes without their parts along the motions that a row is blind to (shifts, and a turn about
-// up): where normals are off those that were seen, by as little as that, it would see them.
+// Removes from the slopes the parts along motions that a row cannot see (shifts, and a turn about
+// up). Where the normals differ slightly from those seen, the row would appear to see them.
 class BlindToMotions {
 public:
     explicit BlindToMotions(const Shape& shape) : shape_(shape) {
@@ -98,7 +98,7 @@ std::shared_ptr<const KnownPlanes> inside(const Frame& frame, Frame::From from,
         PlaneObservations::Row& in = known->rows.emplace_back();
         in.value = row.value;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
-            // The offset from the mesh's middle is smaller by normal . middle.
+            // Offsets inside are measured from the mesh's middle.
             in.normal.push_back(turn * (row.normal[f] + row.offset[f] * middle));
             in.offset.push_back(row.offset[f] * frame.scale());
         }

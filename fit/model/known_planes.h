@@ -1,5 +1,5 @@
 #pragma once
-// What outlines or a photograph tell of the planes, in the frame of the fit.
+// Plane observations from outlines or a photograph, in the frame of the fit.
 
 #include <memory>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace culet {
 
-/// Normals are turned back about up, to stand as the stone did when it was seen.
+/// Compared with the shape turned about up as the stone stood when it was seen.
 struct KnownPlanes : PlaneObservations {
-    bool turns = true;  ///< it is not known how the stone stands about up
+    bool turns = true;  ///< the stone's azimuth when it was seen is unknown
 };
 
-/// Of all outlines together, and of each photograph.
+/// Lists one for all outlines together, and one for each photograph.
 std::vector<std::shared_ptr<const KnownPlanes>> list_known_planes(
     const Frame& frame, const std::vector<Reading>& readings, bool turns);
 

@@ -1,4 +1,4 @@
-// What lengths, areas and volumes should have been.
+// Expected values of lengths, areas and volumes.
 
 #include "fit/model/constants.h"
 #include "fit/model/residuals.h"
@@ -40,7 +40,7 @@ Formula edge_length(int left, int right, const Corner& from, const Corner& to) {
         const Vec3 &l = shape.normals[left], &r = shape.normals[right];
         const Vec3 across = glm::cross(l, r);
         const double sine = glm::length(across);
-        // Planes this near to one plane cross along a line that rounding chooses.
+        // Rounding decides the crossing line of such nearly coincident planes.
         if (sine < k_shapes.one_plane) return corner_distance(from, to)(shape);
         const Vec3 along = across / sine, edge = place_of(shape, to) - place_of(shape, from);
         Quantity q{glm::dot(along, edge), {}};
@@ -98,7 +98,7 @@ Formula line_to_line(const Corner& a, const Corner& b, const Corner& c, const Co
         const Vec3 u = pb - pa, v = pd - pc;
         const Vec3 across = glm::cross(u, v);
         Quantity q;
-        // Lines less than a degree from parallel have no well-defined common normal.
+        // The common normal is ill-defined for lines within a degree of parallel.
         if (glm::length(across) < 0.0175 * glm::length(u) * glm::length(v)) {
             const Vec3 middle = 0.5 * (pc + pd);
             const double t = glm::dot(middle - pa, u) / glm::dot(u, u);
@@ -111,8 +111,8 @@ Formula line_to_line(const Corner& a, const Corner& b, const Corner& c, const Co
             add_corner(q, shape, b, -t * unit);
             return q;
         }
-        // The shortest link runs from a + s u to c + t v along the unit common normal; moving the
-        // ends moves it by the normal component of its own ends (envelope theorem).
+        // The shortest link runs from a + s u to c + t v along the unit common normal. Its length
+        // changes only by the normal components of its ends' motions (envelope theorem).
         Vec3 unit = glm::normalize(across);
         if (glm::dot(unit, pc - pa) < 0) unit = -unit;
         q.value = glm::dot(unit, pc - pa);

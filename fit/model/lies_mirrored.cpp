@@ -14,7 +14,7 @@ bool lies_mirrored(const Solid& solid, const HalfEdges& edges) {
         from += share * canonical->points[v];
         to += share * solid.vertices[v];
     }
-    // The sign of the cross moments' determinant (Kabsch 1976).
+    // Sign of the determinant of the cross moments (Kabsch 1976).
     glm::dmat3 cross(0.0);
     for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
         cross += glm::outerProduct(solid.vertices[v] - to, canonical->points[v] - from);

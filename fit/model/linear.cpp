@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// Each over its sigma, hard ones as they are.
+// Rows divided by sigma; hard ones unchanged.
 FunctionRows function_rows(const JacobianRows& rows, int unknowns) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(rows.column.size());
@@ -73,14 +73,14 @@ std::vector<Eigen::VectorXd> rigid_motions(const FitModel& model, const Shape& s
     return motions;
 }
 
-// No equation changes along the motion, as far as rounding lets one see.
+// Whether no equation changes along the motion, to rounding error.
 bool unseen(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, const Eigen::VectorXd& g) {
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         double sum = 0, size = 0;
         for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
             sum += it.value() * g(it.col());
-            // A level facet's normal is off the vertical by rounding: what a turn does to that is
-            // no sight of it.
+            // A level facet's normal deviates from the vertical by rounding, and a turn moves it by
+            // as little: that does not count as seen.
             size += std::abs(it.value()) * std::max(std::abs(g(it.col())), 1e-6);
         }
         if (std::abs(sum) > 1e-9 * size) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// The equations of a fit made linear about a shape. Private to the room: shows Eigen.
+// The equations of a fit, linearised at a shape. Private to the room: shows Eigen.
 
 #include <Eigen/SparseCore>
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace culet {
 
-/// Coefficients of a linear function of the unknowns; of several, one a row.
+/// Coefficients of one linear function of the unknowns, and of several, one a row.
 using FunctionRow = Eigen::SparseVector<double>;
 using FunctionRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 FunctionRow function_row(const FunctionRows& rows, Eigen::Index i);
 
-/// Quantities as functions of the unknowns: those of `Parameters` with nothing fixed and no
-/// symmetry, in the order of `Layout`.
+/// Writes quantities as functions of the unknowns in the order of `Layout`: those of `Parameters`
+/// with nothing fixed and no symmetry.
 class RowWriter {
 public:
     RowWriter() = default;
@@ -39,25 +39,26 @@ struct Linearised {
     Eigen::VectorXd soft_residuals;  ///< (formula - value) / sigma
     FunctionRows hard_rows;
     Eigen::VectorXd hard_residuals;
-    /// Motions that no equation sees (shifts, turns), weighted: held at zero.
+    /// Motions that no equation sees (shifts, turns), times the metric; they are constrained to
+    /// zero.
     std::vector<Eigen::VectorXd> gauge_rows;
-    /// The turn of the whole stone about up, seen or not; steps.
+    /// Step that turns the whole stone about up, whether seen or not.
     Eigen::VectorXd turn;
     Eigen::VectorXd metric;  ///< diagonal: what counts as a step of one, for each unknown
 
-    /// The facets' prior, or what outlines tell of all of them, is among the equations: loosely
-    /// held directions are then as uncertain as they are, and none counts as open.
+    /// The equations include the facets' prior, or outlines that see all facets. Weakly held
+    /// directions then have their true uncertainty, and none counts as unobservable.
     bool has_prior = false;
 
     double chi2() const;  ///< of the counted equations
     double worst_hard() const;
 };
 
-/// The point of a meet that was let go belongs to nothing: it follows its planes, and wherever it
-/// lies, nothing is open. In a metric it weighs `k_shapes.loose_point` of what others do.
+/// Points of released meets. They only follow their planes, and are never undetermined. The metric
+/// weights them by `k_shapes.loose_point`.
 std::vector<bool> loose_points(const FitModel& model);
 
-/// `held` are further hard equations.
+/// `held`: further hard equations.
 Linearised linearise(const FitModel& model, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held = {});

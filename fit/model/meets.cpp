@@ -23,7 +23,7 @@ int meeting_point(const HalfEdges& edges, const std::set<int>& wanted) {
     return -1;
 }
 
-// A meet that the mesh does not have is a point of its own, near the facets' corners.
+// Appends a meet that the mesh does not have as a point near the facets' corners.
 int added_point(const Solid& solid, const Reading& reading, Shape& shape) {
     Vec3 start(0);
     for (int f : reading.facets) {
@@ -39,7 +39,7 @@ Meets list_meets(const Frame& frame, const HalfEdges& edges, const std::vector<R
                  const FitOptions& options, Shape& shape) {
     Meets meets;
     std::vector<Incidence>& all = meets.incidences;
-    // Where an estimate starts is of no matter for where it ends.
+    // The start of an estimate does not affect its result.
     meets.group_sigmas.fill(options.meet_sigma ? *options.meet_sigma / frame.scale() : 0.01);
     meets.estimates_sigmas = !options.meet_sigma;
     const auto add = [&](int point, int facet, MeetTreatment how, double sigma, int reading) {

@@ -1,4 +1,4 @@
-// Which readings of one quantity share an equation.
+// Decides which readings of one quantity share an equation.
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace culet {
 
 namespace {
 
-// At this shape, what they say is but one thing: facets lean one way, azimuths are less than half a
-// turn off.
+// Whether the readings have the same active branch at this shape: inclinations lean to the same
+// side, azimuths differ by less than half a turn.
 bool may_be_merged(const std::vector<Reading>& readings, const std::vector<int>& group,
                    const Replicates& replicates, const Shape& shape) {
     const Reading& first = readings[std::size_t(group.front())];

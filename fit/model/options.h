@@ -1,5 +1,5 @@
 #pragma once
-// What a fit is asked to do.
+// Options of a fit.
 
 #include <filesystem>
 #include <optional>
@@ -18,67 +18,67 @@ enum class MeetTreatment {
 };
 const char* name_of(MeetTreatment treatment);
 
-/// How readings that are far off count: as least squares has it, or less (see robust.h).
+/// How outlying readings count: as in least squares, or less (robust.h).
 enum class Loss { none, huber, cauchy };
 const char* name_of(Loss loss);
 
-/// What is supposed of the facets before any reading: they lie near those of the start, within
-/// these standard uncertainties, and the facets of a tier are alike (prior.h). It fills what the
-/// readings leave open.
+/// The prior of the facets: they lie near those of the start within these standard uncertainties,
+/// and the facets of a tier are alike (prior.h). It determines what the readings do not.
 struct Prior {
-    /// What the start is: the design that the stone was cut by, or a drawing of the stone itself.
+    /// What the start is: the design that the stone was cut to, or a drawing of the stone itself.
     enum class Source { none, catalogue, mesh } source = Source::none;
-    /// False: only where the readings leave parts of the stone open.
+    /// False: only where the readings leave parts of the stone undetermined.
     bool always = false;
     double inclination_sigma = radians(1), azimuth_sigma = radians(1);
-    double offset_sigma = 0.01;  ///< of a plane's distance from the middle, as part of the width
+    double offset_sigma = 0.01;  ///< of a plane's distance from the middle, as a part of the width
 };
 const char* name_of(Prior::Source source);
 
 struct FitOptions {
-    /// Of meets of more than three facets that no `meet` reading speaks of.
+    /// For meets of more than three facets without a `meet` reading.
     MeetTreatment meets = MeetTreatment::exact;
-    /// The stone file says so. If not, beside a prior the readings decide whether meets are exact
-    /// or soft (meet_evidence.h).
+    /// The stone file names `meets`. Otherwise, beside a prior, the readings decide whether meets
+    /// are exact or soft (meet_evidence.h).
     bool meets_named = false;
-    /// Exact meets, and the readings do not contradict them: nothing is allowed for.
+    /// Exact meets that the readings support: no allowance for what real meets miss.
     bool meets_shown = false;
-    /// The stone is what its planes enclose, whichever corners that gives: so beside outlines.
+    /// The stone is what its planes enclose, whatever its corners; used with outlines.
     bool free_corners = false;
-    /// Of soft meets, in the stone's unit; nothing: estimated from the data by variance components
-    /// (Foerstner 1979): sigma^2 = sum of squared misses / their redundancy.
+    /// Sigma of soft meets, in the stone's unit. Nothing: estimated from the data as a variance
+    /// component (Foerstner 1979): sigma^2 = sum of squared misses / their redundancy.
     std::optional<double> meet_sigma;
-    /// Largest number of steps of the last stage.
+    /// Most steps of the last stage.
     int iterations = 100;
-    /// Most starts that are tried before the best of what they gave is returned; see starts.h.
+    /// Most starts tried (starts.h).
     int starts = 7;
-    /// Family level of both tests: the chi-square test of all readings, and (shared out among them
-    /// by Bonferroni) the test of each.
+    /// Family-wise level of both tests: the chi-square test of all readings, and the test of each
+    /// reading (Bonferroni).
     double significance = 0.001;
     Loss loss = Loss::none;
     Prior prior;
-    /// Hold every reading against its tier and the mesh (first_check.h): first of all where the
-    /// readings leave parts of the stone open, else where they contradict each other.
+    /// Compare every reading with its tier and the mesh (first_check.h): at first where the
+    /// readings leave parts of the stone undetermined, otherwise where they contradict each other.
     bool first_check = false;
-    /// False: the mesh is a cut design, whose size says nothing.
+    /// False: the mesh is a cut design without a size.
     bool mesh_has_size = true;
-    /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
-    /// and looks for no other start, unless it cannot get there.
+    /// An earlier result of the same mesh and nearly the same readings. The fit continues from it,
+    /// and tries other starts only if that fails.
     std::optional<Solid> start;
-    /// Find out about the stone's own axis, contradicted meets, and edges and facets that the
-    /// readings leave open or deny.
+    /// Examine the stone's own axis, contradicted meets, and edges and facets that the readings
+    /// leave undetermined or contradict.
     bool findings = true;
     /// Propose the stone's symmetry.
     bool find_symmetry = false;
-    /// Edges and facets that the readings deny may change or go, contradicted meets come apart.
+    /// Edges and facets that the readings contradict may change or disappear, and contradicted
+    /// meets may come apart.
     bool allow_topology = false;
 };
 
-/// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
+/// Reads the [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
 /// `iterations`, `starts`, `significance`, `loss` = "none" | "huber" | "cauchy", `prior` =
-/// "catalogue" | "mesh" | "none". Where no prior is named it is the catalogue's for a mesh that
-/// `culet cut` wrote and for GemCad designs, else the mesh's, and counts only where readings leave
-/// the stone open. `first_check` is on. Throws InputError.
+/// "catalogue" | "mesh" | "none". The default prior is the catalogue's for a mesh that `culet cut`
+/// wrote and for GemCad designs, else the mesh's; it counts only where readings leave the stone
+/// undetermined. `first_check` is on. Throws InputError.
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides = {});
 

@@ -16,14 +16,14 @@ double largest(const glm::dmat3& m) {
     return most;
 }
 
-// Narrows the kept directions by one more motion that keeps the thing in its place.
+// Narrows the kept directions by one more motion that maps the thing to itself.
 void narrow(KeptDirections& kept, const glm::dmat3& motion) {
     if (largest(motion - glm::dmat3(1.0)) < 1e-9 || kept.kind == KeptDirections::Kind::axis) return;
     if (glm::determinant(motion) > 0) {
         kept.kind = KeptDirections::Kind::axis;
         return;
     }
-    // Of a mirroring, the level direction within the plane: half the angle to the image of x.
+    // Level direction within a mirror plane: half the angle to the image of x.
     const double angle = 0.5 * std::atan2(motion[0][1], motion[0][0]);
     const Vec3 outward{std::cos(angle), std::sin(angle), 0};
     if (kept.kind == KeptDirections::Kind::all) {
@@ -91,8 +91,7 @@ std::optional<Orbits> orbits_of(const std::vector<SymmetryMotion>& generators, i
                               [](const SymmetryMotion& g, int f) { return g.exchange.facets[f]; });
     Spread of_points = spread(
         generators, points, [](const SymmetryMotion& g, int p) { return g.exchange.vertices[p]; });
-    // Of a convex stone at most one facet above and one below are crossed by the axis, or as many
-    // corners.
+    // The axis of a convex stone crosses at most two facets or corners, one above and one below.
     int on_axis = 0;
     for (int f = 0; f < facets; ++f) {
         on_axis +=

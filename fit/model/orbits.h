@@ -1,6 +1,6 @@
 #pragma once
-// Exact symmetry: which facets and meets are images of which, and by what motion. The axis of all
-// rotations is +z through the origin, and all mirror planes contain it.
+// Exact symmetry: which facets and meets are images of which, under which motion. The axis of all
+// rotations is +z through the origin; all mirror planes contain it.
 
 #include <glm/mat3x3.hpp>
 #include <optional>
@@ -11,15 +11,15 @@
 
 namespace culet {
 
-/// A motion of space that exchanges facets and meets.
+/// A motion of space that permutes facets and meets.
 struct SymmetryMotion {
     Automorphism exchange;
-    glm::dmat3 motion{1.0};  ///< a turn about z, or a mirroring at a plane through z
+    glm::dmat3 motion{1.0};  ///< a turn about z, or a reflection at a plane through z
 };
 glm::dmat3 turn_about_z(double angle);
-/// All of it, about z.
+/// Turns the whole shape about z.
 Shape turned_about_z(Shape shape, double angle);
-/// `azimuth` of the plane's normal.
+/// `azimuth`: of the plane's normal.
 glm::dmat3 mirroring_at(double azimuth);
 
 /// A member of an orbit: the image of the first one under `from_first`.
@@ -28,7 +28,8 @@ struct OrbitMember {
     glm::dmat3 from_first{1.0};
 };
 
-/// What the motions that keep a thing in its place leave free: the directions that they all keep.
+/// The directions that are fixed by all motions that map a thing to itself. It can only move within
+/// them.
 struct KeptDirections {
     enum class Kind { all, vertical_plane, axis } kind = Kind::all;
     Vec3 outward{1, 0, 0};  ///< vertical_plane: its level direction
@@ -42,8 +43,8 @@ struct Orbits {
     bool empty() const { return generators.empty(); }
 };
 
-/// Nothing when the motions contradict each other on these facets: two of them that exchange facets
-/// alike but move space differently.
+/// Nothing when the motions contradict each other on these facets: two of them permute facets alike
+/// but move space differently.
 std::optional<Orbits> orbits_of(const std::vector<SymmetryMotion>& generators, int facets,
                                 int points);
 

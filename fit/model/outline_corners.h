@@ -9,10 +9,10 @@ namespace culet {
 
 std::vector<Corner> corners_of(const Outline& outline, int facet);
 
-/// The two ends of the edge that two loops share, or nothing.
+/// The two ends of the edge that two loops share, or empty.
 std::vector<Corner> shared_edge(const Outline& outline, int a, int b);
 
-/// Of equal ones the first.
+/// The first one if several are equally far.
 Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Vec3& direction);
 
 }  // namespace culet

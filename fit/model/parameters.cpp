@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Directions in which the thing may move within what is kept.
+// An orthonormal basis of the kept directions.
 std::vector<Vec3> directions_of(const KeptDirections& kept) {
     switch (kept.kind) {
         case KeptDirections::Kind::all:

@@ -1,7 +1,7 @@
 #pragma once
-// The numbers that the solver varies: those of `Layout`, less what is fixed (the up facet's
-// normal), and of every orbit of an exact symmetry the first member only. Shapes stay whole: each
-// move puts all images in their places again, so that symmetry holds to rounding.
+// The numbers that the solver varies: those of `Layout` without what is fixed (the up facet's
+// normal), and only the first member of every orbit of an exact symmetry. Shapes stay complete:
+// each move restores all images, so that symmetry holds to rounding.
 
 #include <array>
 #include <span>
@@ -14,13 +14,13 @@
 
 namespace culet {
 
-/// In which directions a facet's normal may tilt: any two across it, or the one within the vertical
-/// plane through `outward` that an exact symmetry keeps it in.
+/// The directions in which a facet's normal may tilt: two tangents, or one within the vertical
+/// plane through `outward` in which exact symmetry keeps it.
 std::array<Vec3, 2> tilt_directions(const Vec3& normal, int count, const Vec3& outward);
 
 class Parameters {
 public:
-    /// `fixed_extras` are held where they are. `orbits` may be empty.
+    /// `fixed_extras` do not vary. `orbits` may be empty.
     Parameters(const Shape& shape, int up_facet, Orbits orbits,
                const std::vector<bool>& fixed_extras);
 
@@ -28,27 +28,27 @@ public:
     const Orbits& orbits() const { return orbits_; }
     bool is_first_facet(int f) const { return orbits_.empty() || orbits_.facets[f].first == f; }
     bool is_first_point(int p) const { return orbits_.empty() || orbits_.points[p].first == p; }
-    /// Number of points that go with a first member.
+    /// Size of the orbit of a first member.
     int images_of_point(int p) const { return point_images_[p]; }
 
-    /// What counts as a step of one, for each freedom.
+    /// What counts as a step of one, for each parameter.
     const std::vector<double>& metric() const { return metric_; }
 
     Shape retracted(const Shape& shape, std::span<const double> step) const;
-    /// The same, but what the step turns the stone about z as a whole is done as a turn: readings
-    /// may say so little of where azimuth begins that steps of many degrees are wanted.
+    /// The same, but applies the part of the step that turns the stone about z as a rotation. The
+    /// azimuth may be so weakly observed that steps of many degrees occur.
     Shape retracted_with_turn(const Shape& shape, std::span<const double> step) const;
-    /// All facets and points that are images of others back in their places.
+    /// Restores all facets and points that are images of others.
     void place_images(Shape& shape) const;
-    /// The nearest shape with the symmetry: the mean of what the motions make of it.
+    /// The nearest symmetric shape: the mean over the motions.
     Shape symmetrised(const Shape& shape) const;
 
-    /// Columns and directions of one facet's or point's parameters: d(thing) = sum step_k along_k.
+    /// Columns and directions of a facet's or point's parameters: d(thing) = sum step_k along_k.
     struct Slots {
         int column = -1, count = 0;
         std::array<Vec3, 3> along{};
     };
-    /// At one shape.
+    /// The slots at one shape.
     struct TangentBasis {
         std::vector<Slots> normals, points;
         const std::vector<int>* offsets = nullptr;
@@ -56,7 +56,7 @@ public:
     };
     TangentBasis tangent_basis(const Shape& shape) const;
 
-    /// Sums up one row; equal columns are merged.
+    /// Accumulates one row, merging equal columns.
     class Row {
     public:
         Row(const TangentBasis& tangent_basis, int size)

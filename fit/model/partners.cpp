@@ -1,4 +1,4 @@
-// Which facets a rotation or a mirror takes into which.
+// Finds the image of each facet under a rotation or a mirror.
 
 #include "fit/model/symmetries.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-// The best partner of each facet under a map of planes, or nothing when two share one.
+// The best partner of each facet under a map of planes; empty when two share one.
 template <typename Map>
 std::vector<int> partners(const Shape& shape, const std::vector<int>& facets, Map map) {
     std::vector<int> result;
@@ -56,7 +56,7 @@ std::vector<int> rotation_partners(const Shape& shape, const Reading& reading,
         return Plane{turn * plane.normal, plane.offset};
     });
     if (!found.empty()) return found;
-    // A rough mesh: facets of one tier follow each other by azimuth.
+    // On a rough mesh, order the facets of one tier by azimuth.
     const std::size_t order = static_cast<std::size_t>(reading.order);
     if (!reading.facets.empty() && facets.size() % order == 0) {
         std::vector<std::size_t> by_azimuth(facets.size());
@@ -100,7 +100,7 @@ void Symmetries::pair_facets(const std::vector<Reading>& readings, const Shape& 
         const Reading& reading = readings[r];
         Pairs& pairs = pairs_[r];
         const std::vector<int> facets = reading.facets.empty() ? all_facets(shape) : reading.facets;
-        // Where the motion of a symmetry of all facets takes them, if it is known.
+        // The images by the topology's symmetry, where it is known.
         const auto images_of = [&](const std::vector<int>& of, auto otherwise) {
             if (!exchanges_[r]) return otherwise();
             std::vector<int> images;

@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// A facet's inclination as read, less its start.
+// An inclination as read, minus its start.
 struct Seen {
     double off = 0, variance = 0;
 };
@@ -33,8 +33,8 @@ PriorSigmas stated_sigmas(const Prior& prior, double half_width) {
     return {prior.inclination_sigma, facets * prior.inclination_sigma, offset, facets * offset};
 }
 
-// How far a plane turns where its corners are each off by a little: the root of the sum of squares
-// of their distances from the middle, across the longer way less.
+// Lever arm of a facet: its tilt is the corners' error over this. Root of half the sum of squared
+// distances of the corners from their mean.
 double facet_reach(const Shape& shape, const Facet& facet) {
     Vec3 mean(0);
     for (const int c : facet.corners) {
@@ -52,7 +52,7 @@ double polar(const Vec3& n) {
     return std::atan2(std::hypot(n.x, n.y), n.z);
 }
 
-// One angle for each tier that was drawn as if it had one.
+// Gives each tier that was drawn with nearly one angle its median angle.
 void level_tiers(const std::vector<NamedTier>& tiers, double sigma, std::vector<double>& polars) {
     for (const NamedTier& tier : tiers) {
         std::vector<double> angles;
@@ -93,7 +93,7 @@ void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readi
     for (const PriorTerm& term : model.terms) {
         if (term.of == PriorTerm::Of::inclination) start[term.facet] = term.start;
     }
-    // One for each row: of facets that share one, the row tells of their tier only.
+    // One reading for each row: a row shared by several facets only tells of their tier.
     std::map<int, Seen> by_facet;
     std::set<std::pair<std::string, long>> rows;
     for (const Reading& r : readings) {

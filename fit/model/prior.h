@@ -1,11 +1,12 @@
 #pragma once
-// What the cut says before anything was read: facets lie near where the start has them, and the
-// facets of a tier are alike. A Gaussian prior in two levels (a random-effects model): of each tier
-// the angle, azimuth and offset it has in common are off the start by errors with the tiers'
-// sigmas, and each facet is off its tier by errors with the facets' sigmas. The sigmas of angles
-// are those that the readings show (analysis of variance), where the stated ones count like a few
-// observations (a scaled inverse chi-square prior); those of offsets, which no bench reads, are the
-// stated ones.
+// The prior of the facets before anything is read: they lie near the start, and the facets of a
+// tier are alike. A Gaussian prior in two levels (a random-effects model). Each tier's common
+// angle, azimuth and offset deviate from the start with the tiers' sigmas; each facet deviates from
+// its tier with the facets' sigmas.
+//
+// The sigmas of angles are estimated from the readings (analysis of variance); the stated ones
+// count like a few observations (a scaled inverse chi-square prior). Offsets, which no bench reads,
+// keep the stated sigmas.
 
 #include <array>
 #include <functional>
@@ -18,12 +19,12 @@
 
 namespace culet {
 
-/// Whose errors an equation of the prior speaks of.
+/// The errors that an equation of the prior describes.
 enum class PriorLevel { tier_angle, facet_angle, tier_offset, facet_offset };
 inline constexpr std::size_t k_prior_levels = 4;
 using PriorSigmas = std::array<double, k_prior_levels>;  ///< radians and half diameters
 
-/// One facet's angle, azimuth or offset beside the start, less what its tier has in common.
+/// One facet's angle, azimuth or offset relative to the start, without its tier's common part.
 struct PriorTerm {
     enum class Of { inclination, azimuth, offset, level_x, level_y } of = Of::inclination;
     int facet = -1;
@@ -41,21 +42,21 @@ struct PriorModel {
     bool empty() const { return terms.empty(); }
 };
 
-/// The prior of an upright shape (half diameter 1) whose facets are named as in `solid`; the tiers'
-/// unknowns are appended to its extras. `half_width`: of the stone in half diameters.
+/// Makes the prior of an upright shape (half diameter 1) whose facets have the names of `solid`,
+/// and appends the tiers' unknowns to its extras. `half_width`: of the stone, in half diameters.
 PriorModel make_prior(const Prior& prior, const Solid& solid, int up_facet, double half_width,
                       Shape& shape);
 
-/// Readings as they count beside a prior. A row of a file that gives one value to several facets
-/// (`S*`) tells what they have in common, not that they are alike: each of its n readings gets
-/// sqrt(n) times the sigma, so that together they know their mean as well as the row does. And
-/// where the fit's meets are exact the true stone's are not: a reading of a facet's direction is
-/// off by what a real meet misses over the facet's size, `meet_miss` in half diameters.
+/// Adjusts the readings' sigmas for use beside a prior. A file's row that gives one value to
+/// several facets (`S*`) tells their mean, not that they are alike: each of its n readings gets
+/// sqrt(n) times the sigma, so that together they determine the mean as well as the row does. Exact
+/// meets are an idealisation: a reading of a facet's direction also gets the error that a real
+/// meet's miss (`meet_miss`, half diameters) causes over the facet's size.
 void count_beside_prior(const Shape& shape, const Solid& solid, double meet_miss,
                         const std::function<double(const Reading&)>& unit_of,
                         std::vector<Reading>& readings);
 
-/// What the inclinations that were read, each of one facet or one row, say of the angles' sigmas.
+/// Estimates the angles' sigmas from the inclinations read, one value for each facet or row.
 void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readings,
                            PriorModel& model);
 

@@ -1,5 +1,5 @@
-// The facets' prior as equations: one for each facet's angle, azimuth and offset, and one for each
-// of the tiers' common parts.
+// Makes equations of the facets' prior: one for each facet's angle, azimuth and offset, and one for
+// each of the tiers' common parts.
 
 #include "fit/model/equations.h"
 
@@ -23,7 +23,7 @@ Formula plane_offset(int facet) {
     };
 }
 
-// Less the start, where a formula has it in itself.
+// Returns the formula and its value at the start (0 if the formula subtracts it).
 std::pair<Formula, double> formula_of(const PriorTerm& term) {
     switch (term.of) {
         case PriorTerm::Of::inclination:
@@ -59,7 +59,7 @@ std::vector<Equation> prior_equations(const PriorModel& prior) {
         const double ratio = term.of == PriorTerm::Of::azimuth ? prior.azimuth_ratio : 1;
         auto [formula, value] = formula_of(term);
         if (term.extra < 0) {
-            // Of no tier: both errors at once.
+            // Without a tier both errors add up.
             put(std::move(formula), value, ratio * std::hypot(sigma_of(tier), sigma_of(own)));
         } else {
             put(weighted_sum({{1, std::move(formula)}, {-1, unknown_extra(term.extra)}}), value,

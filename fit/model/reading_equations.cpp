@@ -1,4 +1,4 @@
-// From readings to equations, for the corners that carry them at a given shape.
+// Makes equations of the readings, for the corners that carry them at a given shape.
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +15,16 @@ namespace culet {
 
 namespace {
 
-// The line in which two planes cross turns round where they pass through one plane, the line
-// through two corners where these pass each other. Lengths go by the one that is farther from
-// turning: a facet that turns by an angle moves corners by about as many half diameters.
+// The crossing line of two planes flips where they become one plane; the line through two corners
+// flips where these pass each other. An edge's length uses the line that is farther from flipping:
+// tilting a facet by an angle moves corners by about as many half diameters.
 bool is_nearly_one_plane(const Shape& shape, int a, int b, const Corner& from, const Corner& to) {
     const double sine = glm::length(glm::cross(shape.normals[a], shape.normals[b]));
     return sine <
            k_shapes.nearly_one_plane * glm::length(place_of(shape, to) - place_of(shape, from));
 }
 
-// Formulas of one reading's terms under its aggregate.
+// Combines the formulas of one reading's terms by its aggregate.
 Formula aggregated(const Reading& reading, std::vector<Formula> terms, const Shape& shape) {
     if (terms.size() == 1) return terms.front();
     if (reading.aggregate == Aggregate::mean || reading.aggregate == Aggregate::single) {
@@ -49,7 +49,7 @@ std::vector<Corner> corners_between_jaws(const FitModel& model, const Reading& r
 
 namespace {
 
-// The equations of all readings at one shape, kind by kind.
+// The equations of all readings at one shape.
 class ReadingEquations {
 public:
     ReadingEquations(const FitModel& model, const Shape& shape,
@@ -58,7 +58,7 @@ public:
         find_girdle();
     }
 
-    /// `replicates`: what this reading and others of the same say together.
+    /// `replicates`: what this reading and others of the same quantity say together.
     void add(int r, std::optional<Replicates> replicates);
     std::vector<Equation> take() { return std::move(all_); }
 
@@ -72,7 +72,7 @@ private:
     void relation();
 
     Formula edge_formula(int a, int b) const;
-    // Corners and edges as they are now; of a facet that is not there, as in the mesh.
+    // Corners and edges at this shape; for a missing facet, those of the mesh.
     std::vector<Corner> loop_of(int f) const {
         return corners_of(outline_->loops[f].size() >= 3 ? *outline_ : *model_.mesh_outline(), f);
     }

@@ -1,4 +1,4 @@
-// Equations of symmetry, and of facets that lie parallel or in one plane.
+// Equations of symmetry, and of parallel and coplanar facets.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -52,8 +52,9 @@ void RelationEquations::parallel(const Reading& reading) {
 
 void RelationEquations::symmetry(const Reading& reading) {
     const auto& pairs = model_.symmetries().pairs(std::size_t(base_.reading));
-    // Within sigma: directions each with an error of its own, distances each by its image's, so
-    // that a round girdle may be slowly out of round.
+    // Directions within sigma have independent errors (contrasts). Distances are compared only with
+    // those of their images, so that a round girdle may be slightly out of round along its
+    // circumference.
     if (reading.kind == ReadingKind::rotation && !reading.exact) {
         const double angle = radians(360.0 / reading.order);
         for (const std::vector<int>& orbit : orbits_of_pairs(pairs)) {
@@ -64,13 +65,13 @@ void RelationEquations::symmetry(const Reading& reading) {
     }
     const double sigma = reading.sigma / model_.frame().unit_of(reading);
     for (const auto& [f, g] : pairs) {
-        // Two facets, each with an error of its own, differ by more.
+        // Two facets with independent errors differ by sqrt(2) sigma.
         if (!reading.exact) base_.sigma = (f == g ? 1 : std::numbers::sqrt2) * sigma;
         pair(reading, f, g);
     }
 }
 
-// Facet f comes to lie on facet g.
+// Facet f is mapped onto facet g.
 void RelationEquations::pair(const Reading& reading, int f, int g) {
     const bool is_rotation = reading.kind == ReadingKind::rotation;
     const double angle = reading.order > 0 ? radians(360.0 / reading.order) : 0;
@@ -79,7 +80,7 @@ void RelationEquations::pair(const Reading& reading, int f, int g) {
     if (f == g && f == model_.frame().up_facet()) return;
     if (f == g && !is_rotation) return put(across_mirror(f, plane));
     if (f == g) {
-        // Only a level facet is its own image in a turn.
+        // Only a level facet is its own image under a turn.
         for (int k = 0; k < 2; ++k) put(horizontal_component(f, k));
         return;
     }

@@ -1,26 +1,26 @@
 #pragma once
-// Factors of sparse symmetric matrices, compiled once. Private to the room: shows Eigen.
+// Factors of sparse symmetric matrices, compiled in one place. Private to the room: shows Eigen.
 
 #include <Eigen/SparseCore>
 #include <memory>
 
 namespace culet {
 
-/// P' L D L' P of a sparse symmetric matrix, whose lower half is read. It is not pivoted: P only
-/// keeps L sparse.
+/// P' L D L' P of a sparse symmetric matrix given by its lower half. Without pivoting: P only keeps
+/// L sparse.
 class SparseLdl {
 public:
     using Matrix = Eigen::SparseMatrix<double>;
     SparseLdl();
     ~SparseLdl();
-    /// Finds P: once for all matrices that have their entries in the same places.
+    /// Finds P, once for all matrices with the same sparsity pattern.
     void analyse(const Matrix& matrix);
-    /// False when a pivot is zero: nothing else may then be asked. After `analyse`.
+    /// Call after `analyse`. Returns false when a pivot is zero; the factors are then invalid.
     bool factor(const Matrix& matrix);
     const Eigen::VectorXd& pivots() const;  ///< D
-    const Matrix& lower() const;            ///< L, without the ones of its diagonal
+    const Matrix& lower() const;            ///< L, without its unit diagonal
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
-    /// Each column.
+    /// Solves for each column.
     Eigen::MatrixXd solve_all(const Eigen::MatrixXd& right) const;
 
 private:

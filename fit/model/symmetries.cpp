@@ -1,5 +1,5 @@
-// Which facets and meets exact symmetry readings exchange, told by who meets whom, and only then by
-// where things lie: a rough mesh has the same exchanges as the stone.
+// Finds which facets and meets exact symmetry readings exchange: first by the topology, then by
+// positions. So a rough mesh has the same exchanges as the stone.
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ bool is_symmetry(const Reading& reading) {
     return reading.kind == ReadingKind::rotation || reading.kind == ReadingKind::mirror;
 }
 
-// How far an exchange of points is from a motion about an upright axis through their middle: mean
-// square.
+// Mean square distance of an exchange of points from a motion about an upright axis through their
+// middle.
 double misfit(const std::vector<Vec3>& points, const std::vector<int>& exchange,
               const glm::dmat3& motion) {
     Vec3 middle(0);
@@ -31,7 +31,7 @@ double misfit(const std::vector<Vec3>& points, const std::vector<int>& exchange,
     return sum;
 }
 
-// The azimuth of the mirror's normal that this exchange is nearest to: the mean of doubled angles.
+// Azimuth of the normal of the mirror nearest to this exchange: the mean of doubled angles.
 double mirror_azimuth(const std::vector<Vec3>& points, const std::vector<int>& exchange) {
     double east = 0, north = 0;
     for (std::size_t p = 0; p < exchange.size(); ++p) {
@@ -46,8 +46,7 @@ bool is_in_pairs(const Reading& reading) {
     return reading.kind == ReadingKind::mirror && !reading.has_direction;
 }
 
-// Whether this exchange takes the facets that were named in pairs into each other, and all that go
-// unnamed into themselves.
+// Whether this exchange swaps the facets named in pairs and maps all unnamed ones to themselves.
 bool exchanges_pairs(const std::vector<int>& named, const Automorphism& a) {
     if (named.size() < 2) return false;
     for (std::size_t i = 0; i + 1 < named.size(); i += 2) {
@@ -60,13 +59,13 @@ bool exchanges_pairs(const std::vector<int>& named, const Automorphism& a) {
     return true;
 }
 
-// How far the mesh is from the symmetry of a reading with this exchange of its facets; nothing
-// where the exchange is no such symmetry.
+// How far the mesh is from the reading's symmetry under this exchange; nothing where the exchange
+// is no such symmetry.
 std::optional<double> misfit_under(const Reading& reading, const Automorphism& a,
                                    const Solid& solid, int up_facet) {
     if (reading.kind == ReadingKind::rotation) {
         if (a.turns_over || order_of(a) != reading.order) return std::nullopt;
-        // Round the up facet, by one part of the full turn.
+        // It must turn the up facet by exactly one step of the rotation.
         if (up_facet >= 0 && steps_of_turn(solid, up_facet, a) * reading.order !=
                                  static_cast<int>(solid.facets[up_facet].corners.size())) {
             return std::nullopt;
@@ -104,10 +103,10 @@ void Symmetries::add_extras(const std::vector<Reading>& readings, Shape& shape) 
             shape.extras.insert(shape.extras.end(), {0.0, 0.0});
             continue;
         }
-        shape.extras.push_back(0.0);  // how far the plane lies from the middle
+        shape.extras.push_back(0.0);  // distance of the plane from the middle
         if (reading.has_direction) continue;
-        // Normals of a pair differ along the mirror's normal, up to sign: the mean of doubled
-        // angles.
+        // The normals of a pair differ along the mirror's normal, up to sign: take the mean of
+        // doubled angles.
         double east = 0, north = 0;
         for (std::size_t i = 0; i + 1 < reading.facets.size(); i += 2) {
             const Vec3 d = shape.normals[reading.facets[i]] - shape.normals[reading.facets[i + 1]];
@@ -153,8 +152,8 @@ void Symmetries::list_exact_motions(const Stone& stone, const Frame& frame,
         });
     std::vector<SymmetryMotion> motions;
     std::vector<bool> fixed = fixed_extras_;
-    // Pairs say nothing of where their mirror stands; any azimuth will do when no other mirror and
-    // no reading knows better.
+    // Pairs do not tell the azimuth of their mirror. Any will do when no other mirror and no
+    // reading determines it.
     bool has_placed_mirror = false;
     for (const Reading& r : readings) {
         has_placed_mirror = has_placed_mirror || (r.kind == ReadingKind::mirror && r.has_direction);
@@ -197,7 +196,7 @@ Parameters Symmetries::parameters(const Shape& shape, int up_facet) const {
                             static_cast<int>(shape.points.size()));
     }
     std::vector<bool> fixed = fixed_extras_;
-    fixed.resize(shape.extras.size(), false);  // those of the prior
+    fixed.resize(shape.extras.size(), false);  // the prior's
     return Parameters(shape, up_facet, std::move(orbits), fixed);
 }
 

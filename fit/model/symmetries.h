@@ -1,6 +1,6 @@
 #pragma once
-// What `rotation` and `mirror` readings bind: the facets that they take into each other, their
-// extra unknowns, and the exact motions of the whole stone.
+// What `rotation` and `mirror` readings mean for the model: pairs of facets and their images, extra
+// unknowns, and the exact motions of the whole stone.
 
 #include <optional>
 #include <utility>
@@ -14,8 +14,8 @@ namespace culet {
 
 class Symmetries {
 public:
-    /// Appends the extra unknowns to `shape`. `splits`: some meet may come apart, so that no
-    /// symmetry is kept by parameters. Throws InputError where facets have no partners.
+    /// Appends the extra unknowns to `shape`. `splits`: some meet may come apart, so that the
+    /// parameters keep no symmetry. Throws InputError where facets have no partners.
     Symmetries(const Stone& stone, const Frame& frame, const std::vector<Reading>& readings,
                bool splits, Shape& shape);
 
@@ -23,15 +23,14 @@ public:
     const std::vector<std::pair<int, int>>& pairs(std::size_t r) const { return pairs_[r]; }
     /// Index of the first extra unknown of reading r, or -1.
     int first_extra(std::size_t r) const { return first_extra_[r]; }
-    /// The motions of exact rotations and mirrors of the whole stone. Empty when a reading would
-    /// see how they are turned about the axis (a mirror of facets in pairs, beside azimuths), or
-    /// when some meet is not exact.
+    /// The motions of exact rotations and mirrors of the whole stone. Empty when some meet is not
+    /// exact. A mirror of facets in pairs is left out when a reading would see its azimuth.
     const std::vector<SymmetryMotion>& exact_motions() const { return exact_motions_; }
-    /// Reading r is kept by the parameters, and needs no equations.
+    /// Whether the parameters keep reading r exactly, so that it needs no equations.
     bool is_kept_by_parameters(std::size_t r) const {
         return first_extra_[r] >= 0 && fixed_extras_[std::size_t(first_extra_[r])];
     }
-    /// What the solver varies: of `shape`, less what exact symmetry repeats.
+    /// The solver's parameters for `shape`, without what exact symmetry repeats.
     Parameters parameters(const Shape& shape, int up_facet) const;
 
 private:
@@ -44,7 +43,7 @@ private:
     std::vector<int> first_extra_;
     std::vector<bool> fixed_extras_;
     std::vector<std::vector<std::pair<int, int>>> pairs_;
-    std::vector<std::optional<Automorphism>> exchanges_;  // of readings of all facets
+    std::vector<std::optional<Automorphism>> exchanges_;  // for readings of all facets
     std::vector<SymmetryMotion> exact_motions_;
 };
 

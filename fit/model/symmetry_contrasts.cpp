@@ -18,7 +18,7 @@ Vec3 about_axis(const Vec3& v, double angle) {
 
 std::vector<Formula> turn_contrasts(const Shape& mesh, const std::vector<int>& orbit,
                                     double angle) {
-    // All facets turned back to the first: the mean of their normals.
+    // The mean normal, with all facets turned back to the first.
     Vec3 mean(0);
     for (std::size_t k = 0; k < orbit.size(); ++k) {
         mean += about_axis(mesh.normals[std::size_t(orbit[k])], -angle * double(k));
@@ -27,7 +27,7 @@ std::vector<Formula> turn_contrasts(const Shape& mesh, const std::vector<int>& o
         tangents(glm::length(mean) > 0 ? glm::normalize(mean) : Vec3{0, 0, 1});
     std::vector<Formula> formulas;
     for (std::size_t k = 1; k < orbit.size(); ++k) {
-        // Helmert: the sum of the first k less k times the next.
+        // Helmert: the sum of the first k minus k times the next.
         const double length = std::sqrt(double(k * (k + 1)));
         for (const Vec3& direction : across) {
             std::vector<std::pair<double, Formula>> terms;

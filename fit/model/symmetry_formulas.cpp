@@ -1,4 +1,4 @@
-// By how much facets miss being each other's images.
+// Deviations of facets from being each other's images.
 
 #include "fit/model/residuals.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A number of the stone that no reading holds.
+// A number of the stone that no reading determines.
 
 #include <string>
 

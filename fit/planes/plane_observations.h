@@ -1,5 +1,5 @@
 #pragma once
-// What something that is no single reading (outlines, a photograph) tells of a stone's planes.
+// What observations of several planes together (outlines, a photograph) tell of a stone's planes.
 
 #include <vector>
 
@@ -7,15 +7,15 @@
 
 namespace culet {
 
-/// Made linear: for each row, the sum over the facets of normal . (n - planes.normal) +
-/// offset * (d - planes.offset) is `value` within one.
+/// Linearised: for each row, the sum over the facets of normal . (n - planes.normal) + offset * (d
+/// - planes.offset) equals `value` with a sigma of one.
 struct PlaneObservations {
     struct Row {
         std::vector<Vec3> normal;    ///< of each facet
-        std::vector<double> offset;  ///< of each facet, per length
+        std::vector<double> offset;  ///< of each facet, per unit of length
         double value = 0;
     };
-    std::vector<Plane> planes;  ///< outlines: as the mesh stands; photographs: as it is fitted
+    std::vector<Plane> planes;  ///< outlines: in the mesh's frame; photographs: in the result's
     std::vector<Row> rows;
 };
 

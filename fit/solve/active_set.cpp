@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// The best of the ends near this one that other signs of facets near upright lead to.
+// Returns the best local minimum found by changing signs of facets near upright.
 LocalOptimum with_best_signs(Relaxation& relaxation, KktSolver& solver,
                              const ActiveSetOptions& options, LocalOptimum optimum) {
     PenaltyScale penalty;
@@ -40,8 +40,9 @@ bool is_among(const std::vector<ActiveCorner>& all, const ActiveCorner& corner) 
     return std::find(all.begin(), all.end(), corner) != all.end();
 }
 
-// Corners above a neighbour facet, and those of edges that have come down to nothing: these would
-// turn over if they could, unless drawn so (in rounding, beside others that are held).
+// Returns corners above a neighbour facet, and those of degenerate edges, which would turn over if
+// they could. Edges drawn degenerate are left out: their ends are above only by rounding, beside
+// others that are held.
 std::vector<ActiveCorner> corners_to_hold(const Relaxation& relaxation, const Shape& shape) {
     std::vector<ActiveCorner> above = relaxation.above(shape);
     const std::vector<ActiveCorner> nearly = relaxation.above(shape, k_held.no_length);
@@ -54,8 +55,8 @@ std::vector<ActiveCorner> corners_to_hold(const Relaxation& relaxation, const Sh
     return above;
 }
 
-// An edge that would turn over shows at both its ends: one of them is enough, most often; the other
-// where no more is found. False: nothing new.
+// An edge that would turn over shows at both its ends; holding one of them usually suffices, so the
+// second is held only if there is nothing else. Returns false when nothing is new.
 bool hold_more(const Relaxation& relaxation, const std::vector<ActiveCorner>& above,
                std::vector<ActiveCorner>& held) {
     const std::size_t before = held.size();
@@ -72,15 +73,15 @@ bool hold_more(const Relaxation& relaxation, const std::vector<ActiveCorner>& ab
     return held.size() > before;
 }
 
-// Penalties let corners stand a hair above their neighbours. Those are held just below from now on:
-// an active set that only grows, since a corner that readings push out will be pushed again.
+// Penalties let corners stand slightly above their neighbours. These are now held just below. The
+// active set only grows: a corner that readings push out would be pushed out again.
 void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOptions& options,
                   LocalOptimum& optimum, ActiveSetFit& result) {
-    // A few steps a round, or it leads nowhere.
+    // Few steps a round suffice, or none do.
     int left = options.iterations;
     for (int round = 0; round < k_held.most_rounds && left > 0 && optimum.chi2 < options.hopeless;
          ++round) {
-        // What does not meet will not with more corners held.
+        // Holding more corners does not make the meets hold.
         if (optimum.worst_hard > k_newton.all_but_met) break;
         const bool come_down = round == 0 && relaxation.above(optimum.shape).empty();
         const std::vector<ActiveCorner> above = corners_to_hold(relaxation, optimum.shape);

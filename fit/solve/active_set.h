@@ -1,7 +1,7 @@
 #pragma once
-// The last stage where no meet comes apart: Gauss-Newton with hard constraints (Nocedal & Wright
-// 2006, chapter 18) in the parameters, from a shape that already is nearly right to planes and
-// symmetry that hold to rounding.
+// The last stage of fits whose meets stay together: Gauss-Newton with hard constraints (Nocedal &
+// Wright 2006, chapter 18) in the parameters. From a shape that is nearly right it reaches planes
+// and symmetry that hold to rounding error.
 
 #include "fit/solve/free_meets.h"
 #include "fit/solve/relaxation.h"
@@ -10,20 +10,20 @@ namespace culet {
 
 struct ActiveSetFit {
     Finished finished;
-    /// Corners that the readings want above a neighbour facet, held a hair below it.
+    /// Corners that the readings would lift above a neighbour facet; they are held 1e-7 below it.
     std::vector<ActiveCorner> held;
-    /// By how much holding them made chi-square larger.
+    /// Increase of chi-square by holding them.
     double cost_of_holding = 0;
-    /// More corners would have to be held than so few planes can keep: nothing like a stone.
+    /// More corners would have to be held than the planes have parameters: no stone is near.
     bool is_no_stone = false;
 };
 
 struct ActiveSetOptions {
     int iterations = 100;
-    /// Ends early, with corners above their neighbours, where chi-square is larger.
+    /// Stop early, with corners above their neighbours, when chi-square exceeds this.
     double hopeless = 1e300;
-    /// From the end of an earlier fit, the chi-square below which readings that changed a little
-    /// have not changed their meaning: no other turns and signs are then looked for.
+    /// When continuing an earlier fit: below this chi-square the readings' active branches are
+    /// taken to be unchanged, and no other signs are tried.
     double agreeable = 0;
 };
 

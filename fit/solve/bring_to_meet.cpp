@@ -6,7 +6,7 @@ namespace culet {
 
 namespace {
 
-// Smallest steps onto the hard equations, until rounding is all that is left.
+// Takes minimum-norm steps onto the hard equations, to rounding error.
 Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<ActiveCorner>& held,
                        double held_sigma) {
     PenaltyScale penalty;
@@ -45,7 +45,7 @@ void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held
                    LocalOptimum& optimum) {
     optimum.shape = onto_constraints(relaxation, std::move(optimum.shape), held, k_held.sigma);
     if (!held.empty() && relaxation.worst_hard(optimum.shape) > k_newton.rounding) {
-        // Corners held next to an edge of no length bind so tightly that meets give way.
+        // Corners held next to a degenerate edge bind so tightly that meets give way.
         Shape met = onto_constraints(relaxation, optimum.shape, held, k_held.sigma_beside_meets);
         if (relaxation.is_convex(met)) optimum.shape = std::move(met);
     }

@@ -23,14 +23,14 @@ struct Jaw {
     Vec3 out;
     std::vector<Vec3> corners;
 
-    // `back`: from the jaws to the stone, which is turned between them.
+    // `back`: the rotation from the jaws' frame to the stone's.
     double farthest(const glm::dmat3& back) const {
         const Vec3 along = back * out;
         double most = -std::numeric_limits<double>::infinity();
         for (const Vec3& p : corners) most = std::max(most, glm::dot(along, p));
         return most;
     }
-    // Turns within the range at which two of the corners are level, and none is farther.
+    // Appends the turns within the range at which two outermost corners are level.
     void add_changes(double range, std::vector<double>& to) const {
         for (std::size_t i = 0; i < corners.size(); ++i) {
             for (std::size_t k = 0; k < i; ++k) {
@@ -75,7 +75,8 @@ Shape turned_to_calipers(const Relaxation& relaxation, const Shape& shape) {
         }
         return sum;
     };
-    // Smooth between the turns at which a jaw changes corners, and often least at one of these.
+    // The misfit is smooth between turns at which a jaw changes corners, and its minimum is often
+    // at one.
     const double range = radians(k_jaws.turn_range_deg);
     std::vector<double> turns{-range, 0, range};
     for (const std::array<Jaw, 2>& both : jaws) {

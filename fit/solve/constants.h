@@ -109,8 +109,9 @@ struct JawConstants {
     /// Corners this level at the end of an earlier fit share a jaw: a turn is found no more
     /// exactly.
     double was_level = 1e-7;
-    /// A shared contact with less force holds nothing, be it level by symmetry or on a level facet.
-    /// In units of the force of a reading that is off by its sigma.
+    /// A shared contact whose Lagrange multiplier is smaller holds nothing: its corners are level
+    /// by symmetry or lie on a level facet. Unit: the multiplier of a reading that is off by one
+    /// sigma.
     double no_force = 1e-3;
     /// A result may be turned by `turn_range_deg` from where it was fitted. Corners that lie
     /// `out_of_reach` below the outermost are not touched within that; corners that differ by less
@@ -130,7 +131,7 @@ struct SignConstants {
     int most_rounds = 8;
     double most_work = 1.5e10;
     /// A choice may take the steps of a fit divided by this. bench_fit, `times`, 1000 facets:
-    /// better choices took 16 to 28 of 100 steps, hopeless ones took all.
+    /// Chains begin at each facet, or at the `most_begins` facets whose first turn costs least.
     int steps_divisor = 2;
     /// Ends whose chi-squares differ by less than `same_end` are one. A choice whose predicted gain
     /// is less than `least_gain` is not tried.

@@ -15,8 +15,8 @@ std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
 }
 
-// Of a step: the next one mends what it leaves, and hard equations end in rounding; but of a
-// reading it leaves no more than a hundredth of its uncertainty.
+// Precision of a step. The next step corrects what this one leaves, and hard equations are met to
+// rounding at the end; but readings should be left with less than a hundredth of their uncertainty.
 double step_precision(const JacobianRows& rows) {
     double sharpest = 1, largest = 0;
     for (int i = 0; i < rows.count(); ++i) {
@@ -26,7 +26,7 @@ double step_precision(const JacobianRows& rows) {
     return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
 }
 
-// Steps from one shape to the nearest end.
+// Steps from one shape to the nearest local minimum.
 class Newton {
 public:
     Newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
@@ -52,7 +52,7 @@ public:
 private:
     struct Step {
         bool factored = false, better = false;
-        bool idle = false;  ///< Newton's own, and gone in rounding
+        bool idle = false;  ///< a Newton step whose gain is lost in rounding
         double length = 0;
     };
 
@@ -79,22 +79,23 @@ private:
     const Eigen::VectorXd metric_, none_;
     PenaltyScale penalty_;
     Shape shape_;
-    std::shared_ptr<const Outline> outline_;  ///< of a stone whose meets come apart
+    std::shared_ptr<const Outline> outline_;  ///< of a stone with split meets
     StepLinearisation here_;                  ///< at the shape
     double damping_ = 0;
     int quiet_ = 0, choices_ = 0;
     bool second_order_ = false;    ///< the next step is Newton's
-    Eigen::VectorXd multipliers_;  ///< of the equations, for their curvature
-    double length_before_ = 0;     ///< of the step before in this meaning, where there was one
-    /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
-    /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
+    Eigen::VectorXd multipliers_;  ///< of the equations, for the Lagrangian Hessian
+    double length_before_ = 0;     ///< of the previous step in this branch, or 0
+    /// The branches were chosen at this shape. At a kink (a caliper's jaw that touches two corners
+    /// at once) they would alternate for ever; `choose` then lets the jaw rest on both.
     bool asked_ = false;
     double least_ = k_kkt.least_variance;
     bool may_be_close_ = true;
     LocalOptimum result_;
 };
 
-// Of an end that is near: its forces, so that the first step may be Newton's.
+// Takes the Lagrange multipliers at the start, which is near the minimum: the first step may be
+// Newton's.
 void Newton::take_curvature_of_the_end() {
     if (!solver_.factor(here_.rows, damping_ * metric_)) return;
     const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
@@ -125,7 +126,7 @@ bool Newton::ends(bool by_itself) {
     return true;
 }
 
-// With curvature where the steps are Newton's; without it where it is not positive definite.
+// Includes the second-order terms for Newton steps, unless they make the matrix indefinite.
 bool Newton::factor() {
     if (second_order_) {
         const std::vector<SymmetricEntry> bends = relaxation_.curvature(shape_, multipliers_);
@@ -142,8 +143,7 @@ bool Newton::factor() {
 void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Solution& solution,
                     double before, double gain, double length) {
     quiet_ = gain < k_newton.no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
-    // The next of Newton's steps would be shorter by the square of what this one is, and would gain
-    // less by the square of that.
+    // Newton steps converge quadratically: predict the next step's length and gain.
     const double shrinks =
         second_order_ && length_before_ > 0 ? std::min(1.0, length / length_before_) : 1;
     const double next_length = length * shrinks * shrinks,
@@ -153,14 +153,14 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
         next_gain < k_newton.no_gain * (1 + before))
         quiet_ = k_newton.quiet_steps;
     shape_ = std::move(next);
-    // The exact Hessian near the end: weak parameters would creep.
+    // Near the minimum use the exact Hessian: weak parameters would otherwise converge slowly.
     if (length < 1e-2) {
         multipliers_ = solution.multipliers;
         second_order_ = true;
     }
     here_ = std::move(there);
     damping_ = std::max(k_newton.least_damping, damping_ / 5);
-    // Once in each meaning, when there is little left to gain from it.
+    // Choose the branches once, when little is left to gain in this one.
     if (!asked_ && next_gain < k_newton.little && here_.hard_sum < k_newton.all_but_met)
         meaning_changes();
 }
@@ -189,8 +189,8 @@ Newton::Step Newton::step() {
         choose(next, outline);
     }
     StepLinearisation there = linearised(next);
-    // The hard equations first: their size is the size of what they leave undone. They are brought
-    // to rounding at the end; so little does not count.
+    // Hard equations dominate the merit. Residuals below `nearly_met` do not count: they are
+    // brought to rounding at the end.
     const double before = here_.merit + 1e6 * std::max(0.0, here_.hard_sum - k_newton.nearly_met),
                  after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_newton.nearly_met);
     made.better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
@@ -200,18 +200,18 @@ Newton::Step Newton::step() {
         return made;
     }
     if (outline_) choose(shape_, outline_);
-    // Newton's step, and the sums' own rounding.
+    // A Newton step whose change is within the rounding of the sums.
     made.idle = there.finite && second_order_ && made.length < k_newton.short_step &&
                 after - before < k_newton.no_gain * (1 + before);
     return made;
 }
 
-// After a step that was not better.
+// After a step that did not improve the merit.
 bool Newton::gives_up(const Step& made) {
     second_order_ = false;
     length_before_ = 0;
     damping_ *= 10;
-    // Nothing more to gain at the size of rounding; or no step is better.
+    // The gain is below rounding, or no damping leads to a better step.
     const bool nothing_left = (made.factored && made.length < 1e-9) || made.idle || damping_ > 1e8;
     return nothing_left && ends(made.factored);
 }

@@ -1,5 +1,5 @@
-// Second derivatives of the equations, for steps that end fast: without them parameters that the
-// readings hold weakly would creep.
+// Second derivatives of the equations for fast final convergence: without them parameters that the
+// readings hold weakly converge slowly.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,10 +11,10 @@ namespace culet {
 
 namespace {
 
-// An edge l = d . (to - from) along the unit vector d = left x right / |left x right|. Where both
-// corners lie on both planes the edge is l d, and its second derivative by two parameters i, k is
-// d_i . e_k + d_k . e_i - l d_i . d_k, where d_i and e_i are the derivatives of the direction and
-// of the edge.
+// The edge l = d . (to - from) runs along the unit vector d = left x right / |left x right|. Where
+// both corners lie on both planes, to - from = l d, and the second derivative by two parameters i,
+// k is d_i . e_k + d_k . e_i - l d_i . d_k, where d_i and e_i are the derivatives of d and of to -
+// from.
 template <typename Add>
 void bend_edge(const Quantity& length, const Shape& shape,
                const Parameters::TangentBasis& tangent_basis, double multiplier, Add add) {
@@ -57,7 +57,7 @@ void bend_edge(const Quantity& length, const Shape& shape,
     }
 }
 
-// A distance l between corners turns with e_i . e_k / l, the part along it left out.
+// The second derivative of a distance l between corners is e_i . e_k / l, for steps across it.
 template <typename Add>
 void bend_distance(const Quantity& length, const Parameters::TangentBasis& tangent_basis,
                    double multiplier, Add add) {
@@ -91,8 +91,8 @@ void bend_distance(const Quantity& length, const Parameters::TangentBasis& tange
 
 std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
                                                   const Eigen::VectorXd& multipliers) const {
-    // force * (normal . point - offset): mixed derivatives of tilts and points, and the turn of the
-    // normal itself.
+    // multiplier * (normal . point - offset): mixed derivatives of tilts and points, and the
+    // second-order turn of the normal.
     std::vector<SymmetricEntry> entries;
     const Parameters::TangentBasis tangent_basis = parameters_.tangent_basis(shape);
     for (std::size_t i = 0; i < incidences_.size(); ++i) {
@@ -127,7 +127,7 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
             const Vec3& normal = shape.normals[f];
             const double flat = std::hypot(normal.x, normal.y);
             if (n.count != 2 || flat < 1e-3) continue;
-            // An angle from z grows by half its cotangent for a step across.
+            // For a step across, the angle from z has the second derivative cot(angle).
             const Vec3 across{-normal.y / flat, normal.x / flat, 0};
             const Quantity q = e.formula(shape);
             const double side = q.slopes.empty() || q.slopes[0].slope.z <= 0 ? 1 : -1;

@@ -59,7 +59,7 @@ bool KktSolver::factor(const JacobianRows& rows, const Eigen::VectorXd& stiffnes
         const double entries = double(lower.outerIndexPtr()[j + 1] - lower.outerIndexPtr()[j]);
         work_ += 0.5 * entries * (entries + 1);
     }
-    // By Sylvester's law of inertia: one for each equation, and no more.
+    // By Sylvester's law of inertia each equation gives one negative pivot.
     return (factors_.pivots().array() < 0).count() == equations_ && factors_.pivots().allFinite();
 }
 
@@ -70,7 +70,7 @@ double KktSolver::log_determinant() const {
 Eigen::VectorXd KktSolver::refined(const Eigen::VectorXd& right, double precision) const {
     Eigen::VectorXd x = factors_.solve(right);
     if (precision >= 1 || !are_sound(x)) return x;
-    // The matrix as it is meant: exact equations have no variance.
+    // Residual of the intended matrix: exact equations have no variance.
     const auto left_by = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
         return right - matrix_.selfadjointView<Eigen::Lower>() * at - softened_.cwiseProduct(at);
     };

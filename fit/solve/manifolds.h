@@ -1,5 +1,5 @@
 #pragma once
-// What Ceres may vary of a plane and of a point. Private to the room.
+// Manifolds on which Ceres varies planes and points. Private to the room.
 
 #include <ceres/manifold.h>
 
@@ -14,8 +14,8 @@ inline double* data(Vec3& v) {
     return &v.x;
 }
 
-// A facet's plane as Ceres varies it: normal and offset, four numbers, of which as many directions
-// are free as the exact symmetry leaves.
+// A facet's plane (normal and offset, four numbers). Exact symmetry may leave it fewer than three
+// directions.
 class PlaneManifold : public ceres::Manifold {
 public:
     PlaneManifold(int tilts, const Vec3& outward) : tilts_(tilts), outward_(outward) {}
@@ -41,7 +41,7 @@ public:
         jacobian[3 * TangentSize() + tilts_] = 1;
         return true;
     }
-    // Least squares never asks for these.
+    // Least squares does not need these.
     bool Minus(const double*, const double*, double*) const override { return false; }
     bool MinusJacobian(const double*, double*) const override { return false; }
 

@@ -13,8 +13,8 @@ namespace {
 
 using Entries = std::vector<std::pair<int, double>>;
 
-// Forward elimination: an expression stands in unknowns that were left when it was made. What
-// became of those since is put in at the end, once, from the last one made to the first.
+// Forward elimination. An expression holds unknowns that remained when it was made; those
+// eliminated later are substituted once, at the end, from the last expression to the first.
 class Elimination {
 public:
     explicit Elimination(int unknowns)
@@ -24,7 +24,7 @@ public:
           sum_(std::size_t(unknowns), 0),
           size_(std::size_t(unknowns), 0) {}
 
-    // True when the equation took one more unknown.
+    // Returns true when the equation eliminated one more unknown.
     bool add(const Entries& equation, int first_preferred, int end_preferred) {
         substitute(equation);
         double largest = 0;
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    // True when the column was not in the sum.
+    // Returns true when the column was not yet in the sum.
     bool accumulate(int column, double value) {
         const std::size_t c = std::size_t(column);
         const bool is_new = size_[c] == 0 && value != 0;
@@ -87,7 +87,7 @@ private:
         size_[c] += std::abs(value);
         return is_new;
     }
-    // What is left of an unknown in the sum, which loses it.
+    // Removes an unknown from the sum and returns its coefficient (0 if cancelled).
     double taken(int column) {
         const std::size_t c = std::size_t(column);
         const double value = std::abs(sum_[c]) > k_null_space.cancelled * size_[c] ? sum_[c] : 0;
@@ -100,7 +100,7 @@ private:
         }
         touched_.clear();
     }
-    // The equation in unknowns that are left, in `row_`.
+    // Puts the equation, in the remaining unknowns, into `row_`.
     void substitute(const Entries& equation) {
         most_ = doubt_ = 0;
         waiting_.clear();
@@ -112,7 +112,7 @@ private:
             std::push_heap(waiting_.begin(), waiting_.end(), std::greater<>());
         };
         for (const auto& [column, value] : equation) put(column, value);
-        // The earliest first: it stands in later ones only.
+        // Earliest first: its expression holds only unknowns eliminated later.
         while (!waiting_.empty()) {
             std::pop_heap(waiting_.begin(), waiting_.end(), std::greater<>());
             const int column = order_[std::size_t(waiting_.back())];
@@ -129,16 +129,16 @@ private:
         take_sum(row_);
     }
 
-    std::vector<Entries> expressions_;  // of eliminated unknowns, in those that are not
-    std::vector<int> step_;             // when each was eliminated; -1: it is left
-    std::vector<double> doubts_;        // of expressions, see below
+    std::vector<Entries> expressions_;  // of eliminated unknowns, in later ones
+    std::vector<int> step_;             // at which each was eliminated; -1: it remains
+    std::vector<double> doubts_;        // rounding scale of each expression, see `doubt_`
     std::vector<int> order_;            // of elimination
     std::vector<double> sum_, size_;
     std::vector<int> touched_, waiting_;
     Entries row_;
-    double most_ = 0;  // the largest term of the latest substitution
-    // What its rounding errors are in proportion to (running error analysis, Higham 2002, 3.3): the
-    // largest term, or that of an expression, over the pivot by which it was divided.
+    double most_ = 0;  // largest term of the latest substitution
+    // Scale of its rounding error (running error analysis, Higham 2002, 3.3): the largest term, or
+    // an expression's scale times its factor, divided by the pivot.
     double doubt_ = 0;
 };
 

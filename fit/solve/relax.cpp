@@ -16,8 +16,8 @@ namespace culet {
 
 namespace {
 
-// The shape as blocks of numbers: of each orbit the first facet and the first point, and the extra
-// unknowns. Ceres moves the blocks; the whole shape follows.
+// The shape as Ceres' parameter blocks: the first facet and the first point of each orbit, and the
+// extra unknowns. The rest of the shape follows them.
 class Blocks : public ceres::EvaluationCallback {
 public:
     Blocks(const Parameters& parameters, const Shape& shape, bool keep_normals)
@@ -38,7 +38,7 @@ public:
         extras_ = shape.extras;
     }
 
-    /// At the numbers as they are.
+    /// At the blocks' current values.
     const Shape& shape() const { return shape_; }
 
     void add_to(ceres::Problem& problem) {
@@ -65,7 +65,7 @@ public:
 
     void PrepareForEvaluation(bool, bool is_new) override {
         if (!is_new) return;
-        // Blocks of images do not move: they follow the first of their orbit.
+        // Images' blocks do not move: they follow the first of their orbit.
         for (std::size_t f = 0; f < planes_.size(); ++f) {
             shape_.normals[f] = {planes_[f][0], planes_[f][1], planes_[f][2]};
             shape_.offsets[f] = planes_[f][3];
@@ -75,7 +75,7 @@ public:
         shape_.extras = extras_;
     }
 
-    /// The block that a slope is by, and the slope by the block's own numbers.
+    /// The block that a slope belongs to, and the slope in the block's own numbers.
     struct BlockSlope {
         int block = -1, at = 0, size = 0;
         std::array<double, 3> slope{};
@@ -123,7 +123,7 @@ private:
     std::vector<double> extras_;
 };
 
-// weight * (what a formula says of the shape), with its slopes by the blocks.
+// weight * formula, with its slopes by the blocks.
 class Term : public ceres::CostFunction {
 public:
     Term(const Blocks& blocks, Formula formula, double weight, std::vector<int> of)
@@ -143,7 +143,7 @@ public:
         for (const Quantity::Slope& s : q.slopes) {
             const Blocks::BlockSlope b = blocks_.of_block(s);
             const auto k = std::lower_bound(of_.begin(), of_.end(), b.block) - of_.begin();
-            // Of a degenerate shape, where the formula was another: no place to go to.
+            // The shape is degenerate, so that the formula has another form: reject the step.
             if (k == std::ptrdiff_t(of_.size()) || of_[std::size_t(k)] != b.block) return false;
             if (jacobians[k] == nullptr) continue;
             for (int i = 0; i < b.size; ++i)
@@ -172,7 +172,7 @@ private:
     double fraction_;
 };
 
-// Of x, where it is positive.
+// max(formula, 0).
 Formula positive_part(Formula formula) {
     return [formula = std::move(formula)](const Shape& shape) {
         Quantity q = formula(shape);
@@ -183,7 +183,7 @@ Formula positive_part(Formula formula) {
     };
 }
 
-// The term of a formula over its sigma, if it varies with anything.
+// Adds the formula over its sigma as a term, unless it is constant.
 void add(const Formula& formula, double sigma, Blocks& blocks, ceres::Problem& problem) {
     std::vector<int> of;
     for (const Quantity::Slope& s : formula(blocks.shape()).slopes) {
@@ -200,11 +200,11 @@ void add(const Formula& formula, double sigma, Blocks& blocks, ceres::Problem& p
 ceres::Solver::Options solver_options(int most_steps) {
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    // Whatever threads there are, the same sums in the same order.
+    // Sum in the same order whatever the number of threads.
     solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     solver.num_threads = 1;
-    // Hinges that press nothing have no slope. Left out of the pattern they fill no factor:
-    // stages of 979 facets take a sixth of the time.
+    // Inactive hinges have zero slopes. Left out of the pattern they cause no fill: stages of 979
+    // facets take a sixth of the time.
     solver.dynamic_sparsity = true;
     solver.function_tolerance = k_stage.least_gain;
     solver.initial_trust_region_radius = k_stage.first_trust;

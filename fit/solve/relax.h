@@ -1,7 +1,7 @@
 #pragma once
-// One stage of the relaxation: the mesh's planes and meeting points move until incidences, readings
-// and hinges, each softened as the stage wants it, agree best (weighted least squares by the method
-// of Levenberg and Marquardt, Ceres).
+// One stage of the relaxation. Moves the mesh's planes and points until incidences, readings and
+// hinges agree best, each softened as the stage says (weighted least squares by
+// Levenberg-Marquardt, Ceres).
 
 #include "fit/solve/relaxation.h"
 #include "stone/progress/progress.h"
@@ -9,12 +9,12 @@
 namespace culet {
 
 struct RelaxOptions {
-    bool keep_normals = false;  ///< facets move along their normals, and do not tilt
+    bool keep_normals = false;  ///< facets move along their normals and do not tilt
     int most_steps = 40;
 };
 
-/// The shape at the end; how many steps it took is added to `steps`. The readings mean at all of
-/// them what `relaxation` has chosen last. Throws Interrupted when progress says so.
+/// Returns the shape at the end and adds the steps taken to `steps`. The readings' active branches
+/// stay as `relaxation` has last chosen them. Throws Interrupted when progress says so.
 Shape relax(const Relaxation& relaxation, const Shape& shape, const PenaltyScale& penalty,
             const RelaxOptions& options, const Progress& progress, double fraction, int& steps);
 

@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-// One pair of facet and point of each orbit, and how many go with it.
+// Finds one pair of facet and point of each orbit, and the orbit's size.
 class OrbitPairs {
 public:
     OrbitPairs(const Parameters& parameters, std::size_t facets, std::size_t points)
@@ -25,7 +25,7 @@ public:
         if (!generators_.empty()) seen_.assign(facets * points, 0);
     }
 
-    /// 0: seen before; else the size of the pair's orbit.
+    /// Returns the size of the pair's orbit, or 0 if it was seen before.
     int take(int facet, int point) {
         if (generators_.empty()) return 1;
         if (was_seen(facet, point)) return 0;
@@ -239,8 +239,8 @@ std::vector<Relaxation::SignAmbiguity> Relaxation::ambiguous(const Shape& shape,
 
 std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const {
     std::vector<Caliper> result;
-    // Mirrors and rotations of the stone have a place of their own, which would turn with it.
-    // The facets' prior tells the turn by itself.
+    // Mirrors and rotations have axes of their own, which would turn too. A prior of the facets
+    // determines the azimuth by itself.
     if (!parameters_.orbits().empty() || !model_.mesh_shape().extras.empty() ||
         !model_.prior().empty() || !model_.known_planes().empty()) {
         return result;

@@ -1,6 +1,6 @@
 #pragma once
-// The equations of a fit for the solver: incidences and hinges in closed form, readings by their
-// formulas, each as one row in the parameters. Private to the room: shows Eigen.
+// The equations of a fit for the solver: incidences, hinges and readings, each as one row in the
+// parameters. Private to the room: shows Eigen.
 
 #include <map>
 #include <memory>
@@ -15,25 +15,25 @@
 
 namespace culet {
 
-/// How far a stage softens what will have to hold.
+/// How far a stage softens its constraints. Half diameters and radians.
 struct PenaltyScale {
     double incidence = 0;        ///< of exact incidences and exact readings; 0: they are hard
-    double readings = 0;         ///< added to each reading's own uncertainty
-    double hinge = 1e-4;         ///< by how much a corner may stand above a neighbour facet
-    double held = k_held.sigma;  ///< by how much a held corner may stand off where it is held
-    bool with_readings = true;   ///< false: only a convex stone of these meets, near the mesh
+    double readings = 0;         ///< added to each reading's uncertainty (in quadrature)
+    double hinge = 1e-4;         ///< sigma of a corner's height above a neighbour facet
+    double held = k_held.sigma;  ///< sigma of a held corner about the level where it is held
+    bool with_readings = true;   ///< false: fit only a convex stone with these meets, near the mesh
     bool with_hinges = true;
-    bool with_priors = true;  ///< the mesh's points, as far as a hand-made mesh may be off:
-    double mesh_sigma = 0.4;  ///< up to 20 % of its width
+    bool with_priors = true;  ///< on the mesh's points, with `mesh_sigma`:
+    double mesh_sigma = 0.4;  ///< a hand-made mesh may be off by up to 20 % of its width
 };
 
-/// A corner held below a facet that it wanted to pass.
+/// A member of the active set: a corner held below a facet that it would otherwise pass.
 struct ActiveCorner {
     int facet = -1, point = -1;
     bool operator==(const ActiveCorner&) const = default;
 };
 
-/// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
+/// Whether each corner lies on the other's facet: they are the ends of one edge.
 bool are_ends_of_one_edge(const FitModel& model, const ActiveCorner& one,
                           const ActiveCorner& other);
 
@@ -41,18 +41,18 @@ bool are_ends_of_one_edge(const FitModel& model, const ActiveCorner& one,
 struct SharedContact {
     int one = -1, other = -1;
     Vec3 direction{0, 0, 0};
-    int equation = -1, jaw = 0;  ///< of the readings', as chosen
+    int equation = -1, jaw = 0;  ///< index among the readings' equations
 };
 
-/// All equations at one shape.
+/// All equations, linearised at one shape.
 struct StepLinearisation {
     JacobianRows rows;  ///< incidences first, in the model's order
     Eigen::VectorXd prior_stiffness;
-    double merit = 0;     ///< sum of squares of all that is soft, priors and hinges included
+    double merit = 0;     ///< sum of squares of all soft terms, priors and hinges included
     double prior = 0;     ///< the priors' part of it
-    double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
-    double chi2 = 0;      ///< of readings and soft meets, at their own uncertainties
-    std::vector<ActiveCorner> holding;  ///< those held corners that have a row
+    double hard_sum = 0;  ///< sum of the absolute residuals of hard equations
+    double chi2 = 0;      ///< of readings and soft meets, with their own uncertainties
+    std::vector<ActiveCorner> holding;  ///< the held corners that have a row
     bool finite = true;
 };
 
@@ -63,81 +63,79 @@ public:
     const FitModel& model() const { return model_; }
     const Parameters& parameters() const { return parameters_; }
 
-    /// Chooses what the readings mean at this shape: which corners the caliper's jaws touch, which
-    /// way upright facets lean. Later linearisations keep to it, so that they are smooth.
-    /// `meets_hold`: of `FitModel::reading_equations`.
-    /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
-    /// a kink the two are held level.
-    /// `outline`: of a stone whose meets come apart, the corners that its planes give; the mesh's
-    /// where none is given.
+    /// Selects the active branch of each non-smooth reading at this shape: which corners the
+    /// caliper's jaws touch, which way upright facets lean. Later linearisations keep to it, so
+    /// that they are smooth. A jaw that would alternate between two corners for ever rests on both:
+    /// they share the contact and are held level. `meets_hold`: as in `reading_equations`.
+    /// `outline`: the corners that the planes of a stone with split meets give; by default the
+    /// mesh's.
     void choose(const Shape& shape, bool meets_hold,
                 std::shared_ptr<const Outline> outline = nullptr);
     const std::vector<SharedContact>& shared_contacts() const { return shared_contacts_; }
-    /// At the end of an earlier fit jaws already rest on corners that are level: each shares its
-    /// jaw with the one that is touched.
+    /// For the minimum of an earlier fit: lets each touched corner share its jaw with those that
+    /// are level with it.
     void share_level_corners(const Shape& shape);
-    /// Each corner of a shared contact carries a part of its jaw's force, and together no more than
-    /// all of it: else the jaw would rather rest on some of them only. At an end, where what shared
-    /// contacts miss by is their force.
+    /// Whether each corner of a shared contact carries a positive part of its jaw's load, and
+    /// together no more than all of it. Otherwise the jaw would rest on some of them only. Valid at
+    /// a local minimum, where a shared contact's residual gives its Lagrange multiplier.
     bool contacts_hold(const Shape& shape) const;
-    /// Of another way there: which corners the jaws touched on it says nothing of this one; or of
-    /// the end of a way, whose shared contacts are these.
+    /// Forgets which corners the jaws have touched, before another search. `but`: the shared
+    /// contacts at its start.
     void forget_contacts(std::vector<SharedContact> but = {}) {
         shared_contacts_ = std::move(but);
         left_.clear();
         begins_ = true;
     }
 
-    /// One equation of a stage: formula = 0, within the root of the variance.
+    /// One equation of a stage: formula = 0 within sqrt(variance).
     struct Term {
         enum class Kind { equation, held_corner, contact, hinge };
         Formula formula;
-        double variance = 0;  ///< 0: it holds exactly
+        double variance = 0;  ///< 0: exact
         Kind kind = Kind::equation;
         ActiveCorner corner{};                ///< of a held corner
-        double chi2_weight = 0, scatter = 0;  ///< of what chi-square counts
+        double chi2_weight = 0, scatter = 0;  ///< contribution to chi-square
     };
-    /// In this order: incidences, readings (one of each orbit), corners that are held, contacts
-    /// that share a jaw, and hinges, of which those that are held already are left out. The terms
-    /// look at this relaxation and `penalty` as long as they are asked.
+    /// Returns incidences, readings (one of each orbit), held corners, shared contacts and hinges,
+    /// in this order, without hinges that are held already. The terms refer to this relaxation and
+    /// to `penalty`, which must outlive them.
     std::vector<Term> terms(const PenaltyScale& penalty, const std::vector<ActiveCorner>& held = {},
                             const std::vector<ActiveCorner>& hinges = {}) const;
 
-    /// The terms at a shape, as rows in the parameters, with the hinges that are positive there:
-    /// one that says nothing would fill the factors all the same. A corner that is held has a row
-    /// where it would rise, and none where nothing pulls it up.
+    /// Linearises the terms at a shape. Hinges take part where they are positive, because zero rows
+    /// would fill the factors. A held corner has a row unless it lies below its level.
     StepLinearisation linearisation(const Shape& shape, const PenaltyScale& penalty,
                                     const std::vector<ActiveCorner>& held = {}) const;
 
-    /// By how much hard equations are missed, corners that share a jaw, and readings of no more
-    /// variance than `sharp`: in the rows of a linearisation that holds these corners, zero in
-    /// others.
+    /// Residuals of the equations to be corrected: hard ones, shared contacts, and readings with a
+    /// variance below `sharp`. They stand in the rows of a linearisation that holds these corners;
+    /// others are zero.
     struct Missed {
         Eigen::VectorXd residuals;
-        double worst = 0;  ///< of the hard ones
+        double worst = 0;  ///< of the hard equations
     };
     Missed missed(const Shape& shape, const PenaltyScale& penalty,
                   const std::vector<ActiveCorner>& holding, double sharp) const;
-    /// By how much incidences and other equations that hold exactly are missed at most.
+    /// The largest residual of incidences and other exact equations.
     double worst_hard(const Shape& shape) const;
-    /// Positive hinges; with a margin those, too, that it would make positive.
+    /// Corners above a neighbour facet, or less than `margin` below it.
     std::vector<ActiveCorner> above(const Shape& shape, double margin = 0) const;
-    /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.
+    /// How many held corners bind; the two ends of an edge count once.
     int binding(const Shape& shape, const std::vector<ActiveCorner>& held) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }
 
-    /// Readings and soft meets; equations that hold exactly; and directions that these leave free,
-    /// less the shifts that nothing sees.
+    /// Numbers of soft equations (readings, soft meets), of exact ones, and of degrees of freedom
+    /// that these leave, without the shifts that no reading sees.
     struct Counts {
         int soft = 0, hard = 0, free = 0;
     };
     Counts counts() const;
-    /// What the true stone is expected to leave of such a stage's merit, but for its priors.
+    /// Expected misfit of the true stone in such a stage: its merit without the priors.
     double expected_misfit(const PenaltyScale& penalty) const;
     Eigen::VectorXd metric() const;
-    /// Rows of `linearisation` that may as well mean another value, and by how much more that is:
-    /// of facets within this sine of upright. However often a facet was read, it leans one way:
-    /// readings of the same facet that would turn to the same side are one.
+    /// The sign ambiguities of facets within this sine of upright: rows of `linearisation` that
+    /// could have another value, and how much larger that is. A facet leans one way however often
+    /// it was read, so readings of one facet that would turn to the same side are one ambiguity.
     struct SignAmbiguity {
         struct Turn {
             int row = -1;
@@ -147,8 +145,8 @@ public:
         std::vector<Turn> turns;
     };
     std::vector<SignAmbiguity> ambiguous(const Shape& shape, double within) const;
-    /// How wide the stone is along level directions, where nothing else says how it stands about
-    /// up; none where something does.
+    /// The widths along level directions, if they alone determine the azimuth of the stone;
+    /// otherwise none.
     struct Caliper {
         Vec3 direction{0, 0, 0};
         double value = 0, sigma = 0;
@@ -156,8 +154,9 @@ public:
     };
     std::vector<Caliper> calipers_that_tell_the_turn() const;
 
-    /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
-    /// inclinations and edges, without which a turn of the whole stone would seem to change them.
+    /// The second-order terms of the Lagrangian: of incidences, which are bilinear, and of
+    /// inclinations and edges. Without the latter, turning the whole stone would seem to change
+    /// them.
     std::vector<SymmetricEntry> curvature(const Shape& shape,
                                           const Eigen::VectorXd& multipliers) const;
 
@@ -172,7 +171,7 @@ private:
 
     const FitModel& model_;
     const Parameters& parameters_;
-    // One facet and point of each orbit, and how many go with it.
+    // One facet and point of each orbit, and the size of the orbit.
     struct OrbitPair {
         int facet = -1, point = -1;
         double images = 1;
@@ -183,7 +182,7 @@ private:
     std::vector<Equation> equations_;  // of the readings, as chosen
     bool begins_ = true;               // nothing chosen since contacts were forgotten
     std::vector<SharedContact> shared_contacts_;
-    // Of each reading and jaw, the corners that it has left.
+    // For each reading and jaw: the corners that it has left.
     std::map<std::pair<int, int>, std::vector<int>> left_;
 };
 

@@ -1,4 +1,4 @@
-// The equations of a relaxation as one list of terms, and what Newton's steps and Ceres make of it.
+// Lists the terms of a relaxation, and linearises them for Newton steps.
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,8 @@ std::vector<Relaxation::Term> Relaxation::terms(const PenaltyScale& penalty,
         term.chi2_weight = 1 / (e.sigma * e.sigma);
         term.scatter = e.scatter;
     }
-    // Hard but for what an edge's other end asks: squares of such weight would forbid every step
-    // that bends.
+    // Held corners are hard but for what an edge's other end asks. They stay out of the merit: with
+    // their weight every curved step would be rejected.
     for (const ActiveCorner& h : held) {
         all.push_back({[h](const Shape& shape) {
                            Quantity q = culet::height(h.facet, Corner{h.point})(shape);
@@ -72,7 +72,7 @@ StepLinearisation Relaxation::linearisation(const Shape& shape, const PenaltySca
         if (is_held || term.variance == 0) {
             sum.hard_sum += is_held ? std::max(0.0, q.value) : std::abs(q.value);
         }
-        // Nothing pulls up what lies below where it is held.
+        // No row for a corner below its level: nothing pulls it up.
         if (is_held && !(q.value > -k_held.at_level)) continue;
         if (is_held) {
             sum.holding.push_back(term.corner);

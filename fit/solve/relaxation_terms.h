@@ -1,5 +1,5 @@
 #pragma once
-// Terms that the relaxation counts in more than one way. Private to the room.
+// Terms used by more than one part of the relaxation. Private to the room.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,8 +9,8 @@
 
 namespace culet {
 
-// Formula less value as a stage has it. Lengths have a kink at zero: sqrt(l^2 + s^2) on both sides,
-// so that what is shorter than s is all the same to the stage, and has no direction to be held to.
+// Residual (formula less value) in a stage. Lengths have a kink at zero; both sides are smoothed as
+// sqrt(l^2 + s^2), so that a length below s has no preferred direction.
 inline Quantity misfit_of(const Equation& e, const Shape& shape, const PenaltyScale& penalty) {
     Quantity q = e.formula(shape);
     if (e.has_kink && penalty.incidence > 0) {
@@ -23,7 +23,7 @@ inline Quantity misfit_of(const Equation& e, const Shape& shape, const PenaltySc
     return q;
 }
 
-// 0: it holds exactly.
+// 0: exact.
 inline double variance_of(const Equation& e, const PenaltyScale& penalty) {
     return e.exact ? penalty.incidence * penalty.incidence
                    : e.sigma * e.sigma + penalty.readings * penalty.readings;

@@ -18,7 +18,7 @@ Corrected onto_hard_equations(const Relaxation& relaxation, const KktSolver& sol
         if (missed.worst < correction.met) break;
         if (!(missed.worst < 0.5 * off_before)) return {std::move(shape), true};
         off_before = missed.worst;
-        // Hinges, whose rows come last, push nothing.
+        // Hinges, whose rows come last, are not corrected.
         Eigen::VectorXd back = Eigen::VectorXd::Zero(linearisation.rows.count());
         const Eigen::Index common = std::min(back.size(), missed.residuals.size());
         back.head(common) = -missed.residuals.head(common);

@@ -1,6 +1,6 @@
 #pragma once
 // Second-order correction (Nocedal & Wright 2006, 18.3): a step along the tangents of hard
-// equations leaves them by its square; the factors of the step lead back. Private to the room.
+// equations violates them by its square. The step's own factors correct that. Private to the room.
 
 #include "fit/solve/kkt_solver.h"
 #include "fit/solve/relaxation.h"
@@ -8,14 +8,14 @@
 namespace culet {
 
 struct Correction {
-    int most = 4;             ///< steps
-    double met = 0;           ///< hard equations that miss by less are met
-    double precision = 1e-3;  ///< of each step: what it leaves, the next one takes
+    int most = 4;             ///< number of correction steps
+    double met = 0;           ///< stop when hard equations miss by less
+    double precision = 1e-3;  ///< relative, of each step; the next one corrects what it leaves
 };
 
-/// `linearisation`: whose rows `solver` has factored; readings sharper than rounding are corrected
-/// too. Returns the shape after the last step that halved what was missed, and whether the factors
-/// lead there no more.
+/// `linearisation`: whose rows `solver` has factored. Corrects readings sharper than rounding, too.
+/// Returns the shape after the last step that halved the residual. `stalls`: the factors no longer
+/// reduce it.
 struct Corrected {
     Shape shape;
     bool stalls = false;

@@ -11,17 +11,16 @@ namespace culet {
 
 namespace {
 
-// Which facets to turn so that 2 r't + t'B t is least, t being 1 for those that are turned and 0
-// for the others: one and two at a time as long as that gains, then by chains of turns (Kernighan &
-// Lin 1970), each the best of those that are left although it may cost, of which the part is kept
-// that gains most.
+// Minimises 2 r't + t'B t, where t is 1 for turned facets and 0 for the others. Turns one or two at
+// a time while that gains, then follows chains of turns (Kernighan & Lin 1970): each link is the
+// best remaining turn, even if it costs. The part of the chain that gains most is kept.
 class Turns {
 public:
     Turns(Eigen::VectorXd r, const Eigen::MatrixXd& big)
         : big_(&big), r_(std::move(r)), turned_(std::size_t(r_.size()), 0) {}
 
     void gain_by_ones_and_twos() {
-        // Each gains; rounding may make it seem so for ever.
+        // Bounded because rounding may make turns seem to gain for ever.
         Eigen::Index left = 4 * r_.size();
         while (left-- > 0 && gain_by_one_or_two()) continue;
     }
@@ -50,7 +49,7 @@ public:
         return true;
     }
 
-    /// Where the chains lead that begin at each facet, and ones and twos from there.
+    /// The results of chains that begin at each facet, each improved by ones and twos.
     std::vector<Turns> ends_of_chains() const {
         std::vector<Eigen::Index> begins;
         for (Eigen::Index i = 0; i < r_.size(); ++i) begins.push_back(i);
@@ -81,7 +80,7 @@ public:
     const std::vector<char>& turned() const { return turned_; }
 
 private:
-    // By how much a facet is turned next: there, or back.
+    // Direction of the next turn of a facet: over (1) or back (-1).
     double way(Eigen::Index i) const { return turned_[std::size_t(i)] ? -1.0 : 1.0; }
     double alone(Eigen::Index i) const { return 2 * way(i) * r_(i) + (*big_)(i, i); }
     Eigen::Index cheapest(const std::vector<char>& is_taken) const {
@@ -103,7 +102,7 @@ private:
     double change_ = 0;
 };
 
-// The best few, the best first; none gains nothing.
+// The best few, the best first; only those that gain.
 std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::MatrixXd& big,
                                           std::size_t most) {
     Turns near(std::move(r), big);
@@ -121,15 +120,15 @@ std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::Matrix
     return best;
 }
 
-// What is added to the values of a linearisation's rows when some facets are taken the other way:
-// the `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals
-// over their variances at the optimum of the factored equations.
+// Returns what to add to the values of a linearisation's rows when facets take the other sign, for
+// the `most` best sets of facets that gain, the best first. `pulls`: the rows' residuals over their
+// variances at the optimum of the factored equations.
 std::vector<Eigen::VectorXd> better_sign_choices(
     const std::vector<Relaxation::SignAmbiguity>& ambiguous, const KktSolver& solver,
     const Eigen::VectorXd& pulls, std::size_t most) {
     const auto count = static_cast<Eigen::Index>(ambiguous.size());
-    // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
-    // adds to chi-square, r(i) is half the part that is linear and big(i, i) the square one.
+    // A residual falls by the shift of its value. Turning facet i changes chi-square by 2 r(i), the
+    // linear part, and big(i, i), the quadratic one.
     Eigen::VectorXd r = Eigen::VectorXd::Zero(count);
     Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(pulls.size(), count);
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -143,11 +142,11 @@ std::vector<Eigen::VectorXd> better_sign_choices(
     Eigen::MatrixXd big = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index k = 0; k < count; ++k) {
         for (const auto& [row, shift] : ambiguous[std::size_t(k)].turns) {
-            // forces = (J x - b) / variance
+            // multipliers = (J x - b) / variance
             big.row(k) -= shift * solved.multipliers.row(row);
         }
     }
-    // As it is but for what solving leaves: else turns there and back would seem to gain.
+    // Symmetrise: solution errors would make turns there and back seem to gain.
     big = (0.5 * (big + big.transpose())).eval();
     std::vector<Eigen::VectorXd> choices_of_sign;
     for (const std::vector<char>& turned : best_turns(std::move(r), big, most)) {

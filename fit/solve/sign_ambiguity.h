@@ -1,6 +1,6 @@
 #pragma once
-// Which way facets lean. A reading of an inclination does not say whether a facet looks up or down:
-// it has two meanings, and each has an optimum of its own.
+// Decides which way facets lean. A reading of an inclination does not say whether a facet looks up
+// or down. Each choice of sign has a local minimum of its own.
 
 #include <vector>
 
@@ -9,14 +9,14 @@
 
 namespace culet {
 
-/// By how much the merit changes when the readings of some facets are taken the other way follows
-/// from the residuals r and the matrix R = 1 - J C J' of their redundancies (both in units of
-/// sigma), exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and
-/// two facets at a time are turned over as long as that gains, then chains of them (Kernighan & Lin
-/// 1970). Returns the shape moved to where the others are meant, of the `most` best such sets of
-/// facets, the best first; none where none should be turned. Only facets within this sine of
-/// upright are asked, and of them those whose entry in `sides` (none: of all) is 0. `solver` may
-/// know the pattern of the equations from steps before.
+/// Predicts how the merit changes when readings of some facets take the other sign, from the
+/// residuals r and the redundancy matrix R = 1 - J C J' (both in units of sigma): by 2 d'r + d'R d
+/// for shifts d of the values, exact for linear equations. Turns over one or two facets at a time
+/// while that gains, then tries chains of turns (Kernighan & Lin 1970).
+///
+/// Returns the shapes predicted for the `most` best sets of facets, the best first; none where no
+/// turn gains. Considers facets within this sine of upright whose entry in `sides` is 0 (empty:
+/// all). `solver` may keep the sparsity pattern of earlier steps.
 std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                 const PenaltyScale& penalty, double within, std::size_t most,
                                 const std::vector<int>& sides = {});

@@ -20,8 +20,8 @@ struct Sided {
     bool has_two = false;
 };
 
-// One edge in a facet's round: its neighbour, and for both sides of each what it adds to the way
-// round and to the variance.
+// One edge in the round of a facet: the neighbour, and for both sides of each facet the edge's
+// vector and its variance.
 struct Way {
     int neighbour = -1;
     std::array<std::array<Vec3, 2>, 2> along{};
@@ -60,7 +60,7 @@ private:
         return after - before;
     }
     void turn(int facet) { up_[std::size_t(facet)] ^= 1; }
-    // Of a chain of best turns from one facet on (or from anywhere) the part that gains most.
+    // A chain of best turns from one facet on (or from anywhere), cut where it gains most.
     struct Chain {
         double gain = 0;
         std::vector<int> turns;
@@ -70,7 +70,7 @@ private:
     std::vector<std::vector<Way>> ways_;
     std::vector<std::vector<int>> near_;  // neighbours
     std::vector<char> up_, may_turn_;
-    std::vector<int> turning_;  // facets that may
+    std::vector<int> turning_;  // facets that may turn
 };
 
 std::vector<Sided> sided_normals(const FitModel& model, const std::vector<int>& known,
@@ -115,7 +115,7 @@ std::vector<Sided> sided_normals(const FitModel& model, const std::vector<int>& 
     return result;
 }
 
-// Of each edge that was read, by its facets.
+// The reading of each edge that was read, by the edge's facets.
 using ReadEdges = std::map<std::pair<int, int>, const Reading*>;
 ReadEdges read_edges(const FitModel& model) {
     ReadEdges read;
@@ -151,8 +151,8 @@ Closing::Closing(const FitModel& model, const std::vector<int>& known, double ro
     near_.resize(count);
     may_turn_.assign(count, 0);
     for (std::size_t f = 0; f < count; ++f) {
-        // The mesh's corners round a facet say more of its normal than the plane nearest to them,
-        // which a long thin facet turns by.
+        // The mesh's corners round a facet show its side better than the plane nearest to them,
+        // about which a long thin facet can turn over.
         Vec3 area(0);
         const std::vector<int>& loop = model.mesh_outline()->loops[f];
         for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -222,7 +222,7 @@ Closing::Chain Closing::chain(const std::vector<int>& from, bool grows, int long
 
 void Closing::look() {
     for (int round = 0; round < k_closing.most_rounds; ++round) {
-        // Only next to where edges do not close.
+        // Only near facets whose edges do not close.
         std::vector<int> suspects;
         for (const int f : turning_) {
             const auto& n = near_[std::size_t(f)];

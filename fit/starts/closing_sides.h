@@ -1,5 +1,5 @@
 #pragma once
-// Which way facets look, told by the edges read round them. Private to the room.
+// Decides which way facets look from the edges read round them. Private to the room.
 
 #include <vector>
 
@@ -7,22 +7,20 @@
 
 namespace culet {
 
-/// An inclination does not say whether a facet looks up or down; with its azimuth it leaves two
-/// normals. The directions of a facet's edges follow from its normal and those of its neighbours,
-/// and the edges, as long as they were read, have to close round the facet. Along a girdle
-/// neighbours differ by a few degrees, and an edge between two of them lies across the girdle
-/// where both lean as they do, and aslant where only one does: so the two normals of a facet are
-/// told apart even where its corners in the mesh are off by as much as it is high.
+/// A facet's inclination and azimuth leave two normals: it may look up or down. The directions of
+/// its edges follow from its normal and its neighbours', and the edges, with the lengths read, have
+/// to close round the facet. Along a girdle neighbours differ by a few degrees: their common edge
+/// runs across the girdle if both have the right side, and aslant if only one does. So this tells
+/// the sides apart even where the mesh's corners are off by as much as the facet is high.
 ///
-/// `known`: of each facet 1 where the mesh says that it looks up, -1 down, 0 where it does not say;
-/// none of the former changes. Returns the same, with the sides of more facets known: of those
-/// whose azimuth and inclination were read, where the other side would be worse by five sigmas at
-/// least. What was not read is taken from the mesh, as surely as it is drawn: `rough` is by how
-/// much its corners are off.
+/// `known`: 1 for each facet that the mesh shows to look up, -1 down, 0 unknown; known ones do not
+/// change. Returns it with more sides known: of facets whose azimuth and inclination were read,
+/// where the other side would be worse by at least five sigmas. What was not read is taken from the
+/// mesh, whose corners have the error `rough`.
 ///
-/// Every facet has a misfit of its own in the sides of a few, capped since a reading may be wrong;
-/// the least sum is looked for by chains of turns (Kernighan & Lin 1970) from where the mesh has
-/// them.
+/// Minimises the sum of the facets' misfits by chains of turns (Kernighan & Lin 1970), starting
+/// from the mesh's sides. A facet's misfit depends on a few sides, and is capped since a reading
+/// may be wrong.
 std::vector<int> closing_sides(const FitModel& model, std::vector<int> known, double rough);
 
 }  // namespace culet

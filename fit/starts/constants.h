@@ -28,8 +28,8 @@ struct SearchPolicy {
     /// facets and noise of 20 % take up to 1e9, half a second.
     double most_work = 1.5e10, most_work_in_vain = 7e9;
     int least_starts_in_vain = 2;
-    /// A stone whose last steps still creep is better than another if it agrees better by more than
-    /// this part of chi-square and two sigmas of one reading.
+    /// A stone that did not converge is preferred to another if it agrees better by more than this
+    /// part of chi-square and two sigmas of one reading.
     double creeping_part = 1.05, creeping_noise = 4;
 
     // The stages: penalty continuation.
@@ -37,8 +37,8 @@ struct SearchPolicy {
     struct Stage {
         double incidence, readings;  ///< PenaltyScale, in half diameters
     };
-    /// A third each time, so that a stage begins within what the one before left open. Trials: 20
-    /// of 20 rough meshes led to their stone.
+    /// Each about a third of the one before, so that a stage begins within the tolerance of the
+    /// previous one. Trials: 20 of 20 rough meshes led to their stone.
     std::array<Stage, 6> stages{
         {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}, {0.0003, 0.0}}};
     /// Hinges are this many times stiffer than incidences: corners rise above a facet last.
@@ -67,9 +67,9 @@ struct ClosingConstants {
     /// A side is known if the other costs this much more: five sigmas.
     double known = 25;
     double least_gain = 1e-6;
-    /// Turns in one chain, from everywhere and from one facet on.
+    /// Turns in one chain: over all suspects, and growing from one facet.
     int chain = 60, local_chain = 14;
-    /// A chain that costs more on its way is given up.
+    /// A chain whose cost rises above this is given up.
     double highest = 200;
     int most_rounds = 100;
     /// Sigma of an edge that was not read, relative to its length: what a hand-made mesh is off by.
@@ -103,11 +103,11 @@ struct DrawnConstants {
 };
 inline constexpr DrawnConstants k_drawn;
 
-/// Ends of starts (multistart.h).
+/// Local minima that starts lead to (multistart.h).
 struct EndConstants {
     /// p-value above which the readings agree well.
     double agrees_well = 0.2;
-    /// Ends whose chi-squares differ by less are of one stone: a third of a sigma of one reading.
+    /// Minima whose chi-squares differ by less are one stone: a third of a sigma of one reading.
     double same_chi2 = 0.1;
 };
 inline constexpr EndConstants k_ends;

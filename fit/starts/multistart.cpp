@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-// The chi-square test by counting: the least redundancy that there can be decides what is accepted
-// at once, and only in between is it counted out.
+// The chi-square test. Counting gives bounds of the redundancy, which decide most cases at once;
+// only between them is it computed.
 bool agrees(const FitModel& model, const Candidate& candidate, int free, int counted,
             double significance) {
     if (model.meets().has_estimated_groups()) return true;
@@ -26,12 +26,12 @@ bool agrees(const FitModel& model, const Candidate& candidate, int free, int cou
     if (!(chi2_tail(chi2, counted + candidate.binding) > significance)) return false;
     const Diagnosis d = diagnose(model, candidate.finished.shape, candidate.finished.outline,
                                  {.full = false, .binding = candidate.binding});
-    // Readings that say less than one of them together contradict nobody.
+    // Readings with a total redundancy below one cannot contradict each other.
     return chi2_tail(d.chi2, std::max(1.0, d.dof)) > significance;
 }
 
-// A stone whose last steps creep is still the better one where it agrees better by more than
-// chi-square's own noise: so at an edge that the readings want to have no length.
+// A stone that did not converge still ranks first if it agrees better by more than the noise of
+// chi-square. Degenerate edges cause such stalls.
 auto rank(const Candidate& c, double handicap = 0) {
     const double chi2 = c.finished.chi2 + handicap;
     return std::make_tuple(
@@ -39,15 +39,15 @@ auto rank(const Candidate& c, double handicap = 0) {
         c.finished.converged ? chi2 : k_search.creeping_part * chi2 + k_search.creeping_noise);
 }
 
-// The starts as the first stages leave them.
+// The starts after the first stages.
 class Screening {
 public:
     Screening(const FitModel& model, Relaxation& relaxation)
         : relaxation_(relaxation), starts_(model) {}
 
     bool mesh_is_good() const { return starts_.mesh_is_good(); }
-    /// The next start that may well lead home; when there is none, the best of those that have
-    /// waited. No more than `most` are tried for it.
+    /// Returns the next plausible start; when there is none, the best of those set aside. Tries at
+    /// most `most` starts.
     std::optional<Screened> next(int most, bool only_plausible, double& work,
                                  const Progress& progress) {
         while (static_cast<int>(waiting_.size()) < most) {
@@ -103,7 +103,7 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
     std::vector<double> ends;
     int fruitless = 0, without_stone = 0;
     double& work = result.work;
-    // Each costs a large stone as much as all of them a small one.
+    // One start of a large stone costs as much as all starts of a small one.
     const int facets = static_cast<int>(model.stone().solid.facets.size());
     const int most =
         std::min(options.starts, std::max(k_search.least_starts, k_search.most_facets / facets));
@@ -118,7 +118,7 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
         const Progress part = [&](double fraction) {
             return !progress || progress(begin + (0.7 - begin) * fraction);
         };
-        // Beside a stone that agrees, only another that may agree as well is worth the time.
+        // Beside a stone that agrees, only plausible starts are worth the time.
         const bool only_plausible = result.best.agrees;
         const std::optional<Screened> rough =
             approaches.next(most - result.starts, only_plausible, work, part);
@@ -135,33 +135,34 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
         const bool good = candidate.is_local_minimum();
         candidate.agrees = good && agrees(model, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
-        // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
-        // lesser one: others get a chance.
+        // A minimum that agrees poorly or has degenerate edges may not be the global one: try
+        // others.
         const bool accept =
             candidate.agrees && candidate.cost_of_holding < k_search.cheap_holding &&
             (model.meets().has_estimated_groups() ||
              chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_ends.agrees_well);
-        // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
-        // way.
+        // Starts built from the topology are alike: with a bad mesh the first ones may all fail in
+        // the same way.
         const bool again = good && (candidate.agrees || approaches.mesh_is_good()) &&
                            std::any_of(ends.begin(), ends.end(), [&](double other) {
                                return std::abs(other - chi2) < k_ends.same_chi2;
                            });
         if (good) ends.push_back(chi2);
         ++fruitless;
-        // What the readings leave open is as the earlier start had it: the mesh before others.
+        // Undetermined directions stay as the earlier start has them: the mesh comes before the
+        // others.
         if (result.starts++ == 0 || rank(candidate, k_ends.same_chi2) < rank(result.best)) {
             result.best = std::move(candidate);
             fruitless = 0;
         }
-        // Readings that contradict each other do so from every start.
+        // Contradictory readings contradict each other from every start.
         const bool tired =
             result.best.sound && result.best.finished.converged &&
             fruitless >= (result.best.agrees || approaches.mesh_is_good() ? k_search.patience_good
                                                                           : k_search.patience);
         if (without_stone == result.starts && without_stone >= k_search.patience_without_stone)
             break;
-        // Ending twice where it ended before is no accident, if nothing better was seen.
+        // The same minimum twice is no accident, unless a better one was seen.
         if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_ends.same_chi2))
             break;
     }

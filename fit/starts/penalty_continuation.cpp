@@ -64,8 +64,8 @@ Screened screen(Relaxation& relaxation, const Start& start, const Progress& prog
     result.shape = relaxation.parameters().symmetrised(start.shape);
     relaxation.forget_contacts();  // of another start
     StageRunner run{relaxation, progress, start.sides};
-    // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
-    // mesh has inside out would hold it there.
+    // First fit a convex stone with planar facets, without the readings: lengths of edges that are
+    // inside out in a rough mesh would keep them so.
     const bool keep = start.keep_normals_at_first;
     if (!start.is_convex) run.once(result.shape, {0.03, 0.0}, {.keep = keep}, 0.05);
     result.shape = relaxation.parameters().symmetrised(

@@ -16,7 +16,7 @@ namespace culet {
 
 namespace {
 
-// Where planes of a corner come nearest to each other, near `guess` where they leave it open.
+// The point nearest to the planes of a corner; in directions that they leave open, at `guess`.
 Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
     glm::dmat3 normals(0.0);
     Vec3 right(0);
@@ -42,7 +42,7 @@ Candidate finish_from(const FitModel& model, const Shape& shape, int iterations)
 Candidate refit_from(const FitModel& model, const Shape& shape, int iterations) {
     const Parameters parameters = model.parameters();
     Relaxation relaxation(model, parameters);
-    // The least redundancy that there can be, by counting.
+    // Lower bound of the redundancy, by counting.
     const Relaxation::Counts counts = relaxation.counts();
     const double agreeable =
         chi2_quantile(k_ends.agrees_well, std::max(1, counts.soft - counts.free));
@@ -71,7 +71,7 @@ std::optional<Shape> shape_of(const FitModel& model, const Solid& solid) {
     const int up = model.frame().up_facet();
     glm::dmat3 turn =
         turn_upright(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(model.stone().up));
-    // About up: as most facets of the mesh stand, then as the azimuths that were read say.
+    // Azimuth: as most facets of the mesh stand, then as the azimuths read say.
     double east = 0, north = 0;
     for (std::size_t f = 0; f < planes.size(); ++f) {
         const Vec3 n = turn * planes[f].normal;

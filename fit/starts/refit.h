@@ -1,5 +1,5 @@
 #pragma once
-// Fitting again from a stone that was fitted before: no search for a start.
+// Fits again from a stone that was fitted before, without a search for a start.
 
 #include <optional>
 
@@ -7,15 +7,16 @@
 
 namespace culet {
 
-/// The last stage alone, from a shape that is nearly right.
+/// Runs the last stage alone, from a shape that is nearly right.
 Candidate finish_from(const FitModel& model, const Shape& shape, int iterations);
 
-/// Likewise from the end of an earlier fit to readings most of which are the same: where they agree
-/// well, they mean what they meant then, and no other turns and signs are looked for.
+/// The same, from the minimum of an earlier fit to mostly the same readings. Where these agree
+/// well, their active branches stay as they were, and no other signs are tried.
 Candidate refit_from(const FitModel& model, const Shape& shape, int iterations);
 
-/// The shape of a solid with the mesh's facets, such as an earlier result: upright, in the fit's
-/// scale, turned as the readings' azimuths (or the mesh) say. Nothing when it lacks a facet.
+/// Returns the shape of a solid with the mesh's facets, such as an earlier result: upright, in the
+/// fit's scale, turned to the azimuths of the readings (or the mesh). Nothing when a facet is
+/// missing.
 std::optional<Shape> shape_of(const FitModel& model, const Solid& solid);
 
 }  // namespace culet

@@ -25,7 +25,7 @@ double robust_weight(Loss loss, double z) {
 }
 
 std::vector<double> reweight(FitModel& model, Candidate& candidate, Loss loss, int iterations) {
-    // Each by its own weight.
+    // Each replicate gets its own weight.
     model.keep_replicates_apart();
     const std::size_t count = model.readings().size();
     std::vector<double> weights(count, 1), sigmas;
@@ -54,7 +54,7 @@ std::vector<double> reweight(FitModel& model, Candidate& candidate, Loss loss, i
         work += next.finished.work;
         next.start = candidate.start;
         next.finished.iterations += candidate.finished.iterations;
-        // A start that was sound stays so, or the weights lead nowhere.
+        // Stop when a sound stone becomes unsound: the weights lead nowhere.
         if ((candidate.sound && !next.sound) || next.is_no_stone) break;
         candidate = std::move(next);
         if (!candidate.finished.converged) break;

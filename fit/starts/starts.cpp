@@ -35,7 +35,7 @@ glm::dmat3 to_glm(const Eigen::Matrix3d& m) {
     return result;
 }
 
-// x -> m x + shift; planes follow their points.
+// Maps points x to m x + shift, and planes with them.
 Shape mapped(Shape shape, const glm::dmat3& m, const Vec3& shift) {
     const glm::dmat3 of_normals = glm::transpose(glm::inverse(m));
     for (std::size_t f = 0; f < shape.normals.size(); ++f) {
@@ -75,7 +75,7 @@ Starts::Starts(const FitModel& model) : model_(model) {
         worst = std::max(worst, std::abs(glm::dot(mesh.normals[i.facet], mesh.points[i.point]) -
                                          mesh.offsets[i.facet]));
     }
-    // Heights above small facets that were drawn a little askew are large: one of many says little.
+    // Root mean square: a small facet drawn slightly askew has a few large heights.
     double squares = 0;
     const std::vector<std::pair<int, int>> hinges = hinges_of(model);
     for (const auto& [f, p] : hinges) {
@@ -99,7 +99,7 @@ std::optional<Start> Starts::next() {
     while (true) {
         std::optional<Start> start;
         bool without_sides = false;
-        // A mesh drawn with care goes first: what the readings leave open then stays as drawn.
+        // A mesh drawn with care comes first, so that undetermined directions stay as drawn.
         switch (at_++) {
             case 0:
                 if (mesh_is_good_) start = mesh();
@@ -129,20 +129,20 @@ std::optional<Start> Starts::next() {
                 return std::nullopt;
         }
         if (start) {
-            // The mesh may be wrong about them all the same: one start does not ask.
+            // The mesh may be wrong about sides: one start ignores them.
             if (!without_sides) start->sides = sides_;
             return start;
         }
     }
 }
 
-// What the mesh says of a facet counts when it tells the two meanings of the reading apart by six
-// times what its corners' errors tilt it by.
+// The mesh decides a facet's side when it separates the two values of the reading by six times the
+// tilt error that its corners cause.
 void Starts::find_sides() {
     const Shape& mesh = model_.mesh_shape();
     sides_.assign(mesh.normals.size(), 0);
     for (const Reading& r : model_.readings()) {
-        // Not where it may stand upright, to within its sigma.
+        // Unless the facet may be upright within 3 sigma.
         if (r.side != 0 && std::numbers::pi / 2 - r.value > 3 * r.sigma) {
             for (const int f : r.facets) sides_[std::size_t(f)] = r.side;
         }
@@ -161,9 +161,9 @@ void Starts::find_sides() {
                      as_down = std::abs(drawn - (std::numbers::pi - r.value));
         if (std::abs(as_up - as_down) > 6 * rough->tilt(f)) sides_[f] = as_up < as_down ? 1 : -1;
     }
-    // Scanned girdles need it: without, 3 of 10 rough meshes of such were lost, and the others took
-    // four times as long (bench/corpus_bench.cpp). Not where facets follow each other: those
-    // that were not read have the sides of others.
+    // Scanned girdles need this: without it 3 of 10 rough meshes with such girdles were lost, and
+    // the others took four times as long (bench/corpus_bench.cpp). Not under exact symmetry, where
+    // facets that were not read follow others.
     if (model_.symmetries().exact_motions().empty())
         sides_ = closing_sides(model_, std::move(sides_), rough->corner());
 }
@@ -185,7 +185,7 @@ Start Starts::mesh() const {
     return {"mesh", model_.mesh_shape(), false, false, {}};
 }
 
-// Brings the up facet level, and azimuths to where they were read.
+// Levels the up facet and turns azimuths to those read.
 Shape Starts::upright(Shape shape) const {
     if (model_.frame().up_facet() >= 0) {
         const Vec3 n = shape.normals[model_.frame().up_facet()];
@@ -197,7 +197,7 @@ Shape Starts::upright(Shape shape) const {
     return turned_about_z(std::move(shape), angle);
 }
 
-// Umeyama (1991).
+// Similarity transform by Umeyama (1991).
 std::optional<Start> Starts::similar() {
     make_canonical();
     if (!canonical_) return std::nullopt;
@@ -213,7 +213,7 @@ std::optional<Start> Starts::similar() {
     return over_mesh("canonical", mapped(*canonical_, map, m.to - map * m.from));
 }
 
-// A canonical polyhedron that was laid over the mesh; points that it has not are the mesh's.
+// A start from the canonical polyhedron laid over the mesh. Points that it lacks are the mesh's.
 Start Starts::over_mesh(const std::string& name, Shape shape) const {
     const Shape& mesh = model_.mesh_shape();
     Start start{name, std::move(shape), false, true, {}};
@@ -233,7 +233,7 @@ std::optional<Start> Starts::affine() {
     const Moments m = moments(canonical_->points, mesh.points);
     const Eigen::Matrix3d map = m.cross * inverse3(m.own);
     const Eigen::VectorXd stretches = singular_values(map).values;
-    // A mesh turned inside out, or crushed flat, says nothing of proportions.
+    // A mesh that is inside out or crushed flat does not tell proportions.
     if (!(determinant3(map) > 0) || !(stretches(2) > 0.15 * stretches(0))) {
         return std::nullopt;
     }
@@ -272,8 +272,8 @@ std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::s
         const double azimuth = turned[f] ? turn[f] : std::atan2(n.y, n.x);
         n = {std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
              std::cos(inclination)};
-        // Inclinations do not say whether a facet looks up or down; where it lies does, better than
-        // the normal of a rough mesh.
+        // Inclinations do not tell the side; the facet's place does, better than the normal of a
+        // rough mesh.
         Vec3 mean(0);
         const std::vector<int>& loop = model_.mesh_outline()->loops[f];
         for (int corner : loop) mean += shape.points[corner] / double(loop.size());

@@ -1,6 +1,6 @@
 #pragma once
-// Where the fit may begin, in the order of trust. The start decides everything: those built from
-// who meets whom do not care how badly the mesh was made.
+// Starts of the fit, in the order of trust. The start decides which minimum is found. Starts built
+// from the topology do not depend on how badly the mesh was drawn.
 
 #include <optional>
 #include <string>
@@ -13,24 +13,24 @@ namespace culet {
 struct Start {
     std::string name;  ///< for reports: "mesh", "canonical", ...
     Shape shape;
-    /// The first stage leaves normals as they are: the start trusts the angles that were read.
+    /// The first stage keeps the normals, because the start trusts the angles read.
     bool keep_normals_at_first = false;
-    bool is_convex = false;  ///< planar facets that nothing stands above
-    /// Which way each facet looks before readings come in: 1 up, -1 down, 0 as the shape says. An
-    /// inclination has two meanings; a mesh that is not too rough tells which.
+    bool is_convex = false;  ///< planar facets, and no corner above them
+    /// Which way each facet looks before readings are used: 1 up, -1 down, 0 as the shape shows. An
+    /// inclination leaves the side open; a mesh that is not too rough tells it.
     std::vector<int> sides;
 };
 
-/// Turns facets that look the other way than `sides`.
+/// Turns facets that look the other way from `sides`.
 Shape looking_as(const FitModel& model, Shape shape, const std::vector<int>& sides);
 
-/// Makes starts one after another, each when it is asked for; always the same ones.
+/// Makes starts one after another on demand, always in the same order.
 class Starts {
 public:
     explicit Starts(const FitModel& model);
     /// Nothing when there are no more.
     std::optional<Start> next();
-    /// Planar and convex but for a small part: then the first starts should do.
+    /// The mesh is nearly planar and convex: the first starts should suffice.
     bool mesh_is_good() const { return mesh_is_good_; }
 
 private:
