@@ -21,7 +21,6 @@ namespace culet {
 
 namespace {
 
-// Continues from an earlier result if that leads to a local minimum, else tries the starts.
 Multistart search(const FitModel& model, const FitOptions& options, const Progress& progress) {
     if (const auto shape = options.start ? shape_of(model, *options.start) : std::nullopt) {
         Multistart again;

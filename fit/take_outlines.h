@@ -21,11 +21,11 @@ struct TakenOutlines {
     std::vector<Reading> readings;  ///< of kind silhouette; empty without outlines
     std::vector<std::string> notes;
 };
-/// Takes those of the written readings that have outlines. Throws InputError for corners of the
-/// mesh that are named by number: outlines move and split them.
+/// Throws InputError for corners of the mesh that are named by number: outlines move and split
+/// them.
 TakenOutlines take_outlines(const Stone& mesh, const std::vector<WrittenReading>& written);
 
-/// Appends them to the stone's other readings. Throws InputError when an id is taken.
+/// Throws InputError when an id is taken.
 void add_outlines(TakenOutlines taken, std::vector<Reading>& readings,
                   std::vector<std::string>& notes);
 

@@ -74,8 +74,7 @@ Pattern pattern_of(const Solid& solid, const HalfEdges& half, int infinite) {
     return pattern;
 }
 
-// Sets the Hessian of the convex function at `at`. `index`: the unknown of each circle, -1 for
-// lines.
+// Hessian of the convex function. `index`: the unknown of each circle, -1 for lines.
 void set_hessian(const Pattern& pattern, const std::vector<int>& index,
                  const std::vector<double>& at, Eigen::SparseMatrix<double>& hessian) {
     std::vector<Eigen::Triplet<double>> entries;

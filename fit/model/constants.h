@@ -29,8 +29,7 @@ struct ShapeConstants {
     double tight = 1e6;
     /// Weight in the metric of a released meet's point, relative to other points.
     double loose_point = 0.08;
-    /// Exact meets show up as edges of about the rounding error; real edges are far longer than
-    /// this.
+    /// Exact meets show as edges of about rounding error; real edges are far longer than this.
     double rounding_edge = 1e-10;
     /// Sigma of released incidences: planes come apart this far before the meet's point lags.
     double released_sigma = 0.2;

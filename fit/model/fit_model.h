@@ -1,7 +1,6 @@
 #pragma once
 // The model of one fit: the mesh in the fit's frame, the readings with their effective sigmas,
-// meets, symmetries, the prior and the planes known from outlines. equations.h makes equations of
-// it.
+// meets, symmetries, the prior and the planes known from outlines.
 
 #include <memory>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-// The frame of the fit ("inside"): the mesh upright, its middle at the origin, half diameter 1. And
+// The frame of the fit ("inside"): the mesh upright, its middle at the origin, half diameter 1; and
 // the transformation back to the mesh's own frame ("outside").
 
 #include <vector>
@@ -19,7 +19,7 @@ public:
     /// The mesh, inside.
     const Solid& solid() const { return solid_; }
     int up_facet() const { return up_facet_; }
-    /// Whether it is within 10 degrees of upright in the mesh.
+    /// Within 10 degrees of upright in the mesh.
     bool is_girdle(int facet) const;
     /// Half the mesh's greatest width in plan.
     double half_width() const;
@@ -33,7 +33,7 @@ public:
     /// Factor from a quantity inside to the reading's unit.
     double unit_of(const Reading& reading) const;
 
-    /// Turns a direction of the mesh's frame inside.
+    /// Turns a direction from the mesh's frame.
     Vec3 inside_direction(const Vec3& direction) const;
     /// Outlines are given in the mesh's frame, a photograph in that of the fitted stone, whose up
     /// is exactly along an axis.

@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// Compared with the shape turned about up as the stone stood when it was seen.
+/// Rows refer to the azimuth at which the stone was seen; the shape is turned back to it.
 struct KnownPlanes : PlaneObservations {
     bool turns = true;  ///< the stone's azimuth when it was seen is unknown
 };

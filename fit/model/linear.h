@@ -33,7 +33,7 @@ private:
 
 struct Linearised {
     Layout layout;
-    RowWriter writer;  ///< of the shape
+    RowWriter writer;
     std::vector<Equation> soft, hard;
     FunctionRows soft_rows;          ///< slopes / sigma
     Eigen::VectorXd soft_residuals;  ///< (formula - value) / sigma

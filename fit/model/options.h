@@ -67,7 +67,6 @@ struct FitOptions {
     /// Examine the stone's own axis, contradicted meets, and edges and facets that the readings
     /// leave undetermined or contradict.
     bool findings = true;
-    /// Propose the stone's symmetry.
     bool find_symmetry = false;
     /// Edges and facets that the readings contradict may change or disappear, and contradicted
     /// meets may come apart.

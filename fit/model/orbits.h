@@ -17,7 +17,6 @@ struct SymmetryMotion {
     glm::dmat3 motion{1.0};  ///< a turn about z, or a reflection at a plane through z
 };
 glm::dmat3 turn_about_z(double angle);
-/// Turns the whole shape about z.
 Shape turned_about_z(Shape shape, double angle);
 /// `azimuth`: of the plane's normal.
 glm::dmat3 mirroring_at(double azimuth);

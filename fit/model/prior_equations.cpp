@@ -1,5 +1,4 @@
-// Makes equations of the facets' prior: one for each facet's angle, azimuth and offset, and one for
-// each of the tiers' common parts.
+// One equation for each facet's angle, azimuth and offset, and one for each common part of a tier.
 
 #include "fit/model/equations.h"
 

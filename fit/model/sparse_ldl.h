@@ -20,7 +20,6 @@ public:
     const Eigen::VectorXd& pivots() const;  ///< D
     const Matrix& lower() const;            ///< L, without its unit diagonal
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
-    /// Solves for each column.
     Eigen::MatrixXd solve_all(const Eigen::MatrixXd& right) const;
 
 private:

@@ -1,5 +1,5 @@
-// Finds which facets and meets exact symmetry readings exchange: first by the topology, then by
-// positions. So a rough mesh has the same exchanges as the stone.
+// Finds which facets and meets exact symmetry readings exchange: by the topology first, so that a
+// rough mesh has the same exchanges as the stone.
 
 #include <algorithm>
 #include <cmath>

@@ -77,7 +77,7 @@ bool hold_more(const Relaxation& relaxation, const std::vector<ActiveCorner>& ab
 // active set only grows: a corner that readings push out would be pushed out again.
 void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOptions& options,
                   LocalOptimum& optimum, ActiveSetFit& result) {
-    // Few steps a round suffice, or none do.
+    // Shared by all rounds: a few steps suffice in each, or none do.
     int left = options.iterations;
     for (int round = 0; round < k_held.most_rounds && left > 0 && optimum.chi2 < options.hopeless;
          ++round) {

@@ -6,7 +6,6 @@ namespace culet {
 
 namespace {
 
-// Takes minimum-norm steps onto the hard equations, to rounding error.
 Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<ActiveCorner>& held,
                        double held_sigma) {
     PenaltyScale penalty;

@@ -26,7 +26,6 @@ double step_precision(const JacobianRows& rows) {
     return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
 }
 
-// Steps from one shape to the nearest local minimum.
 class Newton {
 public:
     Newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
@@ -79,8 +78,8 @@ private:
     const Eigen::VectorXd metric_, none_;
     PenaltyScale penalty_;
     Shape shape_;
-    std::shared_ptr<const Outline> outline_;  ///< of a stone with split meets
-    StepLinearisation here_;                  ///< at the shape
+    std::shared_ptr<const Outline> outline_;
+    StepLinearisation here_;
     double damping_ = 0;
     int quiet_ = 0, choices_ = 0;
     bool second_order_ = false;    ///< the next step is Newton's
@@ -94,8 +93,6 @@ private:
     LocalOptimum result_;
 };
 
-// Takes the Lagrange multipliers at the start, which is near the minimum: the first step may be
-// Newton's.
 void Newton::take_curvature_of_the_end() {
     if (!solver_.factor(here_.rows, damping_ * metric_)) return;
     const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));

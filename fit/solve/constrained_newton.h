@@ -28,7 +28,7 @@ struct NewtonOptions {
     std::shared_ptr<const Outline> outline{};
 };
 
-/// Returns the corners that the shape's planes give; null where they enclose no solid.
+/// Null where the planes enclose no solid.
 std::shared_ptr<const Outline> outline_of(const FitModel& model, const Shape& shape);
 
 /// `held`: corners held below a facet. `solver` keeps its sparsity pattern from call to call. At
@@ -36,8 +36,7 @@ std::shared_ptr<const Outline> outline_of(const FitModel& model, const Shape& sh
 LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                                 const std::vector<ActiveCorner>& held,
                                 const NewtonOptions& options);
-/// Sets the optimum's chi-square and the residual of its hard equations. `outline`: as in
-/// `Relaxation::choose`.
+/// Sets chi-square and the largest hard residual. `outline`: as in `Relaxation::choose`.
 void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                  LocalOptimum& optimum, std::shared_ptr<const Outline> outline = nullptr);
 /// Moves the optimum onto the hard equations by minimum-norm steps, to rounding error.

@@ -38,15 +38,14 @@ public:
     /// precision of 1 means no refinement.
     Solution solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                    double precision = 1e-13) const;
-    /// Solves for several right-hand sides, one a column. `a` or `b` may have no columns where it
-    /// is zero.
+    /// One right-hand side a column. `a` or `b` may have no columns where it is zero.
     struct Solutions {
         Eigen::MatrixXd unknowns, multipliers;
         bool good = false;
     };
     Solutions solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                         double precision = 1e-13) const;
-    /// Estimated work of all its factorisations, in multiplications.
+    /// Of all its factorisations, in multiplications (estimate).
     double work() const { return work_; }
     /// log |det| of the factored matrix: log det C + log det (P + J'C^-1 J).
     double log_determinant() const;

@@ -38,7 +38,6 @@ public:
         extras_ = shape.extras;
     }
 
-    /// At the blocks' current values.
     const Shape& shape() const { return shape_; }
 
     void add_to(ceres::Problem& problem) {
@@ -156,7 +155,7 @@ private:
     const Blocks& blocks_;
     Formula formula_;
     double weight_;
-    std::vector<int> of_;  // blocks, sorted
+    std::vector<int> of_;  // sorted
 };
 
 class Interruptor : public ceres::IterationCallback {

@@ -17,7 +17,6 @@ namespace culet {
 
 namespace {
 
-// Finds one pair of facet and point of each orbit, and the orbit's size.
 class OrbitPairs {
 public:
     OrbitPairs(const Parameters& parameters, std::size_t facets, std::size_t points)

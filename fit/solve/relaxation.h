@@ -44,7 +44,6 @@ struct SharedContact {
     int equation = -1, jaw = 0;  ///< index among the readings' equations
 };
 
-/// All equations, linearised at one shape.
 struct StepLinearisation {
     JacobianRows rows;  ///< incidences first, in the model's order
     Eigen::VectorXd prior_stiffness;

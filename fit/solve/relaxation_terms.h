@@ -23,7 +23,6 @@ inline Quantity misfit_of(const Equation& e, const Shape& shape, const PenaltySc
     return q;
 }
 
-// 0: exact.
 inline double variance_of(const Equation& e, const PenaltyScale& penalty) {
     return e.exact ? penalty.incidence * penalty.incidence
                    : e.sigma * e.sigma + penalty.readings * penalty.readings;

@@ -9,10 +9,9 @@
 
 namespace culet {
 
-/// Predicts how the merit changes when readings of some facets take the other sign, from the
-/// residuals r and the redundancy matrix R = 1 - J C J' (both in units of sigma): by 2 d'r + d'R d
-/// for shifts d of the values, exact for linear equations. Turns over one or two facets at a time
-/// while that gains, then tries chains of turns (Kernighan & Lin 1970).
+/// Turns facets over where that lowers the merit. The change of the merit follows from the
+/// residuals r and the redundancy matrix R = 1 - J C J' (both in units of sigma): 2 d'r + d'R d for
+/// shifts d of the values, exact for linear equations.
 ///
 /// Returns the shapes predicted for the `most` best sets of facets, the best first; none where no
 /// turn gains. Considers facets within this sine of upright whose entry in `sides` is 0 (empty:

@@ -115,7 +115,7 @@ std::vector<Sided> sided_normals(const FitModel& model, const std::vector<int>& 
     return result;
 }
 
-// The reading of each edge that was read, by the edge's facets.
+// By the edge's facets.
 using ReadEdges = std::map<std::pair<int, int>, const Reading*>;
 ReadEdges read_edges(const FitModel& model) {
     ReadEdges read;

@@ -14,7 +14,7 @@
 namespace culet {
 
 struct Candidate : ActiveSetFit {
-    std::string start;    ///< its name
+    std::string start;
     bool sound = false;   ///< closed, convex where it must be, with all facets
     bool agrees = false;  ///< passes the chi-square test
     int binding = 0;      ///< how many of `held` bind; each counts like one more exact reading

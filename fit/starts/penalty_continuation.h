@@ -15,9 +15,9 @@ namespace culet {
 /// A start after the first stages, which separate good starts from hopeless ones at part of the
 /// cost.
 struct Screened {
-    std::string start;  ///< its name
+    std::string start;
     Shape shape;
-    std::vector<int> sides;     ///< of the start
+    std::vector<int> sides;
     std::size_t stages = 0;     ///< completed
     double misfit = 0;          ///< the latest stage's merit without its priors
     bool is_plausible = false;  ///< the misfit is no larger than the true stone's

@@ -28,7 +28,6 @@ Shape looking_as(const FitModel& model, Shape shape, const std::vector<int>& sid
 class Starts {
 public:
     explicit Starts(const FitModel& model);
-    /// Nothing when there are no more.
     std::optional<Start> next();
     /// The mesh is nearly planar and convex: the first starts should suffice.
     bool mesh_is_good() const { return mesh_is_good_; }
