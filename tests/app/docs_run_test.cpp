@@ -107,7 +107,7 @@ protected:
         scene << std::ifstream(sample / "scene.toml").rdbuf();
         const std::string shown = std::regex_replace(
             scene.str(), std::regex("stone = \"stone.toml\""),
-            "stone = { mesh = \"fitted.obj\", material = \"tourmaline_dravite\" }");
+            "mesh = \"fitted.obj\"\nmaterial = \"tourmaline_dravite\"");
         ASSERT_NE(shown, scene.str());
         for (const char* name : {"scene.toml", "posed.toml", "other-lights.toml"})
             std::ofstream(folder() / name)
