@@ -17,8 +17,8 @@ namespace culet {
 
 namespace {
 
-// Facets off by 0.3 degrees move reflexes by one to three hundredths of the diameter: pictures are
-// blurred by as much at first. The last rounds only settle.
+// Facets off by 0.3 degrees move reflexes by 0.01 to 0.03 diameters, so pictures are blurred by as
+// much at first. The last rounds only settle.
 struct Round {
     double blur;  // in diameters
     bool sketch_anew;
@@ -33,14 +33,14 @@ constexpr std::array<Round, 10> k_rounds{{{0.03, true},
                                           {0.008, false},
                                           {0.008, true},
                                           {0.008, false}}};
-constexpr double k_poses = 0.15;  // of the progress: their end
+constexpr double k_poses = 0.15;  // part of the progress bar
 constexpr double k_least_spread = radians(0.02), k_most_spread = radians(1);
 
 double within_bounds(double sigma) {
     return std::isfinite(sigma) ? std::clamp(sigma, k_least_spread, k_most_spread) : k_most_spread;
 }
 
-// The photograph's name before what is wrong with it.
+// Adds the photograph's name to an InputError.
 template <class Work>
 auto of_photograph(const std::string& name, const Work& work) {
     try {
@@ -50,7 +50,7 @@ auto of_photograph(const std::string& name, const Work& work) {
     }
 }
 
-// How far each move may be off yet, by the fit: three a facet of its solid.
+// How far each move of the solid's facets (three a facet) may still be off, according to the fit.
 std::vector<double> spreads(const FitResult& fit) {
     std::vector<double> result;
     const std::vector<FacetMoves> moves = moves_of(fit.solid);
@@ -62,7 +62,7 @@ std::vector<double> spreads(const FitResult& fit) {
             result.insert(result.end(), k_moves_of_a_facet, k_most_spread);
             continue;
         }
-        // Of a level facet there is no azimuth, and its turns are alike.
+        // A level facet has no azimuth; both its turns are as uncertain as its inclination.
         const double across = std::sin(facet->inclination) * facet->sigma_azimuth;
         const double turn = std::isfinite(across)
                                 ? std::max(facet->sigma_inclination, std::abs(across))
@@ -73,8 +73,8 @@ std::vector<double> spreads(const FitResult& fit) {
     return result;
 }
 
-// The rows are of the fitted solid's facets; the fit asks for the mesh's. Each may be off by
-// `inflation` more than it says.
+// Maps the evidence from the fitted solid's facets to those of the fit's list, with sigmas larger
+// by the factor `inflation`.
 PlaneObservations knowledge_of(const PlaneEvidence& evidence, const FitResult& fit,
                                double inflation) {
     PlaneObservations knowledge;
@@ -95,8 +95,7 @@ PlaneObservations knowledge_of(const PlaneEvidence& evidence, const FitResult& f
     return knowledge;
 }
 
-// How far what is known lies from the planes that were fitted, in squares, and how much of it the
-// fit was not free to follow.
+// Sum of squared distances of the observations from the fitted planes, and their redundancy.
 struct Misfit {
     double squares = 0, redundancy = 0;
 };
@@ -108,7 +107,7 @@ Misfit misfit_of(const PlaneObservations& known, const FitResult& fit) {
     const Vec3 middle = centroid(fit.solid);
     for (const PlaneObservations::Row& row : known.rows) {
         double off = -row.value;
-        std::vector<double> slopes;  // by inclination, azimuth, and the distance from the middle
+        std::vector<double> slopes;  // by inclination, azimuth, and distance from the middle
         for (std::size_t f = 0; f < fit.facets.size(); ++f) {
             const Plane &plane = fit.facets[f].plane, &was = known.planes[f];
             off += glm::dot(row.normal[f], plane.normal - was.normal) +
@@ -141,7 +140,7 @@ double root_mean_square(const std::vector<double>& values) {
     return std::sqrt(squares / double(std::max<std::size_t>(1, values.size())));
 }
 
-// One photograph and what came of it.
+// One photograph and its evidence.
 struct Witness {
     const RefinePhotograph* given = nullptr;
     PhotographEvidence evidence;
@@ -224,7 +223,7 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
     double done = k_poses, inflation = 1, step = 0;
     for (const Round& round : k_rounds) {
         std::vector<double> spread = spreads(result.after);
-        // After a step as much may be left to go, as reflexes do not move straight.
+        // As much as the last step may remain, since reflexes do not move linearly.
         for (double& s : spread) s = std::max(s, step);
         FitInput all = input;
         for (Witness& witness : witnesses) {
@@ -251,7 +250,8 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
             misfit.squares += own.squares;
             misfit.redundancy += own.redundancy;
         }
-        // Of the next round, as the photographs and the readings contradict each other in this one.
+        // For the next round, from how far photographs and readings contradict each other in this
+        // one.
         if (misfit.redundancy > 0)
             inflation = std::max(1.0, inflation * std::sqrt(misfit.squares / misfit.redundancy));
     }

@@ -124,7 +124,7 @@ Json undetermined_json(const Undetermined& u) {
     return {{"facet", u.facet}, {"freedom", u.freedom}};
 }
 
-// What is looked for when findings are asked for.
+// Findings that are there only if asked for.
 void add_stones_own(const FitResult& result, Json& report) {
     const FitFindings& findings = result.findings;
     for (std::size_t f = 0; f < result.facets.size(); ++f) {

@@ -1,5 +1,5 @@
 #pragma once
-// The part of the fit report that tells what was found out. Private to the room: shows JSON.
+// The findings in the fit report. Private to the room: shows JSON.
 
 #include <nlohmann/json.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Adds `tier_angles`, `proportions`, `disagreeing`, `proposals`, `undetermined`, `help` and, when
-/// they were looked for, `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`, `changes`
-/// and `symmetry`, and `inclination_own_axis` to the facets.
+/// Adds `tier_angles`, `proportions`, `disagreeing`, `proposals`, `undetermined` and `help`; if
+/// they were asked for, also `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`,
+/// `changes`, `symmetry`, and the facets' `inclination_own_axis`.
 void add_findings(const FitResult& result, nlohmann::ordered_json& report);
 
 }  // namespace culet

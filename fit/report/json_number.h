@@ -8,17 +8,17 @@
 
 namespace culet {
 
-/// What is not known is null: JSON has no other word for it.
+/// Unknown (non-finite) numbers become null, since JSON has no other form for them.
 inline nlohmann::ordered_json json_number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// Of an angle; in degrees.
+/// Angle in radians to degrees.
 inline nlohmann::ordered_json json_degrees(double angle) {
     return json_number(degrees(angle));
 }
 
-/// A list of what `object` makes of each element.
+/// A JSON array with `object(element)` for each element.
 template <class Elements, class Object>
 nlohmann::ordered_json json_list(const Elements& elements, const Object& object) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

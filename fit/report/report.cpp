@@ -28,7 +28,7 @@ Json prior_json(const PriorReport& prior) {
     return json;
 }
 
-// Tier and index setting of the design that the stone was cut by, where it is known.
+// Tier and index setting in the design that the stone was cut by, if known.
 void add_design(const Design& design, const std::string& facet, Json& json) {
     const std::vector<std::string> titles = tier_titles(design);
     for (std::size_t t = 0; t < titles.size(); ++t) {
@@ -139,10 +139,10 @@ Json options_json(const FitOptions& options) {
             {"loss", name_of(options.loss)}};
 }
 
-// Stands in the report for the covariance, which is written a row a line.
+// Placeholder for the covariance, which is written one row a line.
 constexpr std::string_view k_covariance_here = "\"facet covariance goes here\"";
 
-// Degrees and the stone's unit; six digits: a millionth of a sigma.
+// Degrees and the stone's unit. Six digits: a millionth of a sigma.
 std::string covariance_rows(const std::vector<double>& covariance) {
     const auto size = static_cast<std::size_t>(std::lround(std::sqrt(covariance.size())));
     const auto unit = [](std::size_t i) { return i % 3 == 2 ? 1 : degrees(1); };

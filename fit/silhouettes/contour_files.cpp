@@ -21,9 +21,9 @@ using Json = nlohmann::json;
 
 constexpr std::size_t k_most_contours = 100000, k_most_points = 20000000;
 constexpr double k_farthest = 1e6;  // no stone's outline lies so far out, in any unit
-// Polygons of fewer corners are of sides; a traced outline has hundreds of points.
+// In polygons with fewer corners the sides were measured; a traced outline has hundreds of points.
 constexpr std::size_t k_traced = 100;
-// Two points of a line hold it as all of it does: those of Gauss's rule.
+// Gauss's two-point rule: the two points determine a line as the whole side does.
 const double k_gauss = 0.5 - std::sqrt(1.0 / 12);
 
 Vec3 vector_of(const Json& json, const std::string& what) {
@@ -61,7 +61,7 @@ Contour contour_of(const Json& json, double to_stone, double sigma) {
                               positive_in(json, "weight", 1));
 }
 
-// Words of a scanner's file one after the other; `#` starts a comment line.
+// The words of a scanner's file; `#` starts a comment line.
 class Words {
 public:
     Words(std::string_view text, const std::filesystem::path& file) : lines_(text), file_(file) {}
@@ -116,7 +116,7 @@ void add_side(const Vec3& from, const Vec3& to, double weight, Contour& contour)
     }
 }
 
-// Weights tell how the points of a set count beside each other: their mean is one.
+// Only the ratios of a set's weights matter.
 void make_mean_weight_one(std::vector<Contour>& contours) {
     double sum = 0;
     std::size_t count = 0;
@@ -234,11 +234,10 @@ ShadowContours read_shadow_contours(const std::filesystem::path& file, LengthUni
             if (!(confidence > 0)) {
                 ++read.sides_left_out;
             } else if (span > 0) {
-                // A line through pixels is the better known the more of them there are; as they are
-                // not independent, less so than their number says. Of two scanned diamonds, half
-                // of the outlines are foretold best with the root of the length (left-out rms 0.364
-                // and 0.365 of the scanner's own; with the length 0.452, with neither 0.400 and
-                // 0.343: bench_silhouettes).
+                // More pixels determine a line better, but they are not independent, so the weight
+                // grows more slowly than their number. The root of the length predicts the left-out
+                // half of two scanned diamonds' outlines best (rms 0.364 and 0.365 of the scanner's
+                // own; with the length 0.452, with neither 0.400 and 0.343: bench_silhouettes).
                 add_side(from, to, confidence * std::sqrt(span), contour);
             }
         }

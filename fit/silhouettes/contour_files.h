@@ -1,5 +1,5 @@
 #pragma once
-// Files of outlines.
+// Reads files of outlines.
 
 #include <filesystem>
 #include <vector>
@@ -9,24 +9,24 @@
 
 namespace culet {
 
-/// `{"unit", "contours": [{"direction": [..], "points": [[..], ..], "sigma", "weight"}]}`, lengths
-/// as `unit` has them (else the stone's) made into those of `stone_unit`. `sigma`: of contours that
-/// state none. Throws InputError.
+/// Reads `{"unit", "contours": [{"direction": [..], "points": [[..], ..], "sigma", "weight"}]}`.
+/// Lengths are in `unit` (else the stone's) and are converted to `stone_unit`. `sigma` applies to
+/// contours that state none. Throws InputError.
 std::vector<Contour> read_contours(const std::filesystem::path& file, LengthUnit stone_unit,
                                    double sigma = 0);
 
-/// A scanner's shadow contours (docs/silhouettes.md), in mm: of each side that was measured
-/// (confidence above 0), points that stand for the line that was fitted to it.
+/// A scanner's shadow contours (docs/silhouettes.md), in mm. Every measured side (confidence above
+/// 0) gives points that represent its fitted line.
 struct ShadowContours {
     std::vector<Contour> contours;
-    int sides_left_out = 0;  ///< of no confidence
+    int sides_left_out = 0;  ///< sides with zero confidence
 };
 ShadowContours read_shadow_contours(const std::filesystem::path& file, LengthUnit stone_unit,
                                     double sigma = 0);
 
-/// The measured points of one outline that is given as a polygon. A polygon of few corners is one
-/// of measured sides: each stands for two points of it, as many numbers as its corners have. Of
-/// many, each corner is a point that was measured. Throws InputError with what is wrong.
+/// The measured points of one outline given as a polygon. In a polygon of few corners the sides
+/// were measured: each gives two points, so there are as many numbers as its corners have. In one
+/// of many corners each corner is a measured point. Throws InputError with what is wrong.
 Contour contour_of_polygon(const Vec3& direction, const std::vector<Vec3>& corners, double sigma,
                            double weight);
 

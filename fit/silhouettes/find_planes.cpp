@@ -19,18 +19,18 @@ std::size_t mesh_planes(const FoundPlanes& found) {
 
 namespace {
 
-// On the way points count that lie no farther off than this part of the width.
+// Part of the width: until the last steps, points further off do not count.
 constexpr double k_reach = 0.01;
 constexpr int k_first_steps = 40, k_round_steps = 8, k_last_steps = 30, k_rounds = 8;
-// A stone has no more facets; the fit's equations are dense in them.
+// More than any stone's facets; the equations are dense in them.
 constexpr std::size_t k_most_planes = 400;
-// A facet that outlines added and that is narrower than so many of its offset's sigmas is none.
+// An added facet is dropped if it is narrower than this many robust scales of the outlines.
 constexpr double k_narrow = 4;
 const double k_alike = radians(6.0);
-// A cut that was found is about so sure.
+// Sigma of an added plane's tilt.
 const double k_added_tilt = radians(2.0);
 
-// Planes that have no facet, or that outlines added and that are too narrow to be one.
+// Drops planes without a facet, and added ones that are too narrow.
 std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh, bool at_the_end) {
     double scale = 0;
     for (const double s : fit.scales) scale = std::max(scale, s);
@@ -40,13 +40,13 @@ std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh, bool at_
         if (plane < of_mesh) continue;
         kept[plane] = narrow_width(fit.body.solid, facet) > k_narrow * scale;
     }
-    // On the way a facet of the mesh may come back.
+    // Before the end a facet of the mesh may come back.
     for (std::size_t p = 0; p < of_mesh && !at_the_end; ++p) kept[p] = true;
     return kept;
 }
 
-// How far out the outlines that show a plane edge-on reach along its normal: the middle of them, so
-// that neither dust nor a cut-off outline decides.
+// How far the outlines that show a plane edge-on reach along its normal: their median, so that
+// neither dust nor a cut-off outline decides.
 std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& problem,
                                   const PlaneFit& fit) {
     constexpr double k_edge_on = 0.05;
@@ -65,8 +65,8 @@ std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& pro
     return upper_median(std::move(reaches));
 }
 
-// A facet of the mesh that slid off the body begins anew where the outlines end; the up facet where
-// it cuts off a little, should they end beyond the body (a holder).
+// Restarts a mesh facet that slid off the body where the outlines end. If they extend beyond the
+// body (a holder), the up facet restarts where it cuts off a little.
 void bring_back(const Stone& mesh, PlaneFitProblem& problem, FoundPlanes& found) {
     constexpr double k_little = 0.02;  // of the width
     PlaneFit& fit = found.fit;
@@ -83,7 +83,7 @@ void bring_back(const Stone& mesh, PlaneFitProblem& problem, FoundPlanes& found)
     }
 }
 
-// A cut that looks much as a facet of the mesh does for which there was no room is that facet.
+// Uses a cut for a lost mesh facet of nearly the same direction.
 bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, std::size_t of_mesh) {
     for (std::size_t p = 0; p < of_mesh; ++p) {
         if (fit.body.present[p] || angle_between(problem.start[p].normal, cut.normal) > k_alike) {
@@ -96,7 +96,7 @@ bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, st
     return false;
 }
 
-// From where an earlier round ended; the start's pull stays where the start was.
+// Continues from the last round; the prior stays at the original start.
 void run_on(const PlaneFitProblem& problem, int steps, FoundPlanes& found) {
     PlaneFitProblem from_here = problem;
     from_here.motions = found.fit.motions;
@@ -108,8 +108,8 @@ void run_on(const PlaneFitProblem& problem, int steps, FoundPlanes& found) {
     }
 }
 
-// Only these planes go on. Body, distances and scales are made anew at once: they are numbered by
-// planes.
+// Keeps only these planes. Renews body, distances and scales at once, because they refer to planes
+// by number.
 void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, FoundPlanes& found) {
     std::vector<Plane> start, planes;
     std::vector<double> tilts;
@@ -157,7 +157,7 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
     }
     problem.reach = 0;
     bring_back(mesh, problem, found);
-    // Each round but the last drops planes: what comes out is a fit of its own planes.
+    // Every pass but the last drops planes, so the result is a fit of its own planes.
     for (;;) {
         run_on(problem, k_last_steps, found);
         const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found), true);

@@ -1,5 +1,5 @@
 #pragma once
-// All planes that outlines show, the mesh's and further ones. Private to the room.
+// Finds all planes that outlines show: those of the mesh and further ones. Private to the room.
 
 #include <vector>
 
@@ -8,18 +8,18 @@
 
 namespace culet {
 
-/// Planes of the mesh come first, in its order.
+/// The planes of the mesh come first, in its order.
 struct FoundPlanes {
     PlaneFit fit;
-    std::vector<int> mesh_facet;  ///< of each plane; -1: the outlines added it
-    std::vector<int> lost;        ///< facets of the mesh that have no room
+    std::vector<int> mesh_facet;  ///< by plane; -1: the outlines added it
+    std::vector<int> lost;        ///< facets of the mesh that the planes leave no room for
 };
-/// How many are the mesh's.
+/// Number of planes that come from the mesh.
 std::size_t mesh_planes(const FoundPlanes& found);
 
-/// Fits the planes of the mesh, then further ones where the body stands out over the outlines,
-/// until no more are missing. `problem` begins with the mesh's facets, and ends with the planes
-/// that were found. Throws InputError when they enclose nothing.
+/// Fits the planes of the mesh, then adds planes where the body extends beyond the outlines, until
+/// none are missing. `problem` starts with the mesh's facets and returns with the planes found.
+/// Throws InputError if they enclose nothing.
 FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem);
 
 }  // namespace culet

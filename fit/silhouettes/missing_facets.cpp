@@ -11,13 +11,13 @@ namespace culet {
 
 namespace {
 
-// And no less than this part of the scatter of one point.
+// Least mean depth of a cut, in scales of one point's scatter.
 constexpr double k_depth = 1.0;
-// Points this near to a corner, as part of the shorter edge there, lie on what would be cut off.
+// Part of the shorter edge at a corner: points nearer to the corner would be cut off.
 constexpr double k_near_corner = 0.25;
-// A plane so near to another is that plane.
+// A cut nearer than this to a plane is that plane.
 const double k_same_plane = radians(0.3);
-// As part of a cut's angle to the nearest plane: nearer than this, two cuts are of one place.
+// Part of a cut's angle to the nearest plane: cuts nearer to each other belong to one place.
 constexpr double k_apart = 0.8;
 
 struct Place {
@@ -34,7 +34,7 @@ struct Cut {
     double depth = 0;
 };
 
-// Means of one outline's distances along its edges and near their two ends.
+// Mean distances of one outline's points along an edge and near its two ends.
 struct EdgePlaces {
     Place whole, begin, end;
 };
@@ -49,7 +49,7 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
     };
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
         const auto& [edge, distance] = fit.distances.nearest[c][i];
-        // What stands out over the body is dust; it does not speak against a cut beside it.
+        // Points far outside the body are dust, and no evidence against a cut beside them.
         const double w = contour.weights[i];
         if (edge < 0) continue;
         if (!(inlier_weight(std::sqrt(w) * std::max(distance, 0.0), scale, problem.reach) > 0)) {
@@ -70,9 +70,9 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
     return places;
 }
 
-// The sum of weighted squares, in variances, that a further plane must save: it has three
-// parameters, and each costs the logarithm of the number of points (Schwarz 1978). A cut saves
-// mean^2 * weight at the outline that shows it best.
+// The sum of weighted squares, in variances, that a further plane must save: log(points) for each
+// of its three parameters (Schwarz 1978). A cut saves mean^2 * weight in the outline that shows it
+// best.
 double price_of_plane(const PlaneFitProblem& problem) {
     std::size_t points = 0;
     for (const FlatContour& contour : problem.contours) points += contour.points.size();

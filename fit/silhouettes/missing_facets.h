@@ -1,5 +1,5 @@
 #pragma once
-// Facets that the outlines show and the planes lack. Private to the room.
+// Finds facets that the outlines show and the planes lack. Private to the room.
 
 #include <vector>
 
@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Planes that cut off where the body stands out over the outlines by more than the outlines'
+/// Returns planes that cut off the body where it extends beyond the outlines by more than their
 /// scatter explains: at corners and edges of the projected outline, the deepest first, one for each
-/// place. A girdle that was drawn with few facets gets more of them. At most `most`.
+/// place, at most `most`. A girdle drawn with few facets gets more of them.
 std::vector<Plane> missing_planes(const PlaneFitProblem& problem, const PlaneFit& fit,
                                   std::size_t most);
 

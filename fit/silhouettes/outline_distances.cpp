@@ -37,7 +37,7 @@ double robust_scale(const OutlineDistances& distances, std::span<const FlatConto
     for (std::size_t c = 0; c < contours.size(); ++c) {
         if (contours[c].set != set) continue;
         for (std::size_t i = 0; i < distances.nearest[c].size(); ++i) {
-            // Weighted distances have one sigma.
+            // Weighted distances share one sigma.
             sizes.push_back(std::sqrt(contours[c].weights[i]) *
                             std::abs(distances.nearest[c][i].distance));
         }

@@ -1,5 +1,5 @@
 #pragma once
-// Points of all contours against one body, and which of them count. Private to the room.
+// Distances of all contours' points from one body, and the weight of each. Private to the room.
 
 #include <span>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// A contour as it lies in the body's frame.
+/// A contour in the body's frame.
 struct PlacedContour {
     Vec3 across{1, 0, 0}, along{0, 1, 0};
     double dx = 0, dy = 0;  ///< to be added to its points
@@ -16,23 +16,23 @@ struct PlacedContour {
 PlacedContour placed(const FlatContour& contour, const FrameMotion& motion);
 
 struct OutlineDistances {
-    std::vector<ProjectedOutline> outlines;                       ///< of each contour
-    std::vector<std::vector<ProjectedOutline::Nearest>> nearest;  ///< of each of its points
+    std::vector<ProjectedOutline> outlines;                       ///< by contour
+    std::vector<std::vector<ProjectedOutline::Nearest>> nearest;  ///< by contour and point
 };
-/// `motions`: of the sets.
+/// `motions` are those of the sets.
 OutlineDistances outline_distances(std::span<const Vec3> corners,
                                    std::span<const FlatContour> contours,
                                    std::span<const FrameMotion> motions);
 
-/// Standard deviation of the bulk of one set's distances: 1.4826 times their weighted median size,
-/// which is sigma of normal errors.
+/// Robust standard deviation of one set's distances: 1.4826 times the weighted median of their
+/// sizes, which is sigma for normal errors.
 double robust_scale(const OutlineDistances& distances, std::span<const FlatContour> contours,
                     int set);
 
-/// 1 for a distance within `k_sure` scales, 0 from `k_outlier` on, linear in between (Hampel's
-/// descending weight): of normal errors one in 16 000 is weighted down. With a `reach` (a length)
-/// what is farther off than `k_sure` scales counts by its sign (Huber), and what is beyond reach
-/// does not: on the way a good point may lie far off.
+/// Hampel's descending weight: 1 for a distance within `k_sure` scales, 0 from `k_outlier` on,
+/// linear in between. One in 16 000 normal errors gets less than 1. With a `reach` (a length),
+/// distances beyond `k_sure` scales count by their sign (Huber) up to the reach and not beyond it:
+/// before convergence a good point may lie far off.
 double inlier_weight(double distance, double scale, double reach = 0);
 inline constexpr double k_sure = 4, k_outlier = 7;
 

@@ -12,11 +12,10 @@ namespace culet {
 
 namespace {
 
-// A plane whose tilt is known no better than this part of what its start says of it is one that the
-// outlines do not show.
+// A plane is unseen if its tilt's sigma is more than this part of its start's.
 constexpr double k_unseen = 0.5;
 
-// Steps of all planes in a rigid motion of the stone; offsets in widths.
+// Steps of all planes under a rigid motion of the stone; offsets in widths.
 Eigen::VectorXd motion_of(const std::vector<Plane>& planes, double width, const Vec3& turn,
                           const Vec3& shift) {
     Eigen::VectorXd step(3 * Eigen::Index(planes.size()));
@@ -47,7 +46,6 @@ Eigen::MatrixXd undetermined_motions(const std::vector<Plane>& planes, double wi
     return all;
 }
 
-// Beside what the start says of them.
 std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix, const std::vector<double>& tilts) {
     const Eigen::MatrixXd covariance = Cholesky(matrix).inverse();
     std::vector<int> unseen;
@@ -78,11 +76,11 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
     matrix -= product(seen, of_motions.solve(seen.transpose()));
     const PivotedCholesky factor(matrix);
     Eigen::MatrixXd half = factor.root();
-    // To the last digit: the fit tells by it that no row sees a motion.
+    // Exact to rounding: the fit recognises by it that no row sees a motion.
     const PivotedCholesky lengths(transpose_times(motions, motions));
     half -= product(product(half, motions), lengths.solve(motions.transpose()));
     const Eigen::VectorXd& d = factor.pivots();
-    // One that is known to a radian or a width is not known; and rounding is none.
+    // Drops directions known no better than to a radian or a width, and rounding errors.
     const double least = std::max(1.0, 1e-13 * d.maxCoeff());
     for (Eigen::Index k = 0; k < d.size(); ++k) {
         if (!(d(k) > least)) continue;
@@ -93,7 +91,7 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
             const auto at = 3 * Eigen::Index(p);
             const double offset = root * half(k, at + 2) / width;
             const Vec3 tilt = root * (half(k, at) * t + half(k, at + 1) * u);
-            // In the stone's frame the offset is larger by shift . normal.
+            // In the stone's frame the offset grows by shift . normal.
             row.normal.push_back(back.turned(tilt) - offset * back.shift);
             row.offset.push_back(offset);
         }

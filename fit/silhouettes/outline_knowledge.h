@@ -1,5 +1,5 @@
 #pragma once
-// From the information that outlines have of planes to rows for the fit. Private to the room.
+// Turns the outlines' information on planes into rows for the fit. Private to the room.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// What of the stone's place the fit takes from the outlines' frame. Its shift is never asked for.
+/// The motions of the stone that the outlines' frame determines; it never determines the shift.
 struct FrameHolds {
     Vec3 up{0, 0, 1};    ///< in the stone's frame
     bool tilts = false;  ///< of up
@@ -17,11 +17,11 @@ struct FrameHolds {
 
 struct ToldPlanes {
     std::vector<OutlineKnowledge::Row> rows;
-    std::vector<int> unseen;  ///< planes whose tilt the start tells, not the outlines
+    std::vector<int> unseen;  ///< planes whose tilt comes from the start, not the outlines
 };
 
-/// `information`: of planes in the frame of the outlines, with what their start says (`tilts`);
-/// `back` from there to the stone's.
+/// Makes rows from the `information` on planes in the outlines' frame, which includes their start's
+/// (sigmas `tilts`). `back` is the motion from that frame to the stone's.
 ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
                        const std::vector<double>& tilts, double width, const FrameMotion& back,
                        const FrameHolds& holds);

@@ -70,7 +70,7 @@ CornerSlopes corner_slopes(std::span<const Plane> planes, const std::array<int, 
     const Vec3 &a = planes[std::size_t(crossing[0])].normal,
                &b = planes[std::size_t(crossing[1])].normal,
                &c = planes[std::size_t(crossing[2])].normal;
-    // The columns of the inverse of the matrix whose rows are the normals.
+    // Columns of the inverse of the matrix whose rows are the normals.
     const double det = glm::dot(a, glm::cross(b, c));
     const double scale = std::abs(det) > 1e-12 ? 1 / det : 0;
     return {{scale * glm::cross(b, c), scale * glm::cross(c, a), scale * glm::cross(a, b)}};

@@ -1,5 +1,5 @@
 #pragma once
-// The body that planes enclose, with its corners as functions of the planes. Private to the room.
+// The body that planes enclose; its corners are functions of the planes. Private to the room.
 
 #include <array>
 #include <span>
@@ -11,15 +11,16 @@ namespace culet {
 
 struct PlaneBody {
     std::vector<Vec3> corners;
-    std::vector<std::array<int, 3>> planes;  ///< that cross at each corner: the three squarest
-    std::vector<bool> present;               ///< of each plane: it has a facet
+    std::vector<std::array<int, 3>> planes;  ///< three planes of each corner: those most nearly
+                                             ///< perpendicular
+    std::vector<bool> present;               ///< by plane: it has a facet
     Solid solid;                             ///< the same body; facets are named by plane numbers
     bool closed = false;
 };
 
 PlaneBody enclosed_body(std::span<const Plane> planes);
 
-/// Two unit directions across a unit normal, along which a plane tilts.
+/// Two unit directions perpendicular to a unit normal, along which a plane tilts.
 std::array<Vec3, 2> tilts_of(const Vec3& normal);
 
 /// d(corner) = sum over its three planes of along[i] * (d(offset_i) - d(normal_i) . corner).

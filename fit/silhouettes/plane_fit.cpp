@@ -11,10 +11,10 @@ namespace culet {
 namespace {
 
 constexpr double k_first_damping = 1e-3, k_least_damping = 1e-9, k_most_damping = 1e7;
-// Steps that gain less than this part of what is left, so many in a row, end it.
+// Converged after `k_quiet` steps in a row that each gain less than this part of the cost.
 constexpr double k_no_gain = 1e-5;
 constexpr int k_quiet = 2;
-// Half the angle that any facet is apart from its neighbours, about: no linearisation holds so far.
+// Radians, about half the angle between neighbouring facets: no linearisation holds further.
 constexpr double k_longest = 0.1;
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace culet {
 
 namespace {
 
-// A plane that no outline tells of stays near its start, within so much: enough for the best of
-// stones and of guesses, too little to be felt beside an outline's point.
+// Sigma of a plane's offset about its start. It holds planes that no outline shows, and is too weak
+// to matter beside an outline's point.
 constexpr double k_start_offset = 0.02;  // of the width
 
 FrameMotion turned_and_shifted(const FrameMotion& m, const Vec3& turn, const Vec3& shift) {
@@ -30,7 +30,7 @@ FrameMotion turned_and_shifted(const FrameMotion& m, const Vec3& turn, const Vec
     return next;
 }
 
-// How one distance changes with the unknowns: few of them.
+// Derivatives of one distance, by the few unknowns that matter.
 struct Slopes {
     std::array<int, 24> column{};
     std::array<double, 24> slope{};
@@ -41,7 +41,7 @@ struct Slopes {
     }
 };
 
-// Of a corner's place along a direction.
+// Derivatives of a corner's coordinate along a direction.
 Slopes slopes_of_corner(const std::vector<Plane>& planes, const PlaneBody& body, int corner,
                         const Vec3& direction) {
     Slopes all;
@@ -77,8 +77,8 @@ void add_gradient(Eigen::VectorXd& gradient, const Slopes& a, double weight) {
     }
 }
 
-// Sums over the points of one edge of one outline: a point whose foot is at part t of the edge goes
-// with the edge's ends as 1 - t and t.
+// Sums over the points of one edge of one outline. A point whose foot is at part t of the edge
+// follows the edge's ends with weights 1 - t and t.
 struct EdgeSums {
     double begin_begin = 0, begin_end = 0, end_end = 0, begin = 0, end = 0;
 };
@@ -171,7 +171,7 @@ void PlaneSolver::add_contour(const PlaneState& state, std::size_t c,
         if (sum.begin_begin == 0 && sum.end_end == 0) continue;
         const ProjectedOutline::Edge& e = outline.edges[k];
         const Vec3 n = e.nx * place.across + e.ny * place.along;
-        // A distance is the point's height over the edge: less where the edge moves out.
+        // The distance is the point's height over the edge: it shrinks as the edge moves out.
         const auto end_slopes = [&](int corner) {
             Slopes s = slopes_of_corner(state.planes, state.body, corner, -n);
             if (set_column >= 0) {

@@ -1,5 +1,5 @@
 #pragma once
-// The least squares of planes against outlines, made linear. Private to the room.
+// The linearised least squares of planes against outlines. Private to the room.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// A body on the way, and where the outlines' points lie from it.
+/// A body during the fit, and the distances of the outlines' points from it.
 struct PlaneState {
     std::vector<Plane> planes;
     std::vector<FrameMotion> motions;
@@ -22,17 +22,18 @@ public:
     explicit PlaneSolver(const PlaneFitProblem& problem);
 
     int planes() const { return planes_; }
-    /// What the planes enclose, and the distances from it; false: they enclose nothing.
+    /// Finds the body that the planes enclose and the distances from it; false if they enclose
+    /// none.
     bool look(PlaneState& state) const;
-    /// Robust ones, of each set.
+    /// Robust scale of each set.
     std::vector<double> scales(const PlaneState& state) const;
     using Weights = std::vector<std::vector<double>>;
-    /// Of each point of each contour: what it counts.
+    /// Weight of each point of each contour.
     Weights weights(const PlaneState& state, const std::vector<double>& scales) const;
     double cost(const PlaneState& state, const Weights& weights,
                 const std::vector<double>& sigmas) const;
-    /// Half of the cost's Gauss-Newton matrix (lower triangle) and gradient. Unknowns are three of
-    /// each plane, two tilts along `tilts_of(normal)` and the offset, then six of each free set.
+    /// Half of the cost's Gauss-Newton matrix (lower triangle) and gradient. The unknowns are three
+    /// for each plane (two tilts along `tilts_of(normal)`, the offset), then six for each free set.
     struct Equations {
         Eigen::MatrixXd matrix;
         Eigen::VectorXd gradient;

@@ -1,6 +1,6 @@
 #pragma once
-// The outline of a convex body as it is seen along a direction, and how far points lie from it.
-// Private to the room.
+// The outline of a convex body along a direction, and distances of points from it. Private to the
+// room.
 
 #include <array>
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace culet {
 
-/// A contour's points in its own plane: coordinates along two directions across the line of sight.
+/// A contour's points in its own plane: coordinates along two directions perpendicular to the line
+/// of sight.
 struct FlatContour {
     Vec3 across{1, 0, 0}, along{0, 1, 0};  ///< in the frame of its set
     std::vector<std::array<double, 2>> points;
@@ -20,29 +21,29 @@ struct FlatContour {
 };
 FlatContour flattened(const Contour& contour, int set);
 
-/// A convex polygon counter-clockwise: its corners, and of each edge to the next corner the
-/// normal, which points out, and its offset.
+/// A counter-clockwise convex polygon: its corners, and for each edge to the next corner the
+/// outward normal and its offset.
 struct ProjectedOutline {
     struct Edge {
         int from = -1, to = -1;  ///< corners of the body
         double nx = 0, ny = 0, offset = 0;
-        double tx = 0, begin = 0, length = 0;  ///< place along the edge: tx... of `part_of`
+        double tx = 0, begin = 0, length = 0;  ///< position along the edge: tx... of `part_of`
         double ty = 0;
     };
     std::vector<Edge> edges;
 
-    /// The edge that a point lies farthest outside of, or least inside: its distance from the
-    /// outline, positive outside (of points outside near a corner: from the edge's line).
+    /// The edge with the largest signed distance of a point, and that distance: positive outside
+    /// (near a corner: from the edge's line).
     struct Nearest {
         int edge = -1;
         double distance = 0;
     };
     Nearest nearest(double x, double y) const;
-    /// Where along an edge the point's foot lies, 0 at its beginning and 1 at its end.
+    /// Position of the point's foot on an edge: 0 at its beginning, 1 at its end.
     double part_of(const Edge& edge, double x, double y) const;
 };
 
-/// Convex hull of the corners, seen along across x along: Andrew's monotone chain (1979).
+/// Convex hull of the corners projected on across and along: Andrew's monotone chain (1979).
 ProjectedOutline projected_outline(std::span<const Vec3> corners, const Vec3& across,
                                    const Vec3& along);
 

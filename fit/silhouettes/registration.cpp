@@ -15,7 +15,7 @@ using Step = Eigen::Matrix<double, 7, 1>;  // shift, turn, logarithm of the scal
 using Normal = Eigen::Matrix<double, 7, 7>;
 
 constexpr int k_most_registration_steps = 60;
-// A step that gains less than this part of what is left ends it.
+// Stop when a step gains less than this part of the cost.
 constexpr double k_no_registration_gain = 1e-9;
 
 Vec3 turned_about(const Vec3& v, const Vec3& turn) {
@@ -32,7 +32,7 @@ Vec3 middle(std::span<const Vec3> corners) {
     return sum;
 }
 
-// Turned and scaled about where its middle lies, then shifted.
+// Turns and scales about the placed middle, then shifts.
 Similarity moved(const Similarity& at, const Vec3& middle, const Step& step) {
     Similarity next = at;
     const Vec3 turn(step(3), step(4), step(5));
@@ -93,7 +93,7 @@ private:
         scale_ = robust_scale(distances_, contours_, 0);
     }
 
-    // Of bounded errors: what is farther off than the outliers counts as much as they do.
+    // Bounded: points beyond `k_sure` scales count as if they were there.
     double cost(double scale) const {
         const double most = std::pow(k_sure * scale, 2);
         double sum = 0;

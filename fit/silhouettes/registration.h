@@ -1,5 +1,5 @@
 #pragma once
-// How a set of outlines and a body lie to each other. Private to the room.
+// Registers a set of outlines with a body. Private to the room.
 
 #include <span>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// place_in_set_frame = scale * turn(place_in_body) + shift: of a body in the frame of a set.
+/// place_in_set_frame = scale * turn(place_in_body) + shift: places a body in the frame of a set.
 struct Similarity {
     FrameMotion motion;
     double scale = 1;
@@ -19,22 +19,22 @@ struct RegistrationOptions {
     bool turns = true, shifts = true, scales = false;
 };
 
-/// The similarity nearest to `start` at which the contours of one set lie nearest to the body: by
-/// damped Gauss-Newton steps of a robust least squares, whose scale goes down with the distances.
+/// The similarity near `start` that brings the body closest to the contours of one set, by damped
+/// Gauss-Newton steps of a robust least squares whose scale shrinks with the distances.
 Similarity registered(std::span<const Vec3> corners, std::span<const FlatContour> contours,
                       const Similarity& start, const RegistrationOptions& options);
 
 std::vector<Vec3> placed_corners(std::span<const Vec3> corners, const Similarity& at);
 
-/// Sum of weighted squares of one set's distances, those beyond `k_sure` scales as if at that.
+/// Sum of weighted squares of one set's distances, each capped at `k_sure` scales.
 double registration_cost(std::span<const Vec3> corners, std::span<const FlatContour> contours,
                          const Similarity& at, double scale);
 
-/// A start from nothing: the axis is normal to all directions of sight where they lie in a plane (a
-/// turntable), else one of the three axes of the set's frame; the body stands upright (+z) on
-/// either end of it, is scaled to the outlines' widths, and is turned about the axis in steps of
-/// two degrees. The holder may hide one end of the stone. The few best are registered.
-/// `up`: of the body. Places that the body's symmetry makes the same are one.
+/// Finds a start without any knowledge. The axis is normal to all lines of sight if they lie in a
+/// plane (a turntable), else one of the three axes of the set's frame. The body stands upright (+z)
+/// on either end of the axis, is scaled to the outlines' widths, and is turned about the axis in
+/// steps of two degrees. The holder may hide one end of the stone. The few best places are
+/// registered; places that the body's symmetry makes equal count once. `up` belongs to the body.
 Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
                               std::span<const FlatContour> contours);
 

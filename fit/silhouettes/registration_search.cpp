@@ -1,4 +1,4 @@
-// Where a body lies among outlines of which only their directions are known.
+// Finds the place of a body among outlines of which only the directions are known.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -37,7 +37,7 @@ Extent extent_of(const FlatContour& contour, const Vec3& direction) {
     return e;
 }
 
-// Fewer contours and fewer points of each, evenly.
+// Evenly chosen contours and points.
 std::vector<FlatContour> thinned(std::span<const FlatContour> contours, std::size_t most,
                                  std::size_t most_points) {
     std::vector<FlatContour> few;
@@ -75,7 +75,7 @@ Axes axes_of(std::span<const FlatContour> contours) {
         sum += v * v.transpose() / double(contours.size());
     }
     const SymmetricEigen3 eigen = symmetric_eigen3(sum);
-    // Directions within a few degrees of one plane.
+    // The directions lie within a few degrees of one plane.
     if (eigen.values(0) < 0.01 && eigen.values(1) > 0.01) {
         Eigen::Vector3d a = eigen.vectors.col(0);
         Eigen::Index largest = 0;
@@ -87,19 +87,19 @@ Axes axes_of(std::span<const FlatContour> contours) {
     return {{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, false};
 }
 
-// Across the axis, as one sees it along a line of sight.
+// The horizontal of the picture along this line of sight, with the axis upright.
 Vec3 level_of(const Vec3& axis, const FlatContour& contour) {
     const Vec3 level = glm::cross(axis, sight_of(contour));
     return glm::length(level) > 1e-3 ? glm::normalize(level) : perpendicular_to(axis);
 }
 
-// The body turned upright along an axis, scaled and shifted to the outlines' extents.
+// Turns the body upright along an axis, then scales and shifts it to the outlines' extents.
 class Search {
 public:
     Search(std::span<const Vec3> corners, const Vec3& up, std::span<const FlatContour> contours)
         : corners_(corners), up_(up), contours_(contours) {}
 
-    /// One for each end that the holder may hide.
+    /// One place for each end that the holder may hide.
     std::vector<Similarity> along(const Vec3& axis, bool is_turntable, double azimuth) const {
         Similarity s;
         s.motion = upright(axis, azimuth);
@@ -109,7 +109,7 @@ public:
         std::vector<Vec3> body = placed_corners(corners_, s);
         Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;
         Eigen::Vector3d right = Eigen::Vector3d::Zero();
-        Extent above, below;  // of contours less body
+        Extent above, below;  // contours' ends - the body's
         for (const FlatContour& c : contours_) {
             const Vec3 level = level_of(axis, c);
             const auto add = [&](const Vec3& d) {
@@ -173,8 +173,8 @@ bool is_better(const Trial& a, const Trial& b) {
     return a.cost < b.cost;
 }
 
-// Each corner of one lies near some corner of the other: the same place, or one that the body's own
-// symmetry makes the same.
+// True if each corner of one place is near a corner of the other: the same place, or one that the
+// body's symmetry makes equal.
 bool are_alike(const std::vector<Vec3>& one, const std::vector<Vec3>& other, double within) {
     return std::all_of(one.begin(), one.end(), [&](const Vec3& v) {
         return std::any_of(other.begin(), other.end(),
@@ -182,7 +182,7 @@ bool are_alike(const std::vector<Vec3>& one, const std::vector<Vec3>& other, dou
     });
 }
 
-// The best of those that are not alike.
+// The best trials that are not alike.
 std::vector<Trial> different(std::vector<Trial> trials, std::span<const Vec3> corners,
                              double within, std::size_t most) {
     std::stable_sort(trials.begin(), trials.end(), is_better);
@@ -213,7 +213,7 @@ Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
     for (const FlatContour& c : few) {
         width = std::max(width, extent_of(c, c.across).size());
     }
-    // What lies farther off than this part of the width is of another place or the holder.
+    // Points further off than this part of the width belong to another place or the holder.
     const double allowed = 0.01 * width;
     std::vector<Trial> found;
     constexpr int k_azimuths = 180;
@@ -226,7 +226,7 @@ Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
         }
     }
     constexpr std::size_t k_tried = 12;
-    constexpr double k_alike = 0.03;  // of the width: some four degrees of turn
+    constexpr double k_alike = 0.03;  // of the width: about four degrees of turn
     found = different(std::move(found), corners, k_alike * width, k_tried);
     const std::vector<FlatContour> more = thinned(contours, 60, 120);
     for (Trial& trial : found) {

@@ -33,7 +33,7 @@ std::string name_of_added(const Vec3& normal, const Solid& mesh, const std::vect
     }
 }
 
-// The rigid motion that brings what was fitted back to the mesh: its place, and up as it was.
+// The rigid motion from the fit back to the mesh's place and up direction.
 FrameMotion to_mesh_frame(const Stone& mesh, const SilhouetteStart& start,
                           const FoundPlanes& found) {
     if (start.in_mesh_frame) return {};
@@ -43,7 +43,7 @@ FrameMotion to_mesh_frame(const Stone& mesh, const SilhouetteStart& start,
     const int up = mesh.up_facet.empty() ? -1 : find_facet(mesh.solid, mesh.up_facet);
     for (std::size_t p = 0; p < found.fit.planes.size(); ++p) {
         if (up < 0 || found.mesh_facet[p] != up) continue;
-        // The smallest turn that brings the up facet's normal where it was.
+        // The smallest turn that restores the up facet's normal.
         const Vec3 from = back.turned(found.fit.planes[p].normal), to = up_of(mesh);
         const Vec3 axis = glm::cross(from, to);
         const double cosine = glm::dot(from, to);
@@ -71,7 +71,7 @@ FrameMotion product(const FrameMotion& a, const FrameMotion& b) {
     return both;
 }
 
-// The stone in the mesh's place, facets named.
+// The stone in the mesh's place, with named facets.
 Stone named_stone(const Stone& mesh, const FoundPlanes& found, const FrameMotion& back) {
     std::set<std::string> taken;
     std::vector<Vec3> normals;
@@ -116,8 +116,7 @@ std::string list_of(const std::vector<std::string>& names) {
     return text;
 }
 
-// What outlines say of the mesh: facets that they leave no room for, that they hardly see, and that
-// it has not.
+// Notes on mesh facets without room, on facets that the outlines hardly see, and on added ones.
 std::vector<std::string> notes_of(const Stone& mesh, const FoundPlanes& found, const Solid& solid,
                                   std::vector<int> unseen) {
     std::vector<std::string> notes, names;

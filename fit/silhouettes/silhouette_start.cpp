@@ -12,10 +12,10 @@ namespace culet {
 
 namespace {
 
-// No facet of a catalogue's is off by more than a few times this.
+// Sigma of a facet's tilt: facets of catalogue cuts are off by at most a few times this.
 const double k_start_tilt = radians(2.0);
-// Where the up facet is not seen the stone stands on it, square to the axis of the turntable; the
-// registration finds the axis as well as this.
+// Sigma of the up facet's tilt. If it is hidden, the stone stands on it, perpendicular to the
+// turntable's axis, which the registration finds as well as this.
 const double k_up_tilt = radians(0.3);
 
 Plane placed_plane(const Plane& plane, const Similarity& at) {
@@ -75,7 +75,7 @@ SilhouetteStart silhouette_start(const Stone& mesh,
         problem.is_free.push_back(is_own);
         problem.stated_sigmas.push_back(0);
         if (sets[s]->has_sigma() && !sets[s]->contours.empty()) {
-            // Contours of another sigma weigh as much more or less.
+            // Contours with another sigma get another weight.
             const double sigma = sets[s]->contours[0].sigma;
             problem.stated_sigmas.back() = sigma;
             for (FlatContour& c : flat) {

@@ -1,4 +1,4 @@
-// The error beside the Cramer-Rao limit, as readings are taken away.
+// The error compared with the Cramer-Rao limit, with fewer and fewer readings.
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@ namespace culet {
 
 namespace {
 
-// Of all readings that have a value; after the last, as many as are left when each is needed.
+// Parts of all readings that have a value. A last row has the fewest that determine the stone.
 constexpr std::array k_shares{1.0, 0.9, 0.75, 0.625, 0.5, 0.375, 0.25, 0.1875, 0.125};
-// Redundancies nearer than this are equal: the order then is that of the list.
+// Redundancies closer than this count as equal; then the order of the list decides.
 constexpr double k_same_redundancy = 1e-6;
 
 bool counts(const Reading& reading) {
@@ -26,7 +26,7 @@ int count(const std::vector<Reading>& readings) {
     return static_cast<int>(std::count_if(readings.begin(), readings.end(), counts));
 }
 
-// The `most` readings that the others tell best already.
+// Indices of the `most` readings that the others already determine best, sorted.
 std::vector<std::size_t> most_redundant(const std::vector<Reading>& readings,
                                         const FitResult& fitted, int most) {
     std::vector<std::size_t> order;
@@ -47,13 +47,13 @@ std::vector<std::size_t> most_redundant(const std::vector<Reading>& readings,
 
 struct Selection {
     std::vector<Reading> readings;
-    FitResult fitted;  // of their true values
+    FitResult fitted;  // to their true values
     StudyLimit row;
     std::vector<StudyError> errors;  // of the draws
 };
 
-// Takes readings away, a few at a time and always those that the others tell best, until `target`
-// are left. False when no more can go without leaving a freedom open.
+// Removes readings, a few at a time and the most redundant first, until `target` are left. False if
+// no more can be removed without an undetermined parameter.
 bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
               const StudyBudget& budget, Selection& selection) {
     while (count(selection.readings) > target) {
@@ -77,7 +77,7 @@ bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
     return true;
 }
 
-// One draw.
+// Fits one draw.
 void measure(const StudyTruth& truth, const FitOptions& options, int draw, std::uint64_t seed,
              Selection& selection) {
     const std::vector<Reading> drawn = drawn_readings(truth.readings, seed, draw);
@@ -124,8 +124,8 @@ void sum_up(const StudyTruth& truth, Selection& selection) {
 
 void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& truth,
                   StudyBudget& budget, Study& study) {
-    // Soft meets and symmetries are observations too, and those of the true stone cannot be drawn
-    // anew: the limit is studied where they are exact.
+    // Soft meets and symmetries are observations too, but those of the true stone cannot be drawn
+    // anew: so they are exact here.
     FitOptions options = study.options.fit;
     std::vector<Reading> readings = truth.readings;
     const auto treat_exact = [&](MeetTreatment& meets) {
@@ -134,8 +134,8 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         study.limit_made_exact = true;
     };
     treat_exact(options.meets);
-    // So is what is supposed of the facets: it stands nearest to the truth in every draw, and
-    // errors would come out below a limit that counts it.
+    // The prior is off for the same reason. It is centred on the truth in every draw, so errors
+    // would come out below a limit that counts it.
     const bool supposed = options.prior.source != Prior::Source::none;
     options.prior.source = Prior::Source::none;
     for (Reading& reading : readings) {
@@ -156,7 +156,7 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         return;
     }
     const StudyTruth right = truth_of(stone, readings, ideal, true);
-    // The optimum that belongs to the truth: no other start is looked for.
+    // Starts at the optimum of the truth, so that no other start is tried.
     options.start = right.stone.solid;
     Selection now{right.readings, fit_stone(right.stone, right.readings, options), {}, {}};
     const int all = count(right.readings);
@@ -165,7 +165,7 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         return;
     }
 
-    // Which readings go first needs no noise, so all selections are made before any draw.
+    // The order of removal needs no noise, so all selections are made before any draw.
     std::vector<Selection> selections;
     bool more = true;
     for (std::size_t s = 0; s <= k_shares.size() && more && !budget.spent(); ++s) {

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json setting_json(const StudySetting& row) {
-    // Without a sound stone there is no error to tell.
+    // Without a sound stone there is no error.
     const auto if_sound = [&](double value) {
         return row.sound > 0 ? json_number(value) : Json(nullptr);
     };
@@ -45,13 +45,13 @@ Json limit_json(const StudyLimit& row) {
         {"angle_error", if_measured(degrees(row.angle_error))},
         {"angle_limit", json_degrees(row.angle_limit)},
         {"ratio", if_measured(row.ratio)},
-        // One draw does not scatter.
+        // One draw has no scatter.
         {"ratio_sigma", row.draws - row.failed > 1 ? if_measured(row.ratio_sigma) : Json(nullptr)},
         {"offset_error", if_measured(row.offset_error)},
         {"offset_limit", json_number(row.offset_limit)}};
 }
 
-// Columns by the keys of the first row; null is empty.
+// The columns are the keys of the first row; null becomes an empty field.
 std::string csv(const Json& rows) {
     if (rows.empty()) return {};
     std::string text;

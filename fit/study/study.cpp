@@ -8,7 +8,7 @@ Study study_fit(const Stone& stone, const std::vector<Reading>& readings,
                 const StudyOptions& options, const Progress& progress) {
     Study study;
     study.options = options;
-    // Asked of the stone itself, not of every draw.
+    // Decided by the stone itself, not by every draw.
     study.options.fit.findings = study.options.fit.find_symmetry = false;
     study.options.fit.allow_topology = false;
     study.stone = stone.name;
@@ -26,7 +26,7 @@ Study study_fit(const Stone& stone, const std::vector<Reading>& readings,
         study.limit_message = "there is no fitted stone to study";
         return study;
     }
-    // Half of the time each, but for what the first leaves over.
+    // Half of the time for each part, plus what the first leaves over.
     if (options.times) {
         budget.allow((options.limits ? 0.5 : 1) * options.budget_seconds);
         study_settings(stone, readings, base, budget, study);

@@ -1,9 +1,9 @@
 #pragma once
-// What accuracy costs in time, and how near the fit comes to what its readings allow.
+// What accuracy costs in time, and how near the fit comes to the limit of its readings.
 //
-// The stone as fitted is taken for the truth. Its readings are drawn anew, each with a normal error
-// of its own sigma, and fitted again: the distance to the truth is the error that one would have in
-// practice, were the instruments as good as their sigmas say.
+// The fitted stone is taken as the truth. Its readings are drawn anew, each with a normal error of
+// its own sigma, and fitted again: the distance from the truth is the error to expect in practice
+// if the instruments are as good as their sigmas.
 
 #include <cstdint>
 #include <string>
@@ -16,42 +16,42 @@ namespace culet {
 struct StudyOptions {
     FitOptions fit;
     std::uint64_t seed = 1;
-    /// How often the readings are drawn anew for each row.
+    /// Draws of the readings for each row.
     int draws = 8;
-    /// Seconds of processor time; 0: no limit. When they are used up, the rows have fewer draws and
-    /// the last ones may be missing; what is there is the same whatever the budget.
+    /// Seconds of processor time; 0: no limit. When it is spent, rows have fewer draws and the last
+    /// rows may be missing; the figures that are there do not depend on the budget.
     double budget_seconds = 60;
     bool times = true;   ///< error and time of each way of fitting
-    bool limits = true;  ///< error beside the theoretical limit
+    bool limits = true;  ///< error compared with the theoretical limit
 };
 
-/// One way of fitting, and what came of it over all draws.
+/// One way of fitting, and its results over all draws.
 struct StudySetting {
     std::string sweep;    ///< what is varied: `iterations`, `meets`, `symmetry`, `start`, `starts`
-    std::string setting;  ///< "8", "soft", ... in the words of the stone file
+    std::string setting;  ///< "8", "soft", ... as in the stone file
     bool as_asked = false;  ///< the stone file's own setting
     int fits = 0;           ///< draws done
-    int sound = 0;          ///< closed, convex where it must be, every facet there
-    int settled = 0;        ///< and the search had ended by itself
-    /// And as good as the best known: chi-square within max(4, 5 %) of that of the fit from the
-    /// mesh as it is.
+    int sound = 0;          ///< closed, with every facet, convex where it must be
+    int settled = 0;        ///< sound, and the search converged
+    /// Settled, and as good as the best known: chi-square within max(4, 5 %) of that of the fit
+    /// from the unchanged mesh.
     int best = 0;
     double angle_error = 0;  ///< root mean square over sound draws and facets, radians
-    /// Likewise, not against the truth but against the fit as asked of the same readings: what the
-    /// arithmetic leaves undone. Negative where that solves other equations.
+    /// The same, compared with the fit as asked of the same readings instead of the truth: the
+    /// numerical error. Negative if the setting solves other equations.
     double angle_left = -1;
-    double offset_error = 0;  ///< likewise of planes' distances, in the stone's unit
-    /// Processor time of one fit, covariance included: median and quartiles.
+    double offset_error = 0;  ///< the same for planes' distances, in the stone's unit
+    /// Processor time of one fit with its covariance: median and quartiles.
     double seconds = 0, seconds_low = 0, seconds_high = 0;
 };
 
-/// The error with this many readings, beside the Cramer-Rao limit: no unbiased estimate has a
-/// smaller variance than the inverse of the information in the readings (Rao 1945, Cramer 1946).
+/// The error with this many readings, and the Cramer-Rao limit: no unbiased estimate has a smaller
+/// variance than the inverse of the readings' information (Rao 1945, Cramer 1946).
 struct StudyLimit {
     int readings = 0;
     double share = 1;  ///< of all readings that have a value
-    double dof = 0;    ///< redundancy that is left
-    int draws = 0;     ///< done; of these `failed` found no stone and are not counted in the error
+    double dof = 0;    ///< redundancy that remains
+    int draws = 0;  ///< draws done; `failed` of them found no stone and do not count in the error
     int failed = 0;
     double angle_error = 0, angle_limit = 0;    ///< radians, root mean square over facets
     double offset_error = 0, offset_limit = 0;  ///< in the stone's unit
@@ -60,7 +60,7 @@ struct StudyLimit {
 };
 
 struct Study {
-    FitStatus status = FitStatus::not_converged;  ///< of the fit that is taken for the truth
+    FitStatus status = FitStatus::not_converged;  ///< of the fit that is taken as the truth
     std::string message;
     std::string stone;
     LengthUnit unit = LengthUnit::mm;
@@ -68,10 +68,10 @@ struct Study {
     double seconds = 0;  ///< processor time of that fit
     std::vector<StudySetting> settings;
     std::vector<StudyLimit> limits;
-    /// The limit is studied on a stone whose meets and symmetries are exact, since soft ones count
-    /// as readings that cannot be drawn anew. False: they are as asked, and were exact already.
+    /// The limit is studied on a stone with exact meets and symmetries, because soft ones count as
+    /// readings that cannot be drawn anew. False: they are as asked, and were exact already.
     bool limit_made_exact = false;
-    std::string limit_message;          ///< why `limits` ends, or is empty
+    std::string limit_message;          ///< why `limits` ends early; may be empty
     std::vector<std::string> left_out;  ///< rows that the budget did not reach, in words
     StudyOptions options;
 
@@ -79,11 +79,11 @@ struct Study {
 };
 
 /// Fits the stone, then studies that fit. Throws as `fit_stone` does. A stone that cannot be fitted
-/// is no exception: the study is then empty, with status and message.
+/// throws nothing: the study is then empty, with status and message.
 Study study_fit(const Stone& stone, const std::vector<Reading>& readings,
                 const StudyOptions& options = {}, const Progress& progress = {});
 
-/// One JSON object (`schema` 1, `kind` "fit"): degrees and the stone's unit.
+/// One JSON object (`schema` 1, `kind` "fit"), in degrees and the stone's unit.
 std::string study_json(const Study& study);
 /// The same rows as comma-separated values.
 std::string study_time_csv(const Study& study);

@@ -1,4 +1,4 @@
-// One way of fitting after the other, on the same draws: error and time of each.
+// Error and time of one way of fitting after the other, on the same draws.
 
 #include <fmt/format.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::array k_iterations{1, 2, 4, 8, 16, 32};
 constexpr std::array k_shakes{0.01, 0.05, 0.1, 0.2};
-// Of starts one needs many only when the mesh is bad.
+// Several starts are only needed if the mesh is bad.
 constexpr std::array k_starts{1, 2, 4, 8};
 constexpr double k_bad_mesh = 0.2;
-// Of symmetry that is declared exact, when it is studied as soft.
+// Sigma when a symmetry declared exact is studied as soft.
 constexpr double k_soft_symmetry = 0.1;  // degrees
 
 struct Way {
@@ -26,8 +26,8 @@ struct Way {
     FitOptions options;
     enum class Symmetry { as_asked, exact, soft, none } symmetry = Symmetry::as_asked;
     double shake = 0;            // of the mesh's corners, in diameters
-    bool is_asked_fit = false;   // from the mesh as it is, with the options of the stone file
-    bool same_equations = true;  // chi-square may be compared with the asked way's
+    bool is_asked_fit = false;   // from the unchanged mesh, with the stone file's options
+    bool same_equations = true;  // chi-square is comparable with that of the fit as asked
     std::vector<double> seconds;
     std::vector<StudyError> errors;
     double left = 0;  // sum of squares
@@ -57,7 +57,7 @@ std::vector<Reading> with_symmetry(const std::vector<Reading>& readings, Way::Sy
     return result;
 }
 
-// A mesh drawn badly: every corner off by a normal error in each coordinate, so that facets are no
+// A badly drawn mesh: every corner is off by a normal error in each coordinate, so facets are no
 // longer planar.
 Stone shaken(Stone stone, double share, std::uint64_t seed, int draw) {
     std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
@@ -141,7 +141,7 @@ Outcome outcome_of(const Way& way, const Stone& stone, const std::vector<Reading
     return {std::move(fitted), processor_seconds() - begin};
 }
 
-// Both fits of one draw; `end`: the one as asked, taken for the truth.
+// Both fits of one draw; `end` is the one as asked, taken as the truth.
 void note(const Outcome& outcome, const FitResult& asked, const StudyTruth& truth,
           const StudyTruth& end, Way& way) {
     const FitResult& fitted = outcome.fitted;

@@ -13,10 +13,10 @@ namespace culet {
 
 namespace {
 
-// A facet more level than this has no azimuth to speak of.
+// A facet more level than this has no usable azimuth.
 constexpr double k_level = 1e-6;
-// The reading of a facet that is nearly upright does not say which way it leans: of these only
-// azimuths are compared, since the limit knows nothing of such a choice.
+// A reading of a nearly upright facet does not say to which side it leans. Such facets are compared
+// by azimuth only, because the limit does not count the choice of side.
 constexpr double k_upright = radians(5);
 
 bool is_upright(double inclination) {
@@ -28,7 +28,7 @@ Vec3 up_of(const Stone& stone, const FitResult& fitted) {
     if (const int facet = find_facet(fitted.solid, stone.up_facet); facet >= 0) {
         return fitted.solid.facets[static_cast<std::size_t>(facet)].plane.normal;
     }
-    // The fit lays it on a coordinate axis that is near.
+    // The fit turns `up` to a coordinate axis within 20 degrees.
     for (int k = 0; k < 3; ++k) {
         if (std::abs(stone.up[k]) < std::cos(radians(20))) continue;
         Vec3 axis(0);
@@ -38,8 +38,8 @@ Vec3 up_of(const Stone& stone, const FitResult& fitted) {
     return stone.up;
 }
 
-// Inclinations count from above all the way, 0 .. pi: folded at the horizon they would hide half of
-// the errors of upright facets.
+// Inclinations count from up, 0 .. pi. Counted from the nearer side, they would hide half of the
+// errors of upright facets.
 std::map<std::string, StudyTruth::Place> places_of(const Stone& stone, const FitResult& fitted,
                                                    bool from_corner_mean) {
     const Vec3 up = up_of(stone, fitted);
@@ -66,7 +66,7 @@ bool fixes_azimuth(const Reading& reading) {
            reading.kind == ReadingKind::table_width;
 }
 
-// Mean squares over facets of what they are off, or may be.
+// Mean squares over facets of their errors or sigmas.
 class SumOfFacets {
 public:
     explicit SumOfFacets(bool azimuths_read) : azimuths_read_(azimuths_read) {}
