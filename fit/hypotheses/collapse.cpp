@@ -1,4 +1,4 @@
-// Draws edges of a mesh together to points.
+// Collapses edges of a mesh.
 
 #include <algorithm>
 #include <map>
@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// Corners in which only two facets meet are no corners, but places on an edge.
+// Removes corners at which only two facets meet: they are points on an edge.
 bool drop_idle_corners(Solid& solid) {
     std::vector<std::set<int>> facets(solid.vertices.size());
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -38,7 +38,7 @@ bool drop_flat_facets(Solid& solid) {
     return dropped;
 }
 
-// Two facets share one edge at most, and no corner comes twice.
+// Two facets share at most one edge, and no corner occurs twice.
 bool is_sound(const Solid& solid) {
     std::map<std::pair<int, int>, int> shared;
     for (const Facet& facet : solid.facets) {
@@ -76,7 +76,7 @@ Solid with_collapsed_edges(const Solid& solid, const std::vector<std::pair<int, 
         busy = drop_flat_facets(result);
         busy = drop_idle_corners(result) || busy;
     }
-    // Corners of no facet go.
+    // Removes corners without facets.
     std::vector<int> renumbered(result.vertices.size(), -1);
     std::vector<Vec3> kept;
     for (Facet& facet : result.facets) {

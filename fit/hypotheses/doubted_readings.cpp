@@ -29,8 +29,8 @@ bool is_among(const std::string& id, const std::vector<Reading>& readings) {
                        [&](const Reading& r) { return r.id == id; });
 }
 
-// Readings that hold the stone check each other: they are doubted where they contradict each other
-// and do not accuse one of the doubted alone.
+// Readings that determine the stone check each other. They are doubted only if they contradict each
+// other and do not accuse one of the doubted alone.
 bool may_be_bent(const Problem& given, const FitResult& result, const std::vector<Doubt>& doubts) {
     if (!given.read_in_full || result.status == FitStatus::not_converged) return true;
     if (result.status != FitStatus::contradictory) return false;
@@ -45,18 +45,18 @@ bool is_plain_inclination(const Reading& r) {
            r.datum.kind == Datum::Kind::up;
 }
 
-// By how many sigmas a fit without an inclination denies it.
+// By how many sigmas a fit without this inclination contradicts it.
 double denied_by(const Reading& r, const FitResult& without) {
     const FittedFacet& facet = without.facets[std::size_t(r.facets[0])];
     return std::abs(facet.inclination - r.value) / std::hypot(facet.sigma_inclination, r.sigma);
 }
 
-// By a fit without it, where that tells: of inclinations.
+// By a fit without it. Readings other than inclinations cannot be tested and count as denied.
 bool is_denied(const Reading& r, const FitResult& without) {
     return !is_plain_inclination(r) || denied_by(r, without) > without.statistics.suspect_limit;
 }
 
-// Readings of one row count once, as they do beside a prior.
+// Readings of one row count once, as they do with a prior.
 double rows_of(const Problem& given, const std::vector<Doubt>& doubts) {
     std::set<std::pair<std::string, long>> rows;
     for (const Doubt& d : doubts) {
@@ -66,9 +66,9 @@ double rows_of(const Problem& given, const std::vector<Doubt>& doubts) {
     return static_cast<double>(rows.size());
 }
 
-// Beside a prior whose size the readings tell, a slip makes the prior wider and is no longer missed
-// by much: the two fits' chi-squares are of different sigmas. At the first fit's, chi-square falls
-// by the square of Baarda's w when one reading is left out, and by no less with more of them.
+// If the readings determine the prior's width, a slip widens it and misses by less: the chi-squares
+// of the two fits have different sigmas. With the first fit's sigmas, leaving out one reading
+// lowers chi-square by the square of Baarda's w, and leaving out more by no less.
 double fall_at_first_sigmas(const Problem& given, const std::vector<Doubt>& doubts,
                             const FitResult& first) {
     double most = 0;
@@ -82,9 +82,9 @@ double fall_at_first_sigmas(const Problem& given, const std::vector<Doubt>& doub
     return most;
 }
 
-// A tier that is off as a whole makes the prior so wide that nothing is missed at the first fit's
-// sigmas. At those of the fit without it chi-square rises by the square of this when one of its
-// readings is believed again, and by no less with more of them.
+// A tier that is off as a whole widens the prior until nothing misses with the first fit's sigmas.
+// With the second fit's, restoring one of its readings raises chi-square by the square of this, and
+// restoring more by no less.
 double rise_at_second_sigmas(const Problem& given, const std::vector<Doubt>& doubts,
                              const FitResult& again) {
     double most = 0;
@@ -122,7 +122,8 @@ Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem&
                       rise_at_second_sigmas(given, doubts, again) >
                           chi2_quantile(level / double(doubts.size()), 1);
     if (first.result.status != FitStatus::not_converged && !pays) return {};
-    // A rough mesh doubts what is right: what the others do not deny goes back.
+    // With a rough mesh, good readings are doubted: those that the others do not contradict are
+    // restored.
     std::vector<Doubt> denied = doubts;
     if (given.read_in_full) {
         std::erase_if(denied,

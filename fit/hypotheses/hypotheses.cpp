@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// By counting, the readings held it all; here they do not.
+// By their number the readings determine the stone, but this fit shows that they do not.
 std::optional<Problem> with_prior(const Problem& given, const Attempt& first) {
     const FitStatus status = first.result.status;
     if (!given.read_in_full || given.options.prior.source == Prior::Source::none ||
@@ -30,11 +30,11 @@ Verdict take_with_prior(const Problem&, const Attempt&, const Problem&, FitResul
 }
 
 constexpr Hypothesis k_hypotheses[] = {
-    // The mesh is the mirror image of the stone. First, for it makes many readings look wrong.
+    // The mesh is the mirror image of the stone. First, because it makes many readings look wrong.
     {"mesh mirrored", mesh_mirrored, judge_mirrored_mesh},
-    // The readings leave parts of the stone open.
+    // The readings leave parts of the stone undetermined.
     {"", with_prior, take_with_prior},
-    // What the first check doubts is wrong.
+    // The readings that the first check doubts are wrong.
     {k_readings_left_out, without_doubted, judge_doubted},
     // All azimuths count from another mark.
     {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},

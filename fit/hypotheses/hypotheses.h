@@ -1,6 +1,6 @@
 #pragma once
-// What may be wrong with a problem whose fit found no stone, or readings that contradict each
-// other: one list, tried in its order. Private to the room.
+// What may be wrong with a problem whose fit found no stone or contradictory readings: one list,
+// tried in order. Private to the room.
 
 #include <optional>
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace culet {
 
-/// What the fit of a changed problem says of a hypothesis; neither: it does not hold.
+/// The verdict of a changed problem's fit on a hypothesis; empty: it does not hold.
 struct Verdict {
-    std::optional<FitResult> explained;  ///< the result of the problem as given, and in words why
-    std::optional<Problem> next;         ///< the same hypothesis, changed otherwise
+    std::optional<FitResult> explained;  ///< result of the problem as given, with the explanation
+    std::optional<Problem> next;         ///< the same hypothesis with another change
 };
 
 struct Hypothesis {
-    /// What is changed, for the report's list `changed`; empty: nothing that was given.
+    /// What is changed, for the report's list `changed`; empty if nothing given is changed.
     const char* what;
-    /// The problem as it would be; nothing where the hypothesis does not apply.
+    /// The changed problem; nothing if the hypothesis does not apply.
     std::optional<Problem> (*changed)(const Problem& given, const Attempt& first);
     Verdict (*judged)(const Problem& given, const Attempt& first, const Problem& changed,
                       FitResult again);

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Index of the first suspect, where it is a reading that may be wrong.
+// Index of the first suspect, if it is a reading that may be wrong.
 std::optional<std::size_t> first_suspect(const Problem& given, const FitResult& result) {
     if (result.findings.suspects.empty()) return std::nullopt;
     const auto wrong =
@@ -47,7 +47,7 @@ Verdict judge_first_suspect(const Problem& given, const Attempt& first, const Pr
     const auto fitted = std::find_if(again.readings.begin(), again.readings.end(),
                                      [&](const FittedReading& r) { return r.id == wrong.id; });
     if (fitted == again.readings.end() || !fitted->left_out.empty()) return {};
-    // What is asked for nothing has the others' estimate: its variance over its own is 1 - r.
+    // A reading without weight shows the others' estimate; its variance is 1 - r of the reading's.
     const double sigma =
         changed.readings[at].sigma * std::sqrt(std::max(0.0, 1 - fitted->redundancy));
     if (!(std::abs(fitted->fitted - wrong.value) >

@@ -29,7 +29,7 @@ Verdict judge_mirrored_mesh(const Problem& given, const Attempt& first, const Pr
         "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored";
     again.log.notes.insert(again.log.notes.begin(), note);
     again.message += "; " + note;
-    // Azimuths that were said to count as the mesh's do.
+    // The stone file says that azimuths count as in the mesh.
     if (given.stone.azimuth_from_mesh && again.status == FitStatus::converged) {
         again.status = FitStatus::contradictory;
         again.message = note;

@@ -1,5 +1,5 @@
 #pragma once
-// The names run round the other way than they are drawn. Private to the room.
+// The names run round the stone the other way than in the mesh. Private to the room.
 
 #include "fit/hypotheses/hypotheses.h"
 

@@ -1,6 +1,5 @@
 #pragma once
-// What has to be done to a problem before it can be fitted, and taken back in its result. Private
-// to the room.
+// Changes that a problem needs before its fit, and that its result must undo. Private to the room.
 
 #include <functional>
 #include <vector>
@@ -11,12 +10,12 @@ namespace culet {
 
 struct Prepared {
     Problem problem;
-    /// Applied to a result in this order: the result of the problem as it was given.
+    /// To be applied to a result in this order; gives the result of the problem as given.
     std::vector<std::function<void(FitResult&)>> restored;
 };
 
-/// Leaves out azimuths of level facets, which mean nothing, and gives the stone the mesh's size
-/// when no length was read.
+/// Leaves out azimuths of level facets, which mean nothing, and takes the stone's size from the
+/// mesh if no length was read.
 Prepared prepared(Problem problem);
 
 }  // namespace culet

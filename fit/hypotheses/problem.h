@@ -1,5 +1,5 @@
 #pragma once
-// A fit as it is asked for, and what one attempt at it came to. Private to the room.
+// A fit as it is asked for, and one attempt at it. Private to the room.
 
 #include <cstddef>
 #include <vector>
@@ -15,19 +15,19 @@ struct Problem {
     Stone stone;
     std::vector<Reading> readings;
     FitOptions options;
-    /// As far as one can tell before the fit, the readings leave nothing to a prior.
+    /// Before the fit, the readings seem to leave nothing to a prior.
     bool read_in_full = true;
-    bool mirrored = false;  ///< the mesh was mirrored to the azimuths
+    bool mirrored = false;  ///< the mesh was mirrored to match the azimuths
 };
 
 struct Attempt {
     FitResult result;
-    double mesh_turn = 0;  ///< by how much the azimuths read are ahead of the mesh's; radians
-    double work = 0;       ///< of all starts, about, in multiplications
+    double mesh_turn = 0;  ///< how far the azimuths read are ahead of the mesh's; radians
+    double work = 0;       ///< of all starts, roughly, in multiplications
 };
 
-/// Where what is wrong was found, the stone is soon found too: two starts, or one where those of
-/// the first attempt were dear (a large stone, or readings of none).
+/// Fewer starts, because a corrected problem is easily solved: two, or one if those of the first
+/// attempt were costly (a large stone, or readings that fit none).
 Problem with_few_starts(Problem problem, const Attempt& first);
 
 /// `left_out`: indices, sorted.

@@ -40,7 +40,7 @@ void list_edges(const Solid& before, const Solid& after, std::vector<std::string
     if (!came.empty()) changes.push_back("edges new: " + list_of(came));
 }
 
-// One round of changes that `result` asks for. False when it asks for none that can be made.
+// Makes one round of the changes that `result` asks for. False if none can be made.
 bool change(TopologyStage& stage, const FitResult& result, int& released,
             std::vector<std::string>& changes) {
     if (!result.checks.missing_facets.empty() && result.checks.closed) {
@@ -58,8 +58,8 @@ bool change(TopologyStage& stage, const FitResult& result, int& released,
                 solid.facets[std::size_t(find_facet(solid, finding.facets[0]))].corners;
             if (std::any_of(loop.begin(), loop.end(), [&](int c) { return touched.count(c) > 0; }))
                 continue;
-            // To the edge or the point that is left of it: what is longer than a hundredth of its
-            // longest side stays.
+            // Collapses the facet to the edge or point that is left of it: edges longer than a
+            // hundredth of its longest stay.
             double longest = 0;
             const auto length = [&](std::size_t i) {
                 const Vec3 d = result.solid.vertices[std::size_t(loop[i])] -
@@ -101,8 +101,8 @@ bool change(TopologyStage& stage, const FitResult& result, int& released,
         }
         return true;
     }
-    // One after the other, the worst first: readings of lengths that end where a meet comes apart
-    // accuse its neighbours until it has. Many at once when there are more than rounds.
+    // One meet at a time, the worst first, because lengths read to a bad meet also accuse its
+    // neighbours. Many at once if there are more than rounds.
     std::vector<const MeetFinding*> bad;
     for (const MeetFinding& meet : result.findings.meets) {
         if (meet.contradicted && meet.how != "released") bad.push_back(&meet);
@@ -120,8 +120,8 @@ bool change(TopologyStage& stage, const FitResult& result, int& released,
     return !bad.empty();
 }
 
-// The shortest edges of the fitted stone, which may lie the other way round in the real one: a
-// contradiction need not drive an edge to zero when lengths were read that end at its corners.
+// The shortest edges of the fitted stone, which may be flipped in the real one. A contradiction
+// need not drive an edge to zero if lengths were read that end at its corners.
 std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
                                                 const FitResult& result) {
     const Solid &mesh = stage.stone.solid, &fitted = result.solid;
@@ -141,7 +141,7 @@ std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
     return shortest;
 }
 
-// The stage with one edge let go.
+// Collapses one edge and releases the resulting meet.
 bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
             std::vector<std::string>& changes) {
     std::vector<std::string> names, sides;
@@ -168,7 +168,7 @@ bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
     return true;
 }
 
-// The result with every reading of the user in its place.
+// Restores every reading of the user to its place.
 void put_readings_back(const std::vector<Reading>& first, const TopologyStage& stage,
                        FitResult& result) {
     std::vector<FittedReading> all(first.size());
@@ -197,8 +197,8 @@ void put_readings_back(const std::vector<Reading>& first, const TopologyStage& s
     });
 }
 
-// The better of two results: a closed stone with all its facets first, then one that the readings
-// agree with, then one where the steps came to an end.
+// Prefers a closed stone with all facets, then one that agrees with the readings, then one that
+// converged.
 bool is_better(const FitResult& a, const FitResult& b) {
     const auto rank = [](const FitResult& r) {
         return std::tuple(!r.checks.closed || !r.checks.missing_facets.empty(),
@@ -239,7 +239,7 @@ FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readi
                 chosen_result = std::move(tried);
                 chosen_changes = std::move(said);
             }
-            // Only what ends the contradiction is worth a change that no reading asked for.
+            // A change that no reading asked for must end the contradiction.
             if (chosen_changes.empty()) break;
             ++released;
             stage = std::move(chosen);

@@ -21,7 +21,7 @@ bool share_edge(const Solid& solid, int a, int b) {
     return shared >= 2;
 }
 
-// The same reading on the changed solid; nothing when what it is of is gone.
+// The same reading on the changed solid; nothing if its facets are gone.
 std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
                                     const Solid& after) {
     Reading r = reading;
@@ -40,7 +40,7 @@ std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
         kept.insert(kept.end(), term.begin(), term.end());
     }
     const bool all = kept.size() == r.facets.size();
-    // What many facets share in is of those that are left; what names single ones is of all.
+    // Readings that many facets share keep the facets that are left; others need all of theirs.
     const bool shared = r.kind == ReadingKind::meet || r.kind == ReadingKind::parallel ||
                         r.kind == ReadingKind::coplanar;
     const std::size_t least = r.kind == ReadingKind::meet ? 3 : 2;
@@ -48,7 +48,7 @@ std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
     r.facets = kept;
     if (r.datum.facet >= 0 && (r.datum.facet = facet(r.datum.facet)) < 0) return std::nullopt;
     for (Place& place : r.places) {
-        // Corners have no names that would outlive a change.
+        // Corners have no names that survive a change.
         if (place.vertex >= 0) return std::nullopt;
         if (place.facet >= 0 && (place.facet = facet(place.facet)) < 0) return std::nullopt;
         if (place.other_facet >= 0) {
@@ -80,7 +80,7 @@ bool change_solid(TopologyStage& stage, Solid solid, std::vector<std::string>& c
     std::vector<std::string> dropped;
     for (std::size_t i = 0; i < stage.readings.size(); ++i) {
         auto reading = carried_over(stage.readings[i], stage.stone.solid, next.stone.solid);
-        // A meet that was let go may have become nothing to let go.
+        // A released meet may no longer exist.
         if (reading && reading->released) {
             bool meets = false;
             const HalfEdges edges = half_edges(next.stone.solid);

@@ -16,7 +16,7 @@ bool counts_from_zero(const Reading& r) {
     return r.kind == ReadingKind::azimuth && r.datum.kind != Datum::Kind::facet;
 }
 
-// By how many degrees, in whole marks; 0: none.
+// Degrees by which azimuths are turned, in whole marks; 0 if they are not.
 double marks_deg(const Attempt& first) {
     const double turned_deg = degrees(std::remainder(first.mesh_turn, 2 * std::numbers::pi));
     const double mark_deg = k_trials.mark_deg * std::round(turned_deg / k_trials.mark_deg);

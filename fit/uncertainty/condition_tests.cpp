@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Of a covariance matrix; over the directions in which it is no rounding.
+// Of a covariance matrix, without the directions that are rounding error.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& v) {
     const Eigen::Index count = v.rows();
     Eigen::VectorXd scale(count);
@@ -52,7 +52,7 @@ Covariance keeping(const Linearised& linear, const Combinations& kept) {
     fewer.hard_rows = kept * linear.hard_rows;
     fewer.hard_residuals = kept * linear.hard_residuals;
     fewer.has_prior = true;
-    // Of few functions only: faster than dense algebra for all unknowns.
+    // Few functions are needed: faster than dense algebra for all unknowns.
     return Covariance(std::move(fewer), Covariance::Algorithm::sparse);
 }
 

@@ -1,4 +1,4 @@
-// The covariance of stones small enough for dense algebra.
+// The covariance of stones that are small enough for dense algebra.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// The lower half of seen' seen + (weight along)' (weight along).
+// The lower triangle of seen' seen + (weight along)' (weight along).
 Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& along,
                              double weight) {
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(seen.cols(), seen.cols());
@@ -24,8 +24,8 @@ Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd&
     return normal;
 }
 
-// R^-1 of a QR of rows in the order of their size, with column pivoting: stable row by row whatever
-// the weights (Cox & Higham 1998). Columns: P R^-1, so that (B'B)^-1 = F F'.
+// P R^-1 of a QR with rows sorted by size and column pivoting, so that (B'B)^-1 = F F'. It is
+// stable row by row, whatever the weights (Cox & Higham 1998).
 Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
     std::vector<Eigen::Index> order(std::size_t(seen.rows()));
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = Eigen::Index(i);
@@ -38,18 +38,18 @@ Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
     return PivotedQr(sorted).inverse_factor();
 }
 
-// The transpose of rows is stored by columns, as products take it.
+// The transpose of row-major rows is column-major, as products need it.
 DenseRows rows_times(const DenseRows& rows, const MatrixView& columns) {
     return transpose_times(columns, rows.transpose()).transpose();
 }
 
 }  // namespace
 
-// What the hard equations leave free, in a basis of it.
+// The directions that the hard equations leave free, in a basis.
 struct Covariance::FreePart {
     const DenseRows& basis;
     DenseRows seen;         // by the rows
-    Eigen::MatrixXd along;  // its part along each motion that nothing sees
+    Eigen::MatrixXd along;  // components along the gauge motions
 };
 
 void Covariance::find_dense() {
@@ -62,7 +62,7 @@ void Covariance::find_dense() {
     usable_ = true;
     if (basis.cols() == 0) return;  // exact readings leave nothing free
 
-    // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
+    // Readings do not see the gauge: it counts as determined and is removed at the end.
     const Eigen::MatrixXd gauge_rows = linear_.metric.asDiagonal() * gauge;
     const FreePart free{basis, linear_.soft_rows * basis,
                         product(basis.transpose(), gauge_rows).transpose()};
@@ -74,12 +74,12 @@ void Covariance::find_dense() {
     leverages_ = seen_.rowwise().squaredNorm();
 }
 
-// Where readings hold every direction, and none far more tightly than others: Cholesky's factor of
-// the normal equations. False where that cannot be told so.
+// Cholesky factor of the normal equations, if readings determine every direction and none far more
+// tightly than others. False if that is not certain.
 bool Covariance::find_well_determined(const FreePart& free) {
     double largest = 0;
     for (Eigen::Index i = 0; i < linear_.soft_rows.rows(); ++i) {
-        // In the metric no row is longer on directions that are free than on all.
+        // In the metric, no row is longer on the free directions than on all.
         double square = 0;
         for (FunctionRows::InnerIterator it(linear_.soft_rows, i); it; ++it) {
             square += it.value() * it.value() / linear_.metric(it.col());
@@ -95,17 +95,17 @@ bool Covariance::find_well_determined(const FreePart& free) {
     // (S^-1) = U^-1 U^-T
     held_ = upper_transpose_times(upper, free.basis.transpose()).transpose();
     seen_ = linear_.soft_rows * held_;
-    // An open direction alone would leave some unknown as much.
+    // An open direction would leave some unknown this uncertain.
     const Eigen::VectorXd left = held_.rowwise().squaredNorm().cwiseProduct(linear_.metric);
     if (!linear_.has_prior && !(left.maxCoeff() < 1 / k_shapes.determined)) return false;
-    // Every direction is seen once: the squares of all that is seen add up to their number, unless
-    // they are lost in rounding.
+    // Every direction is seen once, so all squares add up to their number, unless rounding errors
+    // are large.
     const double squares =
         seen_.squaredNorm() + std::pow(gauge_weight, 2) * product(free.along, upper).squaredNorm();
     return std::abs(squares - double(size)) < k_cov.precision;
 }
 
-// By QR of what is seen, whitened by the metric so that eigenvalues compare readings with the mesh.
+// QR of the equations, whitened by the metric so that eigenvalues compare readings with the mesh.
 bool Covariance::find_poorly_determined(const FreePart& free) {
     const Eigen::Index size = free.basis.cols();
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);

@@ -32,8 +32,8 @@ void find_rank_defect(const FitModel& model, const Shape& shape, const Covarianc
     diagnosis.rank_defect = covariance.rank_defect();
     if (diagnosis.rank_defect == 0) return;
     const Layout layout = layout_of(shape);
-    // A freedom is named when the open directions together may move it by a tenth of what the mesh
-    // itself is trusted for.
+    // A parameter is named if the open directions together may move it by a tenth of the mesh's own
+    // uncertainty.
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         static constexpr std::array<const char*, 3> names{"inclination", "azimuth", "offset"};
@@ -46,7 +46,7 @@ void find_rank_defect(const FitModel& model, const Shape& shape, const Covarianc
     }
 }
 
-// Without a covariance: what every reading came to, and nothing of how sure that is.
+// Without a covariance: residuals of the readings only.
 void residuals_only(const FitModel& model, const Linearised& linear,
                     const std::vector<Observation>& observations, Diagnosis& diagnosis) {
     diagnosis.analysed = false;
@@ -64,8 +64,8 @@ void residuals_only(const FitModel& model, const Linearised& linear,
     for (std::size_t i = 0; i < linear.hard.size(); ++i) {
         note(linear.hard[i].reading, linear.hard_residuals(Eigen::Index(i)));
     }
-    // Bounds by counting: no more redundancy than readings, no fewer open parameters than unknowns
-    // that outnumber all equations.
+    // Bounds from counting: at most one degree of freedom for each observation, and at least as
+    // many open parameters as unknowns exceed equations.
     diagnosis.dof = double(observations.size());
     const Eigen::Index equations = Eigen::Index(observations.size()) + linear.hard_rows.rows() +
                                    Eigen::Index(linear.gauge_rows.size());
@@ -83,7 +83,7 @@ std::vector<double> redundancies_of(const std::vector<Observation>& observations
     return redundancy;
 }
 
-// Degrees of freedom, and what estimates of variance components need.
+// Degrees of freedom, and the sums for variance components.
 void sum_up(const Linearised& linear, const std::vector<Observation>& observations,
             const std::vector<double>& redundancy, int binding, Diagnosis& diagnosis) {
     diagnosis.dof = binding;
@@ -98,8 +98,8 @@ void sum_up(const Linearised& linear, const std::vector<Observation>& observatio
     }
 }
 
-// Beside a prior, whose terms are no readings: of the readings alone. One value that was read for
-// several facets is one observation, whose share in each of them is alike.
+// With a prior, whose terms are no readings: chi-square of the readings alone. One value that was
+// read for several facets counts as one observation.
 void count_readings_alone(const FitModel& model, const Linearised& linear,
                           const std::vector<Observation>& observations,
                           const std::vector<double>& redundancy, int binding,
@@ -123,7 +123,7 @@ void count_readings_alone(const FitModel& model, const Linearised& linear,
     }
 }
 
-// Every reading's equations together; the worst of them speaks for the reading.
+// Combines each reading's equations; the worst one represents it.
 void check_readings(const FitModel& model, const Linearised& linear,
                     const std::vector<Observation>& observations,
                     const std::vector<double>& redundancy, Diagnosis& diagnosis) {
@@ -159,8 +159,8 @@ void check_readings(const FitModel& model, const Linearised& linear,
     }
 }
 
-// Inclination, azimuth and offset of each facet as the result tells them: azimuths in its frame,
-// which turns to lie as the mesh does.
+// Inclination, azimuth and offset of each facet as in the result, whose frame turns to match the
+// mesh.
 std::vector<FunctionRow> facet_rows(const FitModel& model, const Shape& shape, const Vec3& middle) {
     const Layout layout = layout_of(shape);
     const FunctionRow turn = RowWriter(shape).function(model.frame().turn_of(shape));

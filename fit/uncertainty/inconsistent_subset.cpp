@@ -16,14 +16,14 @@ namespace culet {
 
 namespace {
 
-// What remains of a least-squares fit as equations are left out one by one.
+// A least-squares fit from which equations are left out one by one.
 struct Rest {
     Eigen::VectorXd residuals;
     Eigen::MatrixXd matrix;
     double chi2 = 0, dof = 0;
 
-    // The best checked first: what rounding leaves of others is then small beside the pivots
-    // before.
+    // The best checked first: then rounding errors of the others stay small beside the earlier
+    // pivots.
     void leave_out(std::vector<Eigen::Index> equations) {
         while (!equations.empty()) {
             const auto next = std::max_element(
@@ -33,7 +33,7 @@ struct Rest {
             equations.erase(next);
         }
     }
-    // What is left without these: chi2 and dof alone, in which the others take no part.
+    // chi2 and dof without these; the other equations do not affect them.
     Rest sums_without(const std::vector<Eigen::Index>& equations) const {
         Rest part{residuals(equations), matrix(equations, equations), chi2, dof};
         std::vector<Eigen::Index> all(equations.size());
@@ -58,8 +58,8 @@ private:
     }
 };
 
-// By halves of what remains first, then one by one until none can be spared. `spares` says whether
-// some can be spared, given the others.
+// Leaves out halves of what remains first, then one by one until none can be spared. `spares` tells
+// whether some can be spared, given the others.
 template <class Spares>
 void leave_out_what_can_be_spared(std::vector<int>& left, const Spares& spares) {
     for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
@@ -96,7 +96,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
     for (std::size_t i = 0; i < owner.size(); ++i) {
         if (owner[i] >= 0) equations[owner[i]].push_back(Eigen::Index(i));
     }
-    // Those that take the least part in the contradiction go first.
+    // Those least involved in the contradiction are left out first.
     std::vector<std::pair<double, int>> order;
     for (const auto& [reading, mine] : equations) {
         double part = 0;
@@ -105,7 +105,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
             if (r > k_checks.no_redundancy)
                 part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
         }
-        // Readings that only one another check take the same part but for rounding.
+        // Readings that only check one another have equal parts, but for rounding errors.
         order.emplace_back(std::round(part / k_snooping.same_part), reading);
     }
     std::sort(order.begin(), order.end());
@@ -130,7 +130,7 @@ std::vector<int> inconsistent_exact_readings(const FitModel& model, const Shape&
     const Linearised linear = linearise(model, shape, outline);
     if (!(linear.worst_hard() > k_hard_limit)) return {};
     const Eigen::Index unknowns = linear.layout.size();
-    // Where nothing more can be done, the equations that miss are those that take part.
+    // The least-squares shape cannot improve, so the equations that miss are those involved.
     std::set<int> readings;
     std::vector<std::size_t> meets;
     std::map<int, std::vector<std::size_t>> equations;
@@ -159,7 +159,7 @@ std::vector<int> inconsistent_exact_readings(const FitModel& model, const Shape&
                 Eigen::VectorXd(linear.hard_rows.row(Eigen::Index(used[k])).transpose());
             miss(Eigen::Index(k)) = linear.hard_residuals(Eigen::Index(used[k]));
         }
-        // Misses that some step could mend lie in the range of A; what lies across it cannot be.
+        // Misses in the range of A could be removed by a step; the part across it cannot.
         const PivotedQr qr(columns.transpose(), 1e-9);
         const Eigen::VectorXd across = qr.along(miss);
         if (qr.rank() == across.size()) return false;

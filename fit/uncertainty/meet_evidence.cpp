@@ -13,9 +13,8 @@ namespace culet {
 
 namespace {
 
-// In parts of the usual miss; 0 where nothing can be said. The evidence is what the readings are
-// likely by: meets beside the prior have a likelihood even without them, which is no evidence, and
-// is the larger, the smaller the sigma.
+// As part of the usual miss; 0 if unknown. The evidence is the likelihood of the readings alone:
+// meets beside the prior have one even without readings, which grows as sigma shrinks.
 double allowed_part(const FitModel& model, const Finished& at, double usual) {
     MeetLikelihood read(model, at), unread(model, at, false);
     double allowed = 0, least = std::numeric_limits<double>::infinity();

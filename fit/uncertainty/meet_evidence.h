@@ -1,6 +1,6 @@
 #pragma once
-// Whether the planes of a stone meet, and by how much they miss, where a prior fills in what few
-// readings leave open. Private to the room.
+// Estimates whether a stone's planes meet, and by how much they miss, when a prior fills in what
+// few readings leave open. Private to the room.
 
 #include <optional>
 
@@ -11,14 +11,13 @@
 namespace culet {
 
 struct MeetEvidence {
-    bool exact = false;  ///< the readings are likelier of a stone whose planes meet
-    Finished finished;   ///< else the fit of the model, whose group sigmas are set
+    bool exact = false;  ///< the readings are likelier for a stone whose planes meet
+    Finished finished;   ///< if not exact: the fit with the model's new group sigmas
 };
 
-/// `model` has soft meets and a prior; `at` is an end of the same fit with exact meets. One sigma
-/// of all meets is taken: the largest that the readings allow, by their likelihood in the linear
-/// model (marginal likelihood; the nuisance parameters integrated out, Patterson & Thompson 1971).
-/// Nothing where the equations tell nothing.
+/// `model` has soft meets and a prior; `at` is a local minimum of the same fit with exact meets.
+/// All meets get one sigma: the largest that the readings allow, by their marginal likelihood in
+/// the linear model (Patterson & Thompson 1971). Nothing if the equations do not determine it.
 std::optional<MeetEvidence> weigh_meets(FitModel& model, const Finished& at,
                                         const FitOptions& options);
 

@@ -54,7 +54,7 @@ double MeetLikelihood::operator()(const MeetSigmas& sigmas) {
     for (Eigen::Index i = 0; i < count; ++i) {
         const Equation& e = linear_.soft[std::size_t(i)];
         if (e.group < 0) continue;
-        // Rows are over the sigmas of the linear model.
+        // Rows are divided by the sigmas of the linear model.
         variance(i) = std::pow(sigmas[std::size_t(e.group)] / e.sigma, 2);
         logarithms += 2 * std::log(e.sigma);
     }

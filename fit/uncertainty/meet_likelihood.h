@@ -1,5 +1,5 @@
 #pragma once
-// How likely meets of a size are. Private to the room: shows Eigen.
+// The likelihood of a size of the meets' misses. Private to the room: shows Eigen.
 
 #include <array>
 
@@ -10,20 +10,19 @@
 
 namespace culet {
 
-/// Of polished facets and of the girdle's, in the scale of the fit: `FitModel::group_sigmas`.
+/// For polished facets and girdle facets, in the scale of the fit: `FitModel::group_sigmas`.
 using MeetSigmas = std::array<double, 2>;
 
-/// Twice the negative logarithm of the restricted likelihood (Patterson & Thompson 1971), but for a
-/// constant, as a function of the sigmas, in the linear model about one shape: log det V + log det
-/// A'V^-1 A + r'V^-1 r, the first two of which are the determinant of the saddle system [P A'; A
-/// -V].
+/// -2 log restricted likelihood of the sigmas (Patterson & Thompson 1971), up to a constant, in the
+/// linear model about one shape: log det V + log det A'V^-1 A + r'V^-1 r. The first two terms are
+/// the determinant of the saddle system [P A'; A -V].
 class MeetLikelihood {
 public:
-    /// Without readings: of the meets beside the prior, as if nothing had been read.
+    /// `with_readings` = false: of the meets and the prior alone, as if nothing had been read.
     MeetLikelihood(const FitModel& model, const Finished& at, bool with_readings = true);
 
     bool has(std::size_t group) const { return present_[group]; }
-    /// Infinite where the equations cannot be factored.
+    /// Infinite if the equations cannot be factored.
     double operator()(const MeetSigmas& sigmas);
 
 private:

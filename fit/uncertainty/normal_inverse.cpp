@@ -37,7 +37,7 @@ Eigen::MatrixXd with_one(Eigen::MatrixXd square) {
     return square;
 }
 
-// Without the rows that are kept apart.
+// Without the rows in `apart`.
 Matrix normal_matrix(const NormalEquations& equations, const std::vector<Eigen::Index>& apart) {
     Eigen::VectorXd counts = Eigen::VectorXd::Ones(equations.rows.rows());
     for (const Eigen::Index i : apart) counts(i) = 0;
@@ -102,8 +102,8 @@ int negative_pivots(const NormalEquations& equations) {
     if (!factors.factor(matrix)) return 0;
     int negative = static_cast<int>((factors.pivots().array() < 0).count());
     if (!apart.empty()) {
-        // With borders instead of fill, [A0, D'; D, -1] has as many more negative eigenvalues as
-        // borders; by A0's Schur complement the others are those of -(1 + D A0^-1 D').
+        // Bordered instead of filled in, [A0, D'; D, -1] has as many additional negative
+        // eigenvalues as borders; by A0's Schur complement they are those of -(1 + D A0^-1 D').
         const Eigen::MatrixXd rows = dense(equations.rows, apart);
         const Eigen::MatrixXd solved = factors.solve_all(rows.transpose());
         const PivotedCholesky bordered(with_one(culet::product(rows, solved)));

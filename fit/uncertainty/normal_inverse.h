@@ -1,6 +1,5 @@
 #pragma once
-// The inverse of large sparse normal equations, as far as it is asked for. Private to the room:
-// shows Eigen.
+// Inverts large sparse normal equations, as far as needed. Private to the room: shows Eigen.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -11,8 +10,8 @@
 
 namespace culet {
 
-/// rows' rows + hard_weight^2 hard' hard + diag(diagonal). Rows that touch a great part of the
-/// unknowns (volume, means of a whole stone) would fill it: they are kept apart.
+/// rows' rows + hard_weight^2 hard' hard + diag(diagonal). Rows with a great part of the unknowns
+/// (volume, means of a whole stone) are kept apart, because they would fill the matrix.
 struct NormalEquations {
     const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows;
     const Eigen::SparseMatrix<double, Eigen::RowMajor>& hard_rows;
@@ -24,7 +23,7 @@ class NormalInverse {
 public:
     NormalInverse();
     ~NormalInverse();
-    /// False when the matrix is not positive definite.
+    /// False if the matrix is not positive definite.
     bool compute(const NormalEquations& equations);
     /// f' A^-1 f.
     double quadratic(const Eigen::SparseVector<double>& f) const;
@@ -38,8 +37,8 @@ private:
     std::optional<Cholesky> capacitance_;
 };
 
-/// Of an unpivoted LDL' of the (indefinite) matrix: by Sylvester's law its number of negative
-/// eigenvalues. 0 when it has no such factors.
+/// Number of negative eigenvalues of the (indefinite) matrix, from an unpivoted LDL' (Sylvester's
+/// law). 0 if it has no such factors.
 int negative_pivots(const NormalEquations& equations);
 
 }  // namespace culet

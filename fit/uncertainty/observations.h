@@ -1,5 +1,5 @@
 #pragma once
-// What was observed one by one, also where several readings share an equation. Private to the room:
+// The single observations, also where several readings share an equation. Private to the room:
 // shows Eigen.
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace culet {
 
-/// A reading's part, or a soft meet's, in an equation that counts. Where several readings share it,
-/// `part` of them all is its own weight's root: residual_i = part (residual - off / sigma), and of
-/// the hat matrix the entries of two readings are those of their equations times both parts.
+/// A reading's or a soft meet's part in an equation that counts. If several readings share it,
+/// `part` is the square root of this one's share of the weight: residual_i = part (residual - off /
+/// sigma), and the hat matrix's entry for two readings is that of their equations times both parts.
 struct Observation {
-    Eigen::Index equation = -1;  ///< of the soft ones
-    int reading = -1;            ///< or none
+    Eigen::Index equation = -1;  ///< index among the soft equations
+    int reading = -1;            ///< -1: none
     double off = 0, sigma = 1, part = 1;
 
     /// In sigmas.
@@ -24,7 +24,7 @@ struct Observation {
     }
 };
 
-/// In the order in which they would stand if none shared an equation.
+/// In the order that they would have if no equation were shared.
 std::vector<Observation> observations_of(const Linearised& linear);
 
 }  // namespace culet

@@ -16,7 +16,7 @@ bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
         if (r.told) return true;
     }
     const FitModel model(stone, readings, options);
-    // Symmetry within a sigma makes more equations than it tells anything.
+    // A symmetry within a sigma makes more equations than it adds information.
     const auto values = std::count_if(readings.begin(), readings.end(), [](const Reading& r) {
         return !is_relation(r.kind) && !r.exact;
     });

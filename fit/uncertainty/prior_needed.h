@@ -1,5 +1,5 @@
 #pragma once
-// Whether a prior has anything to fill in.
+// Decides whether a prior has anything to fill in.
 
 #include <vector>
 
@@ -8,9 +8,10 @@
 
 namespace culet {
 
-/// Next to nothing of the stone is left to the mesh, as far as one can tell before the fit: by the
-/// number of readings (three quarters of the stone's freedoms), or else by the rank of the linear
-/// model at the mesh (up to four open freedoms: a rough mesh shows some that are none).
+/// True if the readings leave next to nothing of the stone to the mesh. Decided before the fit: by
+/// the number of readings (three quarters of the stone's degrees of freedom), or else by the rank
+/// of the linear model at the mesh (up to four undetermined directions: a rough mesh shows some
+/// that are not).
 bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
                        FitOptions options);
 

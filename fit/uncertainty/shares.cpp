@@ -8,8 +8,7 @@ namespace culet {
 
 namespace {
 
-// The same equations without what was read: what the prior knows by itself, meets and symmetry
-// taken for granted.
+// The same equations without readings: the prior with meets and symmetry.
 Linearised without_readings(const Linearised& linear) {
     Linearised prior = linear;
     for (std::size_t i = 0; i < linear.soft.size(); ++i) {

@@ -23,11 +23,11 @@ public:
         return columns_.emplace(i, given_.column(i)).first->second;
     }
 
-    // Residuals and redundancies once the set is left out.
+    // Residuals and redundancies when the set is left out.
     struct State {
         std::vector<Index> set;
         Eigen::VectorXd values, redundancy, errors;
-        Eigen::MatrixXd columns, inverse;  ///< of R; of R cut down to the set
+        Eigen::MatrixXd columns, inverse;  ///< of R; inverse of R's block of the set
         double gain = 0;                   // of chi2
         bool possible = true;
     };
@@ -54,7 +54,7 @@ public:
         return state;
     }
 
-    // The part of R's column that is left when the state's set is left out.
+    // The column of R when the state's set is left out.
     Eigen::VectorXd column_without(const State& state, Index i) {
         Eigen::VectorXd result = column(i);
         if (!state.set.empty()) {
@@ -147,7 +147,7 @@ std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, dou
             next = search.without(with(state.set, single));
         }
         if (!next.possible) break;
-        // Prune what the newcomers made needless, and exchange what they explain better.
+        // Drops what the new ones made needless, and exchanges what others explain better.
         for (int again = 0; again < 8; ++again) {
             bool changed = false;
             for (std::size_t a = 0; a < next.set.size() && !changed; ++a) {
@@ -182,7 +182,7 @@ std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, dou
         Outlier outlier;
         outlier.equation = state.set[a];
         // residual = R error, and residuals are fitted - read: an error in the reading has the
-        // other sign.
+        // opposite sign.
         outlier.error = -state.errors(Index(a));
         outlier.error_sigma = std::sqrt(state.inverse(Index(a), Index(a)));
         const Search::State fewer = search.without(less(state.set, a));

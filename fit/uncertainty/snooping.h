@@ -1,5 +1,5 @@
 #pragma once
-// Which readings are wrong: data snooping after Baarda (1968), for several errors at once.
+// Finds wrong readings: data snooping after Baarda (1968), for several errors at once.
 // Private to the room: shows Eigen.
 
 #include <Eigen/Core>
@@ -8,8 +8,7 @@
 
 namespace culet {
 
-/// Residuals of a least-squares fit in units of sigma, and how they hang together: R = 1 - hat
-/// matrix, so that residuals = R errors.
+/// Residuals of a least-squares fit in units of sigma. R = 1 - hat matrix: residuals = R errors.
 struct Residuals {
     Eigen::VectorXd values;
     Eigen::VectorXd redundancy;                           ///< diagonal of R
@@ -18,21 +17,21 @@ struct Residuals {
 
 struct Outlier {
     Eigen::Index equation = -1;
-    /// The error in units of sigma that explains the residuals, with the other outliers left out,
-    /// and its own standard uncertainty.
+    /// The error that explains the residuals, with the other outliers left out, and its standard
+    /// uncertainty; both in units of sigma.
     double error = 0, error_sigma = 0;
-    double gain = 0;  ///< by how much chi2 rises when it alone is believed again
-    /// Equations that would explain them nearly as well (likelihood ratio below e^1.5): what cannot
-    /// be told apart from this one.
+    double gain = 0;  ///< rise of chi2 if it alone is believed again
+    /// Equations that explain the residuals nearly as well (likelihood ratio below e^1.5), so that
+    /// they cannot be told apart from this one.
     std::vector<Eigen::Index> alternatives;
 };
 
-/// The set of equations that, left out, leaves nothing standing out: grown by the best one or the
-/// best two at a time (two errors may hide each other), pruned and exchanged until no change makes
-/// it better. An equation enters when chi2 drops by more than `limit`^2, two together when it drops
-/// by more than `pair_limit`. The gravest first. Equations whose redundancy is below 1e-4 cannot be
-/// checked. The search ends early where more than a tenth of the rest stands out still when eight
-/// are left out, or when forty are not enough: no few readings explain it.
+/// The set of equations without which nothing stands out, the worst first. It grows by the best one
+/// or the best two at a time (two errors may hide each other), then is pruned and exchanged until
+/// no change improves it. An equation enters if chi2 drops by more than `limit`^2, a pair if by
+/// more than `pair_limit`. Equations of redundancy below 1e-4 cannot be checked. The search ends
+/// early if more than a tenth of the rest still stands out when eight are left out, or if forty are
+/// not enough: then no few readings explain it.
 std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, double pair_limit,
                                    std::size_t most);
 

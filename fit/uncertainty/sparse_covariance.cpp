@@ -11,8 +11,8 @@ namespace culet {
 
 namespace {
 
-// Weights on as many unknowns as there are motions, those that move most (elimination with complete
-// pivoting).
+// Puts weights on as many unknowns as there are motions: those that move most (elimination with
+// complete pivoting).
 Eigen::VectorXd pins(Eigen::MatrixXd motions, double weight) {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(motions.rows());
     for (Eigen::Index k = 0; k < motions.cols(); ++k) {
@@ -39,8 +39,8 @@ Covariance::Sparse::Sparse(const Linearised& of)
         }
         tightest = std::max(tightest, sizes(i));
     }
-    // Hard equations as very tight soft ones: their own variance stays far below the readings', and
-    // the matrix positive definite whatever repeats.
+    // Hard equations are very tight soft ones: their own variance is far below the readings', and
+    // the matrix stays positive definite even if equations repeat.
     hard_weight_ = std::clamp(1e3 * tightest, 1e4, 1e6);
     gauge_rows_ = linear.metric.asDiagonal() * gauge_;
     pins_ = pins(gauge_, std::max(1e6, tightest * tightest));
@@ -98,7 +98,7 @@ void Covariance::find_sparse() {
     if (!usable_) return;
     const double most = linear_.has_prior ? 0 : sparse_->most_open();
     if (most > 0) {
-        // By Sylvester's law the number of negative pivots counts the directions below the bound.
+        // By Sylvester's law the negative pivots count the directions below the bound.
         const int below = negative_pivots(sparse_->equations(-k_shapes.determined));
         rank_defect_ = static_cast<int>(std::min(most, double(below)));
         sparse_->has_open = rank_defect_ > 0;

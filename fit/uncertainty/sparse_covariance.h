@@ -8,13 +8,13 @@
 
 namespace culet {
 
-/// The factor of the penalised normal equations. The gauge is held by pins (as many unknowns as
-/// motions), and inner constraints follow from them (Baarda's S-transformation): the covariance is
-/// P C P' with P = 1 - G G' M.
+/// The factor of the penalised normal equations. Pins (as many unknowns as motions) fix the gauge
+/// freedom; inner constraints follow by Baarda's S-transformation: the covariance is P C P' with P
+/// = 1 - G G' M.
 struct Covariance::Sparse {
     explicit Sparse(const Linearised& linear);
 
-    /// Under one prior, with the gauge held by pins.
+    /// With one prior, and the gauge fixed by pins.
     struct PinnedInverse {
         NormalInverse inverse;
         Eigen::MatrixXd gauge_solved;  // U = C M G
@@ -24,17 +24,17 @@ struct Covariance::Sparse {
     NormalEquations equations(double prior) const;
     double of(const PinnedInverse& pinned, const FunctionRow& function) const;
     Eigen::VectorXd with_all(const PinnedInverse& pinned, const Eigen::VectorXd& function) const;
-    /// How many directions may be open: each leaves some unknown half as uncertain as the mesh.
+    /// Upper limit of open directions: each leaves some unknown half as uncertain as the mesh.
     double most_open() const;
-    /// An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
-    /// disagree on.
+    /// An open direction of length q has the variance q^2 / (lambda + prior), so it shows in the
+    /// difference between the two priors.
     double open_variance(const FunctionRow& function) const;
 
     const Linearised& linear;
-    FunctionRows rows;      ///< no tighter than is told from what is loose
+    FunctionRows rows;      ///< capped so that loose directions stay distinguishable
     Eigen::VectorXd sizes;  ///< of the rows
-    PinnedInverse tight;    ///< a weak prior: what the readings hold
-    PinnedInverse trusted;  ///< the mesh's own trust as prior, where something is open
+    PinnedInverse tight;    ///< a weak prior: what the readings determine
+    PinnedInverse trusted;  ///< the mesh's own uncertainty as prior, if something is open
     bool has_open = false;
 
 private:

@@ -10,8 +10,8 @@ namespace culet {
 
 namespace {
 
-// Of thousands of degrees of freedom a gamma function on the way is infinite, and the tail is
-// right.
+// With thousands of degrees of freedom an intermediate gamma function overflows, but the tail is
+// correct.
 using Policy = boost::math::policies::policy<
     boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
 using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;

@@ -9,7 +9,7 @@ double chi2_tail(double chi2, double dof);
 /// P(X < chi2); 1 for dof <= 0.
 double chi2_lower_tail(double chi2, double dof);
 
-/// The chi2 whose tail is `level`; 0 for dof <= 0.
+/// The chi2 whose upper tail is `level`; 0 for dof <= 0.
 double chi2_quantile(double level, double dof);
 
 /// P(|T| > t) for Student's T.

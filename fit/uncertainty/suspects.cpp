@@ -13,12 +13,12 @@ namespace culet {
 
 namespace {
 
-// They look at what they are made of as long as columns are asked.
+// The result refers to its arguments whenever columns are asked for.
 Residuals residuals_of(const std::vector<Observation>& observations, const Covariance& covariance) {
     const Linearised& linear = covariance.linear();
     const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
-    // At the optimum the residuals are R times the errors; elsewhere what a step would take away
-    // comes off first.
+    // At the optimum the residuals are R times the errors; elsewhere the part that a step would
+    // remove is subtracted first.
     const Eigen::VectorXd taken = covariance.fitted_part(linear.soft_residuals);
     Residuals residuals;
     residuals.values.resize(count);

@@ -44,7 +44,7 @@ VarianceComponent variance_component(const Contrasts& contrasts) {
         }
         return sum;
     };
-    // One parameter, and perhaps more than one hill: a fine scan in ratios, then golden section.
+    // One parameter, perhaps with several local maxima: a fine scan in ratios, then golden section.
     const double low = 1e-9 * largest + floor, high = 1e3 * largest + floor;
     const int steps = 240;
     const double ratio = std::pow(high / low, 1.0 / steps);

@@ -1,5 +1,5 @@
 #pragma once
-// How much values scatter beyond their own known uncertainties. Private to the room.
+// Estimates how much values scatter beyond their known uncertainties. Private to the room.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,15 +10,15 @@ namespace culet {
 struct Contrasts {
     std::vector<double> values, variances;
 };
-/// Of deviations with covariance `v` after what `columns` explain is taken away (whatever it is):
-/// an orthonormal basis of the rest.
+/// Contrasts of deviations with covariance `v` that do not depend on what `columns` explain: an
+/// orthonormal basis of the rest.
 Contrasts contrasts_of(const Eigen::VectorXd& deviations, const Eigen::MatrixXd& v,
                        const Eigen::MatrixXd& columns);
 
 struct VarianceComponent {
-    double sigma = 0;        ///< of highest restricted likelihood (Patterson & Thompson 1971)
-    double sigma_sigma = 0;  ///< from the expected information; at 0: from the limit
-    double at_most = 0;      ///< one-sided 95 % by the likelihood ratio (chi2 / 2 = 1.353)
+    double sigma = 0;        ///< of the highest restricted likelihood (Patterson & Thompson 1971)
+    double sigma_sigma = 0;  ///< from the expected information; if sigma is 0, from `at_most`
+    double at_most = 0;      ///< one-sided 95 % limit from the likelihood ratio (chi2 / 2 = 1.353)
 };
 VarianceComponent variance_component(const Contrasts& contrasts);
 
