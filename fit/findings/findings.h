@@ -1,8 +1,8 @@
 #pragma once
-// What a fit finds out besides the stone's shape: proportions, what suspects should have been, what
-// to read next; the stone's own axis and tiers, which meets the readings contradict, what its
-// topology should be, and its symmetry. Plain data; angles in
-// radians, lengths in the stone's unit, directions in the frame of the fitted solid.
+// What a fit finds out besides the stone's shape: proportions, proposals for suspect readings,
+// readings to take next, the stone's own axis and tiers, contradicted meets, topology and symmetry.
+// Plain data. Angles are in radians, lengths in the stone's unit, directions in the frame of the
+// fitted solid.
 
 #include <string>
 #include <vector>
@@ -18,60 +18,60 @@ struct FittedProportion {
     double value = 0, sigma = 0;
 };
 
-/// A reading that was not made and would help.
+/// A reading that was not taken and would help.
 struct NextReading {
     ReadingKind kind = ReadingKind::inclination;
     std::vector<std::string> of;
-    double sigma =
-        0;  ///< that is supposed: as of the other readings of its kind; radians or length
-    double reduces = 0;   ///< part of the total variance of all facets that it would take away
-    bool closes = false;  ///< it would determine a freedom that nothing determines
+    double sigma = 0;     ///< assumed, like other readings of its kind; radians or length
+    double reduces = 0;   ///< part of the total variance of all facets that it would remove
+    bool closes = false;  ///< it would determine a parameter that nothing determines
 };
 
 /// What a suspect reading should have been.
 struct Proposal {
     std::string id;
     bool in_radians = false;
-    double estimate = 0, sigma = 0;  ///< from the other readings, in the reading's unit
-    std::string slip;                ///< the slip of pen or key that would explain it, or empty
-    double corrected = 0;            ///< with a slip: the value without it
+    double estimate = 0, sigma = 0;         ///< from the other readings, in the reading's unit
+    std::string slip;                       ///< the slip of pen or key that explains it, or empty
+    double corrected = 0;                   ///< with a slip: the value without it
     std::vector<std::string> alternatives;  ///< ids that would explain the misfit as well
 };
 
-/// The axis about which the facets of each tier are most alike: of the stone itself, whatever facet
-/// its angles are read from.
+/// The axis about which the facets of each tier are most alike. It belongs to the stone itself and
+/// does not depend on the facet from which angles are measured.
 struct OwnAxis {
     bool known = false;
-    std::string basis;  ///< `tiers`, `girdle`; or why there is none
+    std::string basis;  ///< `tiers` or `girdle`; or why there is no axis
     Vec3 direction{0, 0, 1};
-    double tilt = 0, azimuth = 0;  ///< from up, and towards where it leans
-    double sigma = 0;              ///< of its direction, across; as far as the readings know it
-    double scatter_sigma = 0;      ///< the same, from how facets scatter about their tiers
+    double tilt = 0, azimuth = 0;  ///< tilt from up; azimuth towards which it leans
+    double sigma = 0;  ///< of its direction, per component; from the readings' uncertainties
+    double scatter_sigma = 0;  ///< the same, from the scatter of facets about their tiers
 };
 
-/// Facets that the symmetry of the stone's form takes into each other.
+/// Facets that the symmetry of the design maps onto each other.
 struct Tier {
-    std::string name;  ///< C* when all are C and a number, or the first and the last
+    std::string name;  ///< `C*` if it has all C facets and no others; else the first and the last
+                       ///< name
     std::vector<int> facets;
     double mean = 0, mean_own_axis = 0;      ///< inclination
-    double spread = 0, spread_own_axis = 0;  ///< largest less least inclination
-    double rms_own_axis = 0;                 ///< of the differences from the mean
+    double spread = 0, spread_own_axis = 0;  ///< largest less smallest inclination
+    double rms_own_axis = 0;                 ///< root mean square of the differences from the mean
 };
 
-/// Facets of a tier that stand out from it together.
+/// Facets that differ together from the rest of their tier.
 struct OddFacets {
     std::vector<std::string> facets;
-    double off = 0, sigma = 0;  ///< steeper than the others by this much; flatter: negative
-    double p = 1;  ///< chance of so much if all are alike, all choices of facets counted
+    double off = 0, sigma = 0;  ///< steeper than the others by this much; negative if flatter
+    double p = 1;  ///< chance of this much if all are alike, corrected for all choices of facets
 };
 
-/// What was read of the inclinations of a tier as a cutter names it (named_tiers.h).
+/// The inclinations read in a tier as a cutter names it (named_tiers.h).
 struct NamedTierFinding {
     std::string name, words;
-    int facets = 0, read = 0;       ///< of how many, and how many of them by a reading of their own
-    double common = 0, sigma = 0;   ///< inclination of those that do not stand out
-    double spread = 0;              ///< largest less least of those read
-    std::vector<OddFacets> odd;     ///< the surest first
+    int facets = 0, read = 0;       ///< number of facets, and of those with a reading of their own
+    double common = 0, sigma = 0;   ///< inclination of the facets that do not stand out
+    double spread = 0;              ///< largest less smallest of those read
+    std::vector<OddFacets> odd;     ///< the most certain first
     std::vector<std::string> what;  ///< one sentence each, for people
 };
 
@@ -79,71 +79,71 @@ struct NamedTierFinding {
 struct MeetFinding {
     std::vector<std::string> facets;
     std::string how;     ///< `exact`, `soft` or `released`
-    double miss = 0;     ///< by how much the facet that is furthest off passes the common point
-    double sigma = 0;    ///< its standard uncertainty; infinite when no reading tells
-    double chi2 = 0;     ///< by how much chi-square falls (exact: would fall) when it is let go
+    double miss = 0;     ///< distance from the common point to the plane furthest from it
+    double sigma = 0;    ///< its standard uncertainty; infinite if no reading determines it
+    double chi2 = 0;     ///< fall of chi-square when the meet is released (exact meets: predicted)
     int conditions = 0;  ///< planes beyond three
-    int tested = 0;      ///< of these, that the readings can tell
-    double p = 1;        ///< chance of so much if the planes do meet
+    int tested = 0;      ///< how many of them the readings can test
+    double p = 1;        ///< chance of this much if the planes do meet
     bool contradicted = false;
-    std::string advice;  ///< what to do about it, for people; empty: nothing
+    std::string advice;  ///< what to do about it, for people; may be empty
 };
 
-/// Where the readings leave it open, or deny, that the stone hangs together as the mesh does.
+/// Where the readings contradict the mesh's topology or cannot confirm it.
 struct ShapeFinding {
     enum class Kind {
-        edge_vanishes,   ///< readings want an edge of negative length: it is held at zero
-        facet_vanishes,  ///< readings want no room for a facet
-        edge_open,       ///< an edge shorter than twice its uncertainty
-        facet_open       ///< an area smaller than twice its uncertainty
+        edge_vanishes,   ///< readings ask for an edge of negative length: it is held at zero
+        facet_vanishes,  ///< readings leave no room for a facet
+        edge_open,       ///< an edge is shorter than twice its uncertainty
+        facet_open       ///< an area is smaller than twice its uncertainty
     };
     Kind kind = Kind::edge_open;
     std::vector<std::string> facets;  ///< an edge: its two sides, then the facets at its ends
-    double value = 0;                 ///< length or area; of vanishing ones what the readings want
+    double value = 0;  ///< length or area; if it vanishes, the value that the readings ask for
     double sigma = 0;
-    double p = 1;  ///< of vanishing ones: chance of so strong a wish if there is just no such edge
+    double p = 1;      ///< if it vanishes: chance of this much if its true value is zero
     std::string what;  ///< one line for people
 
-    /// By the readings; else they leave it open.
+    /// True if the readings contradict it, false if they leave it open.
     bool is_denied() const { return kind == Kind::edge_vanishes || kind == Kind::facet_vanishes; }
 };
 const char* name_of(ShapeFinding::Kind kind);
 
-/// One group held against the readings.
+/// One symmetry group, tested with the readings.
 struct GroupTest {
     std::string group;  ///< C8v, C4, Cs, ...
     int order = 1;
     bool mirrors = false;
-    double mirror_azimuth = 0;  ///< of one mirror plane's normal, as `mirror` readings count it
-    int conditions = 0;         ///< that symmetry would put on the shape
-    int tested = 0;             ///< of these, that the readings tell anything of
+    double mirror_azimuth = 0;  ///< of one mirror plane's normal, as in `mirror` readings
+    int conditions = 0;         ///< conditions that the symmetry puts on the shape
+    int tested = 0;             ///< how many of them the readings determine at all
     double chi2 = 0, p = 1;
-    bool supported = false;   ///< tested, and not denied at the level
+    bool supported = false;   ///< tested, and not rejected at the significance level
     bool determined = false;  ///< at least half of the conditions are tested
 };
 
-/// How far the facets of one tier are from being alike.
+/// How far the facets of one tier are from symmetric.
 struct TierSymmetry {
     std::string tier;
     std::vector<std::string> facets;
-    double deviation = 0;  ///< root mean square angle off the symmetric direction; radians
-    /// Standard deviation of the true directions about symmetry, what the readings cannot know
-    /// taken away; its own standard uncertainty; and with 95 % confidence no more than `at_most`.
+    double deviation = 0;  ///< root mean square angle from the symmetric direction; radians
+    /// Standard deviation of the true directions about symmetry, without the readings' errors; its
+    /// own standard uncertainty; its upper limit with 95 % confidence.
     double sigma = 0, sigma_sigma = 0, at_most = 0;
-    double p = 1;          ///< chance of such deviations if the tier is exactly alike
-    std::string worst;     ///< the facet furthest off
-    double worst_off = 0;  ///< by this much; radians
+    double p = 1;          ///< chance of such deviations if the tier is exactly symmetric
+    std::string worst;     ///< the facet that deviates most
+    double worst_off = 0;  ///< its deviation; radians
 };
 
 struct SymmetryReport {
-    std::string form;      ///< the largest group that the form itself has and comes near to
-    std::string proposed;  ///< the largest group that the readings support; C1: none
+    std::string form;      ///< the largest group of the form that the stone comes near to
+    std::string proposed;  ///< the largest group that the readings support; C1 if there is none
     std::string message;   ///< in one line
     std::vector<GroupTest> groups;    ///< the largest first
     std::vector<TierSymmetry> tiers;  ///< under the form's group
-    /// Of all tiers together: to write "n-fold within sigma degrees".
+    /// Of all tiers together, for "n-fold within sigma degrees".
     double sigma = 0, sigma_sigma = 0;
-    /// Readings that would declare the proposal, in the words of a stone file.
+    /// Readings that would declare the proposed symmetry, as lines of a stone file.
     std::vector<std::string> readings;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// Readings held against what needs no fit: the other readings of their tier, the mesh, and what a
-// stone can have at all. A slip of the pen is found so with no redundancy at all, before it bends
-// the fit. docs/fitting.md, "Findings", has the method.
+// Checks readings before the fit: against other readings of their tier, the mesh, and what any
+// stone can have. This finds slips of the pen without redundancy, before they bend the fit. The
+// method is in docs/fitting.md, "Findings".
 
 #include <string>
 #include <vector>
@@ -10,27 +10,27 @@
 
 namespace culet {
 
-/// A reading that is far off what its like say.
+/// A reading that is far from similar readings.
 struct Doubt {
     std::size_t reading = 0;  ///< index
     double expected = 0;      ///< in the reading's unit (radians, length, mm3, carat)
-    double sigma = 0;         ///< of what was expected: how far honest readings are off
-    double strength = 0;      ///< by how many of these sigmas the reading is off
-    std::string slip;         ///< that explains it, or empty
+    double sigma = 0;         ///< of `expected`: how far correct readings may be off
+    double strength = 0;      ///< how many of these sigmas the reading is off
+    std::string slip;         ///< the slip that explains it, or empty
     double corrected = 0;     ///< with a slip: the value without it
-    bool of_tier = false;     ///< with all of its tier
-    std::string what;         ///< one line for people, file and line first; without the slip
+    bool of_tier = false;     ///< all of its tier is doubted
+    std::string what;  ///< one line for people, beginning with file and line; without the slip
 };
 
-/// The readings that cannot be right, the surest first. Readings of one row of a file stand or fall
-/// together. `is_design`: the mesh has the proportions that the stone was cut after; else it was
-/// drawn by hand, and is trusted for less.
+/// The readings that cannot be right, the most certain first. Readings of one row of a file are
+/// doubted together. `is_design`: the mesh has the proportions of the design the stone was cut
+/// after; a mesh drawn by hand is trusted less.
 std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& readings,
                                bool is_design);
 
-/// Lists the doubted readings in a result of a fit without them, as its first suspects; the status
-/// is `contradictory` at best. What an inclination should be, and by which slip it became what was
-/// written, is what the fit says.
+/// Lists the doubted readings as first suspects in the result of a fit without them. The status
+/// becomes `contradictory` at best. The expected inclination, and the slip that explains the
+/// reading, come from the fit.
 void restore_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
                      FitResult& result);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the first check: the rows of the readings beside the mesh. Private to the room.
+// The rows of readings that the first check compares with the mesh. Private to the room.
 
 #include <vector>
 
@@ -8,37 +8,36 @@
 
 namespace culet {
 
-/// A number that was written once, beside what it is in the mesh. Inclinations of one row of a file
-/// are one; other readings are a row each.
+/// A number that was written once, with its value in the mesh. Inclinations of one row of a file
+/// form one; every other reading is a row of its own.
 struct CheckedRow {
     std::vector<std::size_t> readings;
     ReadingKind kind = ReadingKind::inclination;
     double value = 0, sigma = 0;
-    double mesh = 0;  ///< azimuths: turned as most were read
-    int tier = -1;    ///< of an angle: of its (first) facet
-    int facet = -1;   ///< likewise; -1: the mean of several
-    long line = 0;    ///< of the file; 0: none
+    double mesh = 0;  ///< azimuths: turned like most of the readings
+    int tier = -1;    ///< of an angle: the tier of its (first) facet
+    int facet = -1;   ///< its (first) facet; -1: the mean of several
+    long line = 0;    ///< of the file; 0 if there is none
 
-    /// By how much it is off the mesh: radians, or the logarithm of read over drawn.
+    /// Difference from the mesh: radians, or log(read / mesh).
     double off() const;
-    /// What is so far off the mesh.
+    /// The value at this difference from the mesh.
     double at(double off) const;
 };
 
-/// Of all readings that can be held against the mesh, in their order.
+/// Rows for all readings that the mesh can check, in their order.
 std::vector<CheckedRow> checked_rows(const Stone& stone, const std::vector<Reading>& readings,
                                      const Vec3& up, const std::vector<NamedTier>& tiers);
 
 double median(std::vector<double> values);
-/// Half of the numbers are nearer to their median than this times 0.6745 (median absolute
-/// deviation, Rousseeuw & Croux 1993). 0 for fewer than three.
+/// Median absolute deviation / 0.6745 (Rousseeuw & Croux 1993). 0 for fewer than three.
 double robust_sigma(const std::vector<double>& values);
 
-/// `33.7 to 33.9`, of radians.
+/// `33.7 to 33.9`, from radians.
 std::string range_of(const std::vector<double>& values);
 
-/// Doubts all rows of a tier that is off the mesh as a whole, where none is odd by itself.
-/// `from_mesh`: how far a tier is expected to be off.
+/// Doubts all rows of a tier that is off the mesh as a whole, if none of them is odd by itself.
+/// `from_mesh` is how far a tier is expected to be off.
 void check_tiers(const std::vector<Reading>& readings, const std::vector<CheckedRow>& rows,
                  const std::vector<NamedTier>& tiers, double from_mesh, std::vector<Doubt>& doubts);
 

@@ -1,6 +1,5 @@
 #pragma once
-// What a fit came to, in the words of its result: solid, facets, readings, meets. Private to the
-// room.
+// Writes the parts of a result: solid, facets, readings, meets. Private to the room.
 
 #include <vector>
 
@@ -10,17 +9,17 @@
 
 namespace culet {
 
-/// The solid that is written (corners from the fit, or what the planes enclose), its faults, every
-/// facet and every reading (`as_read`: with the sigmas that were given). `weights` of the readings
-/// under a robust loss, or none.
+/// Fills in the solid (corners from the fit, or the intersection of the planes), its faults, all
+/// facets and all readings. `as_read` has the readings with their given sigmas; `weights` are those
+/// of a robust loss, or empty.
 void fill_in(const FitModel& model, const std::vector<Reading>& as_read, const Shape& shape,
              const Diagnosis& diagnosis, const Frame::Pose& pose,
              const std::vector<double>& weights, FitResult& result);
 
-/// A reading as it was taken; what the fit makes of it is still open.
+/// A reading as it was taken, without anything from the fit.
 FittedReading as_taken(const Reading& reading);
 
-/// The result of a fit without some readings, with these in their places again, marked as left out.
+/// Restores these readings to the result of a fit without them, marked as left out.
 void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
                   FitResult& result);
 

@@ -1,14 +1,13 @@
 #pragma once
-// Do planes that should meet in one point do so? Private to the room.
+// Tests whether planes that should meet in one point do. Private to the room.
 //
-// Exact meets are tested by their multipliers (score test, Rao 1948): with N the planes' normals
-// and U an orthonormal basis of null(N'), U' multipliers is what the readings pull the planes apart
-// with, its covariance V follows from the fit, V^-1 is the covariance of the misses that would come
-// out, and (V^-1 U' multipliers) is their estimate. Soft and released meets are tested by the
-// misses that did come out (Wald 1943). The tests of exact meets together keep the level
-// (Bonferroni); as long as one fails, the worst is let go and the others are tested given that
-// (forward selection, exact in the linear model), so that one bad meet does not accuse its
-// neighbours.
+// Exact meets are tested by their Lagrange multipliers (score test, Rao 1948). Let N be the planes'
+// normals, U an orthonormal basis of null(N'), m = U' multipliers and V the covariance of m, which
+// follows from the fit. Then V^-1 m estimates the misses of the released planes, with covariance
+// V^-1. Soft and released meets are tested by their actual misses (Wald 1943).
+// All tests of exact meets together keep the significance level (Bonferroni). While one fails, the
+// worst is released and the others are tested again given that (forward selection, exact in the
+// linear model): so one bad meet does not accuse its neighbours.
 
 #include <vector>
 
@@ -17,10 +16,10 @@
 
 namespace culet {
 
-/// Meets of more than three facets, in the order of the mesh's vertices, then those that readings
-/// ask for beyond the mesh. A meet that explains less than `least_chi2` is not accused: what one
-/// wrong reading would explain, when a few wrong readings would do. Lengths in the scale of the
-/// fit. Empty when there are too many (more than `k_most_tested` conditions).
+/// Tests the meets of more than three facets: those of the mesh in the order of its vertices, then
+/// those that readings add. A meet that explains less than `least_chi2` is not accused (it is what
+/// one wrong reading would explain, if a few wrong readings would do). Lengths are in the scale of
+/// the fit. Empty if there are more than `k_most_tested` conditions.
 std::vector<MeetFinding> test_meets(const FitModel& model, const Shape& shape,
                                     const Covariance& covariance, double significance,
                                     double least_chi2);

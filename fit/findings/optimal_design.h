@@ -1,5 +1,5 @@
 #pragma once
-// Which single further reading would help most.
+// Finds the single further readings that would help most.
 
 #include <memory>
 #include <vector>
@@ -10,11 +10,12 @@
 
 namespace culet {
 
-/// The best few, each of another tier or kind, best first. A reading of sigma s of a quantity c
-/// takes |C c|^2 / (s^2 + c'Cc) off the total variance of all facets' tilts (radians) and offsets
-/// (half diameters), where C holds the mesh's own trust for what is open. The candidates: every
-/// inclination and azimuth, edge lengths, widths all around, depth, table widths and weight (or
-/// volume), as far as the tools are at hand; each with the median sigma of the readings like it.
+/// Returns the best few, each of another tier or kind, the best first. A reading of sigma s of a
+/// quantity c reduces the total variance of all facets' tilts (radians) and offsets (half
+/// diameters) by |C c|^2 / (s^2 + c'Cc); in C, undetermined directions have the mesh's own
+/// uncertainty. Candidates: every inclination and azimuth, edge lengths, widths all around, depth,
+/// table widths and weight (or volume), if the tools are at hand. Each has the median sigma of
+/// similar readings.
 std::vector<NextReading> next_readings(const FitModel& model, const Shape& shape,
                                        const std::shared_ptr<const Outline>& outline,
                                        const Covariance& covariance);

@@ -1,7 +1,7 @@
 #pragma once
-// The stone's own best axis. A table that was polished 0.8 degrees askew turns equal pavilion
-// facets into unequal ones as long as their angles are counted from it; counted from the axis about
-// which the tiers are most alike they are equal again. Private to the room.
+// The stone's own best axis. If the table was polished 0.8 degrees askew, equal pavilion facets
+// read unequal angles from it; about the axis that makes the tiers most alike they are equal again.
+// Private to the room.
 
 #include <vector>
 
@@ -11,23 +11,25 @@
 
 namespace culet {
 
-/// Orbits of two facets and more of the form's symmetry, as far as the shape comes near to it
-/// (within 5 % of the half diameter), the girdle's included.
+/// Orbits of two or more facets under the form's symmetry, with the girdle's, as far as the shape
+/// comes near to it (within 5 % of the half diameter).
 std::vector<Tier> tiers_of(const FitModel& model, const Shape& shape, const AxisGroup& group);
 
-/// The symmetry of the form that the shape comes near to.
+/// The symmetry of the form, as far as the shape comes near to it.
 AxisGroup form_group(const FitModel& model, const Shape& shape);
 
-/// In the frame and scale of the fit. The direction a that minimises
+/// In the frame and scale of the fit. The direction a minimises
 ///     sum over tiers w_t / sin^2(i_t) sum over facets (n_k . a - mean of n . a)^2,
-/// the least eigenvector of a 3 x 3 matrix; w_t = 1 / variance of the tier's inclinations about
-/// it, by repeated weighting, so that a tier that is askew (the stars about a tilted table) does
-/// not pull at it. With fewer than two turns in the form's symmetry: the direction least along the
-/// girdle's normals. `covariance` may be null: sigmas are then infinite.
+/// and is the eigenvector of the smallest eigenvalue of a 3 x 3 matrix. w_t = 1 / variance of the
+/// tier's inclinations about a, by iterative reweighting: so a tier that is askew (the stars about
+/// a tilted table) does not pull at it. If the form has less than two-fold rotation, a is the
+/// direction with the smallest components along the girdle's normals. If `covariance` is null,
+/// sigmas are infinite.
 struct AxisEstimate {
-    OwnAxis axis;                        ///< up, where it is not known
-    Vec3 east{1, 0, 0}, north{0, 1, 0};  ///< across it; azimuths begin where those about up do
-    std::vector<Quantity> across;        ///< its components along them; none: not known
+    OwnAxis axis;                        ///< up, if the axis is not known
+    Vec3 east{1, 0, 0}, north{0, 1, 0};  ///< across the axis; azimuths begin where those about up
+                                         ///< do
+    std::vector<Quantity> across;        ///< the axis's components along them; empty: not known
 };
 AxisEstimate own_axis(const FitModel& model, const Shape& shape, const std::vector<Tier>& tiers,
                       const Covariance* covariance);

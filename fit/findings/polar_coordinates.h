@@ -1,6 +1,6 @@
 #pragma once
-// A stone's planes as a symmetric stone has them alike: polar angle, azimuth and distance about an
-// axis of the stone's own. Private to the room.
+// The coordinates in which symmetric facets are alike: polar angle, azimuth and distance about the
+// stone's own axis. Private to the room.
 
 #include <Eigen/Core>
 #include <string>
@@ -13,21 +13,22 @@
 namespace culet {
 
 /// Three numbers a facet, in the scale of the fit: angle from the axis; azimuth times the sine of
-/// that angle (so that both are angles on the sphere of directions); distance from the middle. Of a
-/// facet that lies level (within 3 degrees) the first two are its normal's components across.
+/// that angle (so both are angles on the sphere of directions); distance from the middle. For a
+/// level facet (within 3 degrees), the first two are its normal's components across the axis.
 struct PolarCoordinates {
     std::vector<double> polar, azimuth, distance, sine;
     std::vector<std::array<double, 2>> across;
     std::vector<bool> level;
-    Eigen::MatrixXd rows;       ///< of small steps of the unknowns, 3 for each facet
-    Eigen::MatrixXd placement;  ///< by tilts of the axis and shifts of the middle (4 columns)
+    Eigen::MatrixXd rows;       ///< derivatives by the unknowns, 3 rows a facet
+    Eigen::MatrixXd placement;  ///< derivatives by tilts of the axis and shifts of the middle (4
+                                ///< columns)
 };
 PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
                                    const RowWriter& writer, const std::vector<Tier>& tiers);
 
-/// deviations = what the coordinates are beyond the nearest stone of that group at a first guess;
-/// columns = how those change with the parameters of such stones (what each orbit shares, and the
-/// mirror planes' azimuth). Rows of facets that `facets` leaves out are zero.
+/// `deviations` are the coordinates less those of the nearest stone of the group at a first guess.
+/// `columns` are their derivatives by the parameters of such stones (what each orbit shares, and
+/// the mirror planes' azimuth). Rows of facets without coordinates are zero.
 struct SymmetricModel {
     Eigen::VectorXd deviations;
     Eigen::MatrixXd columns;

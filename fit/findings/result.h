@@ -1,5 +1,5 @@
 #pragma once
-// What a fit comes to: the stone, what is known of each facet and reading, and what was found out.
+// The result of a fit: the stone, each facet and reading with its uncertainty, and the findings.
 
 #include <optional>
 #include <string>
@@ -17,9 +17,9 @@ namespace culet {
 
 enum class FitStatus {
     converged,
-    not_converged,  ///< no stone was found, or not one that could be cut
-    contradictory,  ///< the readings do not agree within their uncertainties
-    undetermined    ///< parts of the stone are open: nearly as in the mesh
+    not_converged,  ///< no stone was found, or none that could be cut
+    contradictory,  ///< the readings disagree by more than their uncertainties
+    undetermined    ///< parts of the stone are undetermined and stay near the mesh
 };
 const char* name_of(FitStatus status);
 
@@ -30,31 +30,31 @@ struct FittedFacet {
     double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
-    /// What part the readings have in these, the rest being the prior's: 1 - the variance over that
-    /// of the prior alone. 1 without a prior.
+    /// The part of each parameter that comes from readings; the rest comes from the prior. 1 - the
+    /// variance over that of the prior alone; 1 without a prior.
     double read_inclination = 1, read_azimuth = 1, read_offset = 1;
-    double area = 0;  ///< of the facet in the result; 0: not there
+    double area = 0;  ///< of the facet in the result; 0 if it is missing
     double sigma_area = 0;
 };
 
-/// How the outlines of one set lie to the fitted stone, in the stone's unit (silhouettes/).
+/// How the outlines of one set agree with the fitted stone, in the stone's unit (silhouettes/).
 struct SilhouetteFinding {
     SilhouetteMisfit misfit;
-    double sigma = 0;                          ///< across the outline
-    bool estimated = false;                    ///< from the residuals
-    std::optional<SilhouetteMisfit> held_out;  ///< of outlines that took no part
+    double sigma = 0;                          ///< of a point, across the outline
+    bool estimated = false;                    ///< sigma comes from the residuals
+    std::optional<SilhouetteMisfit> held_out;  ///< of outlines that were not used in the fit
 };
 
-/// How a photograph of the stone in known light suits the fitted stone (compare/refine).
+/// How a photograph of the stone in known light agrees with the fitted stone (compare/refine).
 struct PhotographFinding {
-    double rms_before = 0, rms = 0;  ///< of the two pictures' difference in the root of light
-    double moves_told = 0;           ///< of the planes' moves, three a facet, how many it tells
-    /// Where it shows what the stone does not, in its pixels.
+    double rms_before = 0, rms = 0;  ///< of the pictures' difference, in square roots of radiance
+    double moves_told = 0;  ///< how many of the planes' parameters, three a facet, it determines
+    /// A place where it contradicts the fitted stone, in its pixels.
     struct Place {
         double x = 0, y = 0;
-        std::string facet;  ///< through which it is seen
+        std::string facet;  ///< the facet through which it is seen
         bool brighter = false;
-        double deviations = 0, area = 0;  ///< over what is usual; as a share of the stone
+        double deviations = 0, area = 0;  ///< times the usual one; part of the stone's area
     };
     std::vector<Place> contradictions;
 };
@@ -65,23 +65,23 @@ struct FittedReading {
     std::vector<std::string> of;
     double value = 0, sigma = 0, fitted = 0, residual = 0;  ///< radians, length, mm3 or carat
     double normalized = 0;  ///< residual / its own standard uncertainty (Baarda's w)
-    double redundancy = 0;  ///< 0: nothing checks this reading; 1: it adds nothing
-    double detectable = 0;  ///< smallest error that the test would find, 80 times in 100; 0: none
+    double redundancy = 0;  ///< 0: no other reading checks it; 1: it adds nothing
+    double detectable = 0;  ///< smallest error that the test would find in 80 of 100 cases; 0: none
     bool suspect = false, exact = false;
     double rounding = 0;   ///< step of the instrument; 0: none
-    double weight = 1;     ///< left to it by a robust loss
-    std::string left_out;  ///< why it takes no part; empty: it does
+    double weight = 1;     ///< weight that a robust loss leaves it
+    std::string left_out;  ///< why it takes no part; empty if it does
     std::optional<SilhouetteFinding> silhouette;
     std::optional<PhotographFinding> photograph;
 };
 
-/// How the meets of more than three facets were treated, and by how much they miss.
+/// How the meets of more than three facets were treated, and how far they miss.
 struct MeetReport {
     int exact = 0, soft = 0, released = 0;
     double sigma = 0;         ///< of soft meets
     double girdle_sigma = 0;  ///< of girdle facets in soft meets
     bool estimated = false;   ///< sigma comes from the data
-    int ends = 0;  ///< of the estimate: how many local ones were found; the likeliest is taken
+    int ends = 0;             ///< local maxima of the likelihood found; the highest is taken
     double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
 };
 
@@ -91,60 +91,61 @@ struct PriorReport {
     double tier_angle = 0, facet_angle = 0, tier_offset = 0, facet_offset = 0;  ///< estimated
 };
 
-/// What the fitted solid is, held against what a stone must be.
+/// Checks of the fitted solid against what a stone must be.
 struct SolidChecks {
-    double planarity_max = 0;  ///< a corner's largest distance from a facet of its own
+    double planarity_max = 0;  ///< largest distance of a corner from one of its facets
     bool closed = false, convex = false;
-    std::vector<std::string> missing_facets;  ///< of the mesh, that the planes leave no room for
+    std::vector<std::string> missing_facets;  ///< of the mesh, if the planes leave no room for them
 };
 
-/// How well the readings agree, all together.
+/// How well all readings agree together.
 struct FitStatistics {
-    /// Beside a prior of the readings alone, one value for several facets counting once.
+    /// With a prior: of the readings alone; one value for several facets counts once.
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
-    double chi2_low_p = 1;     ///< chance of a chi-square as small
+    double chi2_low_p = 1;     ///< chance of a chi-square this small
     double suspect_limit = 0;  ///< of |normalized|
-    int rank_defect = 0;       ///< parameters of the shape that nothing fixes
+    int rank_defect = 0;       ///< parameters of the shape that nothing determines
     MeetReport meets;
     PriorReport prior;
 };
 
-/// What was found out about the readings and the stone.
+/// What the fit found out about the readings and the stone.
 struct FitFindings {
     std::vector<std::string> suspects;  ///< ids, the worst first
     std::vector<Proposal> proposals;    ///< for the suspects
-    /// Readings left out because they are far off what their like say, a line each (first_check.h).
+    /// Readings left out because they are far from similar ones, one line each (first_check.h).
     std::vector<std::string> doubts;
-    /// Readings that cannot hold together, though without any one of them the others can.
+    /// An irreducible inconsistent set: readings that contradict each other, while the others agree
+    /// if any one of these is left out.
     std::vector<std::string> disagreeing;
     std::vector<Undetermined> undetermined;
-    std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each
-    std::vector<NextReading> help;                ///< the best further readings, the best first
-    /// Edges that the readings want to have no length, as `A/B`: they are kept at a hair's.
+    std::vector<std::string> undetermined_words;  ///< undetermined parameters, one sentence each
+    std::vector<NextReading> help;  ///< the most useful further readings, the best first
+    /// Edges to which the readings give no length, as `A/B`. The fit keeps them at almost none.
     std::vector<std::string> vanishing_edges;
-    double vanishing_chi2 = 0;  ///< what keeping them costs
+    double vanishing_chi2 = 0;  ///< the chi-square that keeping them costs
     std::vector<FittedProportion> proportions;
     OwnAxis own_axis;
     std::vector<Tier> tiers;
     std::vector<NamedTierFinding> named_tiers;
     std::vector<MeetFinding> meets;
     std::vector<ShapeFinding> shapes;
-    std::optional<SymmetryReport> symmetry;  ///< when it was looked for
+    std::optional<SymmetryReport> symmetry;  ///< if asked for
 };
 
-/// Change::what of readings that a fit does without.
+/// `Change::what` of readings that a fit leaves out.
 inline constexpr const char* k_readings_left_out = "readings left out";
 
-/// How the result came about.
+/// How the fit got to its result.
 struct FitLog {
     FitOptions options;  ///< as asked for; the prior as it was used
-    int starts = 0;      ///< tried
-    std::string start;   ///< that the result came from
-    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
+    int starts = 0;      ///< starts tried
+    std::string start;   ///< the start that led to the result
+    /// How the mesh was changed before the fit: turned, scaled, ...
     std::vector<std::string> notes;
     std::vector<std::string> changes;  ///< of the topology, in their order
-    /// What was changed against what was given: of the mesh, and of the problem where the fit is
-    /// better so by the same measure.
+    /// Changes to what was given: to the mesh, and to the problem where the fit is better with them
+    /// by the same measure.
     std::vector<Change> changed;
     int iterations = 0;
     double seconds = 0;
@@ -155,18 +156,19 @@ struct FitResult {
     std::string message;  ///< why, in one line
     Solid solid;          ///< in `unit`
     LengthUnit unit = LengthUnit::mm;
-    double azimuth_zero = 0;  ///< where in the solid's frame the readings' azimuths begin; radians
+    double azimuth_zero = 0;  ///< direction in the solid's frame from which the readings' azimuths
+                              ///< count; radians
     SolidChecks checks;
     std::vector<FittedFacet> facets;  ///< in the mesh's order
-    /// Covariance of the facets' inclinations, azimuths (radians) and offsets (`unit`), row by row,
-    /// three a facet in the order of `facets`. Empty: not known, or of more than 300 facets.
+    /// Covariance of the facets' inclinations, azimuths (radians) and offsets (`unit`), row-major,
+    /// three rows a facet in the order of `facets`. Empty if unknown or with more than 300 facets.
     std::vector<double> facet_covariance;
     std::vector<FittedReading> readings;  ///< in their order
     FitStatistics statistics;
     FitFindings findings;
     FitLog log;
 
-    /// Good enough to go on with.
+    /// True if the result can be used further.
     bool usable() const { return status == FitStatus::converged; }
 };
 

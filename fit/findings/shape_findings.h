@@ -1,5 +1,5 @@
 #pragma once
-// Edges and facets that the readings deny or leave open. Private to the room.
+// Edges and facets that the readings contradict or leave open. Private to the room.
 
 #include <string>
 #include <vector>
@@ -12,17 +12,17 @@
 
 namespace culet {
 
-/// `holding`: with the held corners as hard equations. Vanishing edges come from corners held below
-/// a neighbour facet, by the force with which the readings pull at them (as in `meet_tests.h`);
-/// open ones from lengths and areas less than twice their standard uncertainty. `result` holds what
-/// keeping the edges costs, and gets their names.
+/// Vanishing edges come from corners held below a neighbour facet, by their multipliers (as in
+/// `meet_tests.h`); open ones from lengths and areas below twice their standard uncertainty.
+/// `holding` is the covariance with the held corners as hard equations. `result` has the chi-square
+/// that keeping the edges costs, and receives their names.
 std::vector<ShapeFinding> find_open_shape(const FitModel& model, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
                                           const Diagnosis& diagnosis, const Covariance& holding,
                                           FitResult& result);
 
-/// The readings deny that the edges that are kept have a length at all: chi-square, with one
-/// freedom for each.
+/// True if chi-square, with one degree of freedom for each kept edge, rejects that these edges have
+/// a length.
 bool are_edges_denied(const FitResult& result);
 
 }  // namespace culet

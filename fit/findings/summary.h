@@ -1,5 +1,5 @@
 #pragma once
-// A fit in a few sentences for the person who took the readings.
+// Describes a fit in a few sentences for the person who took the readings.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace culet {
 
-/// Plain sentences, the most important first, each ready to be printed as a line: does it hold, how
-/// sure are the facets, which readings to look at again and what the others say of them, what is
-/// left open, which meets do not meet, which reading to take next. Only what there is to say.
+/// Plain sentences, one a line, the most important first: the verdict, how certain the facets are,
+/// readings to check and what the others say of them, undetermined parameters, meets that miss, the
+/// reading to take next. Leaves out what does not apply.
 std::vector<std::string> fit_summary(const FitResult& result);
 
 }  // namespace culet

@@ -1,6 +1,5 @@
 #pragma once
-// What the inclinations that were read say of each tier: the angle that its facets have in common,
-// and which of them stand out.
+// What the inclination readings say of each tier: its common angle, and the facets that stand out.
 
 #include <vector>
 
@@ -8,10 +7,11 @@
 
 namespace culet {
 
-/// By the readings themselves, before any fit: of each facet the weighted mean of its own. Where
-/// the mesh is a design whose tier has several angles (an oval's mains), how far each is off its
-/// own. Facets stand out together when the likeliest split of the tier into a majority and a few is
-/// surer than the level, Bonferroni over all splits. `left_out` are readings that count nothing.
+/// Uses the readings alone, before any fit: for each facet the weighted mean of its own. If the
+/// mesh is a design whose tier has several angles (an oval's mains), the differences from each
+/// one's own angle are compared. Facets stand out together if the likeliest split of the tier into
+/// a majority and a few passes the significance level (Bonferroni over all splits). `left_out`
+/// readings are not used.
 std::vector<NamedTierFinding> tier_findings(const Stone& stone,
                                             const std::vector<Reading>& readings,
                                             const std::vector<std::string>& left_out,

@@ -1,5 +1,5 @@
 #pragma once
-// How findings are said: names, readings and slips in sentences. Private to the room.
+// Words for findings: names, readings and slips in sentences. Private to the room.
 
 #include <string>
 #include <vector>
@@ -8,32 +8,32 @@
 
 namespace culet {
 
-/// `C1, C2 and 5 more`: of a longer list, the first `most` are named.
+/// `C1, C2 and 5 more`; longer lists show the first `most` names.
 std::string name_list(const std::vector<std::string>& names, std::size_t most = 8);
 
-/// ` of C1/C2`; nothing where there is none.
+/// ` of C1/C2`; empty if there are none.
 std::string of_words(const std::vector<std::string>& of);
 
-/// What a value of this kind is multiplied by to stand as in files: there, angles are degrees.
+/// Factor from a value of this kind to its unit in files, where angles are degrees.
 double file_unit(ReadingKind kind);
 
-/// `; 33.8? (two digits swapped)`; nothing where no slip explains the reading.
+/// `; 33.8? (two digits swapped)`; empty if no slip explains the reading.
 std::string slip_words(const Proposal& proposal);
 
-/// Micrometres where it is small and the unit is known to be larger.
+/// In micrometres if small and the unit is known to be larger.
 std::string length_words(double value, LengthUnit unit);
 
-/// Begins with a capital and ends with a stop.
+/// Adds a capital at the beginning and a full stop at the end.
 std::string sentence_of(std::string text);
 
 /// `read the inclination of P5`, `measure the width at 45 degrees`, `weigh the stone`.
 std::string bench_words(const NextReading& reading);
 
-/// `readings.csv line 12`; of a reading from no file, `reading r8`.
+/// `readings.csv line 12`; without a file, `reading r8`.
 std::string place_words(const Reading& reading);
 
-/// Of a reading that was taken, where it stands and what it is: nobody numbers his rows.
-/// `readings.csv line 12 (inclination of C5, r8)`.
+/// A reading's place and quantity, since people do not number their rows: `readings.csv line 12
+/// (inclination of C5, r8)`.
 std::string told_reading(const std::vector<Reading>& readings, const std::string& id);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// Finds what written readings name on a solid, and refuses what cannot be meant. Private to the
-// room; `bind_readings` of measurement.h is its front.
+// Finds the names of written readings on a solid, and refuses readings that cannot be meant.
+// Private to the room; callers use `bind_readings` of measurement.h.
 
 #include <map>
 #include <optional>
@@ -13,22 +13,23 @@
 
 namespace culet {
 
-/// Beyond upright by more than this is no scatter of an instrument.
+/// No instrument's scatter shows a facet beyond upright by more than this.
 inline constexpr double k_over_upright_deg = 2;
 
 /// The whole text as a finite number, or nothing.
 std::optional<double> plain_number(std::string_view text);
 
-/// Of one stone; throws InputError with the place of the reading that is being bound.
+/// For one stone. Throws InputError with the place of the reading that is being bound.
 class Binder {
 public:
-    /// `all` are the readings of the file, which tell where an unknown facet may lie.
+    /// `all` are the readings of the file; they tell where an unknown facet may lie.
     Binder(const Stone& stone, const std::vector<WrittenReading>& all);
 
-    /// One reading, or one for each facet that a pattern matches, or several for a trade's word.
+    /// Returns one reading, or one for each facet that a pattern matches, or several for a trade's
+    /// word.
     std::vector<Reading> bind(const WrittenReading& written, const std::string& id);
 
-    /// What was taken for something that it does not quite say, one line each.
+    /// One line for each name or row that was not taken literally.
     std::vector<std::string> notes() const;
 
 private:
@@ -86,9 +87,9 @@ private:
     Vec3 up_;
     const WrittenReading* written_ = nullptr;
     std::map<std::string, int, std::less<>> facet_of_name_;
-    std::vector<std::string> tier_of_;  // of each facet
+    std::vector<std::string> tier_of_;  // by facet
     mutable std::vector<std::string> notes_;
-    // As they were written, and what they were taken for: of many, one line.
+    // Names as written, and the facets they were taken for; several share one line.
     mutable std::map<std::string, std::string> other_case_;
 };
 

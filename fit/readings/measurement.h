@@ -1,7 +1,7 @@
 #pragma once
-// What was measured: readings as they were written, and bound to the facets of a solid.
-// As written, angles are degrees; bound, they are radians. Lengths are in the stone's unit, volume
-// in cubic millimetres and weight in carat throughout.
+// Readings as they were written, and as they are bound to the facets of a solid.
+// Written angles are in degrees, bound ones in radians. Lengths are in the stone's unit, volume in
+// cubic millimetres and weight in carats throughout.
 
 #include <filesystem>
 #include <memory>
@@ -31,8 +31,8 @@ enum class ReadingKind {
     coplanar,
     rotation,
     mirror,
-    silhouette,  ///< outlines: a table of its own, [[silhouette]]
-    photograph,  ///< of the stone in known light: given to culet refine, in no file
+    silhouette,  ///< outlines, from a [[silhouette]] table
+    photograph,  ///< of the stone in known light: from culet refine, in no file
 };
 
 struct SilhouetteSet;
@@ -42,50 +42,50 @@ struct PlaneObservations;
 const char* name_of(ReadingKind kind);
 std::optional<ReadingKind> reading_kind(std::string_view name);
 
-/// Says something about the shape (meet, parallel, coplanar, rotation, mirror, silhouette,
-/// photograph) and has no value.
+/// True for kinds that state something about the shape and have no value (meet, parallel, coplanar,
+/// rotation, mirror, silhouette, photograph).
 bool is_relation(ReadingKind kind);
-/// Its value is an angle: degrees in files, radians when bound.
+/// True if the value is an angle: degrees in files, radians when bound.
 bool is_angle(ReadingKind kind);
 
-/// One reading as it stands in a file. Numbers count in their own unit where one is written, else
-/// in that of their kind.
+/// One reading as it stands in a file. Numbers are in their written unit, else in that of their
+/// kind.
 struct WrittenReading {
-    std::string id;  ///< empty: none given
+    std::string id;  ///< empty if none is given
     std::string kind;
     std::vector<std::string> of;
     std::optional<double> value, sigma, rounding;
     bool exact = false, released = false;
     std::string datum, note;
-    std::string side;  ///< of an inclination: `crown`, `pavilion` or nothing
+    std::string side;  ///< of an inclination: `crown`, `pavilion` or empty
     std::filesystem::path file;
     long line = 0;
     WrittenUnit value_unit, sigma_unit, rounding_unit;
-    bool skipped = false;  ///< a row of a form without its value: takes no part
-    std::shared_ptr<const SilhouetteSet> outlines;  ///< of a [[silhouette]] table, else none
+    bool skipped = false;  ///< a row of a form without a value: it takes no part
+    std::shared_ptr<const SilhouetteSet> outlines;  ///< of a [[silhouette]] table, else null
 };
 
-/// How many of them were skipped.
+/// Number of readings that were skipped.
 std::size_t skipped_readings(const std::vector<WrittenReading>& written);
 
-/// The [[reading]] tables of a stone file, the rows of its `readings` file, then the [[silhouette]]
-/// tables, of kind `silhouette`. Throws InputError
-/// with file and line for what is not a reading at all.
+/// Reads the [[reading]] tables of a stone file, then the rows of its `readings` file, then the
+/// [[silhouette]] tables as kind `silhouette`. Throws InputError with file and line for anything
+/// that is no reading.
 std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
                                           const std::vector<std::string>& overrides = {});
 
-/// The rows of a readings.csv: header `kind,of,value,sigma` and any of `exact`, `released`,
-/// `datum`, `side`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a
-/// comment line. What parts fields is told by the header line: `;`, a tab or `,`. Numbers may have
-/// a decimal comma (between commas only in quotes) and a unit. A row whose kind needs a value and
-/// has none is `skipped`.
+/// Reads a readings.csv. Its header is `kind,of,value,sigma` with any of `exact`, `released`,
+/// `datum`, `side`, `id`, `note`, `rounding`, in any order. The header line tells the separator:
+/// `;`, a tab or `,`. Fields may be quoted; `#` starts a comment line. Numbers may have a decimal
+/// comma (between commas only in quotes) and a unit. A row whose kind needs a value and has none is
+/// `skipped`.
 std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file);
 
-/// Several facets may share one reading through mean(), min() and max(); each() of them is a
-/// reading for each, like a pattern.
+/// Several facets may share one reading through mean(), min() and max(). each() gives every facet a
+/// reading of its own, like a pattern.
 enum class Aggregate { single, mean, min, max };
 
-/// What an angle is measured from.
+/// The direction from which an angle is measured.
 struct Datum {
     enum class Kind { up, axis, girdle, facet } kind = Kind::up;
     int facet = -1;
@@ -97,48 +97,49 @@ struct Place {
     int facet = -1, other_facet = -1, vertex = -1;
 };
 
-/// A reading whose names have been found on a solid.
+/// A reading whose names were found on a solid.
 struct Reading {
     std::string id;
     ReadingKind kind = ReadingKind::inclination;
     std::vector<std::string> of;  ///< as written, patterns resolved
     Aggregate aggregate = Aggregate::single;
-    /// The facets meant. Kinds of one facet: one, or several under an aggregate. Kinds of two: 2 a
-    /// term, first, second, first, second, ... Relations: all of them.
+    /// The facets meant. Kinds of one facet: one, or several with an aggregate. Kinds of two
+    /// facets: two for each term (first, second, first, second, ...). Relations: all of them.
     std::vector<int> facets;
-    std::vector<Place> places;  ///< distance: 2 a term
-    Vec3 direction{1, 0, 0};    ///< width along a vector, unit
+    std::vector<Place> places;  ///< distance: two for each term
+    Vec3 direction{1, 0, 0};    ///< width along a vector; unit length
     bool has_direction = false;
     double azimuth = 0;  ///< width, table_width, mirror plane's normal; radians
     int order = 0;       ///< rotation
     Datum datum;
-    /// Inclination: 1 the facet looks up (crown), -1 down (pavilion); 0: the reading does not say.
-    /// The value counts from that side, and may be a little over 90 degrees.
+    /// Inclination: 1 if the facet looks up (crown), -1 if down (pavilion), 0 if the reading does
+    /// not say. The value is measured from that side, and may be slightly over 90 degrees.
     int side = 0;
     double value = 0;  ///< radians, length, mm3 or carat; 0 for relations
-    /// In the same unit; relations: length (meet, coplanar) or radians. 0 of a meet
-    /// that is neither exact nor released: estimated from the data.
+    /// In the same unit; of relations: length (meet, coplanar) or radians. 0 for a meet that is
+    /// neither exact nor released: then it is estimated.
     double sigma = 0;
-    double rounding = 0;  ///< step to which the instrument rounds, in the same unit; 0: none
+    double rounding = 0;  ///< step to which the instrument rounds, in the same unit; 0 if none
     bool exact = false, released = false;
     std::string note;
     std::filesystem::path file;
     long line = 0;
-    /// Silhouette: its outlines, the number of the set among those of the stone, and what all sets
-    /// together tell of the stone's planes (silhouettes/silhouette_fit.h).
+    /// Silhouette: its outlines, the set's number among those of the stone, and the plane
+    /// observations of all sets together (silhouettes/silhouette_fit.h).
     std::shared_ptr<const SilhouetteSet> outlines;
     int outline_set = 0;
     std::shared_ptr<const OutlineKnowledge> told;
-    /// Photograph: what it tells (planes/plane_observations.h).
+    /// Photograph: its plane observations (planes/plane_observations.h).
     std::shared_ptr<const PlaneObservations> photograph;
 };
 
-/// Finds every name on the solid and gives every reading its id. A pattern over single facets makes
-/// one reading a facet, with `.NAME` after the id. Throws InputError, with file and line, for names
-/// that are not there (naming near ones), a wrong number of names, values and uncertainties that
-/// cannot be, repeated ids, and lengths that look like another unit; and when all rows of a form
-/// are empty. A trade's word may make several readings (docs/readings.md). `notes`, when given,
-/// gets a line for everything that was taken for what it does not quite say.
+/// Finds every name on the solid and gives every reading an id. A pattern for single facets makes
+/// one reading a facet, with `.NAME` after the id. A word of the trade may make several readings
+/// (docs/readings.md). `notes`, if given, receives a line for everything that was not taken
+/// literally.
+/// Throws InputError with file and line for unknown names (with similar ones), a wrong number of
+/// names, impossible values and uncertainties, repeated ids, lengths that look like another unit,
+/// and a form whose rows are all empty.
 std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone,
                                    std::vector<std::string>* notes = nullptr);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The kinds of reading, one row each. Private to the room; `name_of`, `reading_kind`, `is_relation`
-// and `is_angle` of measurement.h read it.
+// The kinds of reading, one row each, which the functions of measurement.h read. Private to the
+// room.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// What `of` names. `unwritten`: no [[reading]] is of this kind.
+/// What `of` names. `unwritten`: no [[reading]] has this kind.
 enum class Named {
     one_facet,
     two_facets,
@@ -30,7 +30,7 @@ struct KindOfReading {
 };
 const KindOfReading& row_of(ReadingKind kind);
 
-/// Of those that a [[reading]] may have.
+/// The kinds that a [[reading]] may have.
 std::vector<std::string> written_kinds();
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Lengths that look like another unit. Private to the room.
+// Refuses lengths that look like another unit. Private to the room.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace culet {
 
-/// Throws InputError for an overall length that is many times off the mesh's, with the unit that
-/// would explain it; not when all of them agree that it is the mesh that has another size. Also for
-/// widths and edges that cannot be in one unit (eight times apart, by the mesh's proportions), and
-/// for a volume or weight a hundred times off.
+/// Throws InputError for an overall length that differs from the mesh's by a large factor, with the
+/// unit that would explain it; but not if all of them agree that the mesh has another size. Also
+/// for widths and edges that cannot have the same unit (eight times apart, by the mesh's
+/// proportions), and for a volume or weight that is off by a factor of a hundred.
 void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone);
 
 }  // namespace culet

@@ -1,6 +1,5 @@
 #pragma once
-// The words of a readings file: kinds and what the trade calls them.
-// Private to the room.
+// The words of a readings file: kinds, and the trade's names for them. Private to the room.
 
 #include <optional>
 #include <string>
@@ -11,11 +10,11 @@
 
 namespace culet {
 
-/// A kind as it was written.
+/// A kind as written.
 struct KindWord {
     ReadingKind kind = ReadingKind::inclination;
-    /// Words that mean more than another name: a diameter or a table without an azimuth, the angle
-    /// of a side's mains, the tooth of an index wheel.
+    /// Words that are not just another name of a kind: a diameter or a table without an azimuth,
+    /// the angle of a side's mains, the tooth of an index wheel.
     enum class Trade {
         none,
         diameter,
@@ -26,16 +25,16 @@ struct KindWord {
     } trade = Trade::none;
 };
 
-/// Large and small letters are one, and so are `_`, `-` and blanks.
+/// Finds a kind. Upper and lower case are the same, and so are `_`, `-` and blanks.
 std::optional<KindWord> kind_word(std::string_view written);
 
-/// The word that was meant by one that is none: the nearest, or the one that begins so.
+/// Suggests a word for an unknown one: the nearest, or one with this beginning.
 std::optional<std::string> near_kind_word(std::string_view written);
 
-/// Names split by `/`, but not inside the brackets of mean(A/B). Blanks at the ends go.
+/// Splits names at `/`, but not inside the brackets of mean(A/B), and trims blanks.
 std::vector<std::string> split_names(std::string_view text);
 
-/// Marks a row of a form that was not filled in: it has no value, and its kind needs one.
+/// Marks a row of a form as skipped if it has no value and its kind needs one.
 void mark_blank(WrittenReading& reading);
 
 }  // namespace culet

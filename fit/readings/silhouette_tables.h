@@ -8,7 +8,8 @@
 
 namespace culet {
 
-/// Written readings of kind `silhouette`, one a table. Throws InputError with file and line.
+/// Returns one written reading of kind `silhouette` for each table. Throws InputError with file and
+/// line.
 std::vector<WrittenReading> read_silhouettes(const TomlTable& root);
 
 }  // namespace culet

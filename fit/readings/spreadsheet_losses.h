@@ -1,5 +1,6 @@
 #pragma once
-// What spreadsheets make of names of facets that look like numbers or dates. Private to the room.
+// Facet names that spreadsheets change because they look like numbers or dates. Private to the
+// room.
 
 #include <string>
 #include <vector>
@@ -8,12 +9,12 @@
 
 namespace culet {
 
-/// What to do about a name that a spreadsheet made a date of (1-Feb, Mar-07, 2026-02-01); empty:
-/// it is none.
+/// What to do about a name that a spreadsheet made into a date (1-Feb, Mar-07, 2026-02-01); empty
+/// if it is none.
 std::string date_words(const std::string& name);
 
-/// Throws InputError at the second row that reads a facet such as 1.1 where 1.10 is a facet too and
-/// no row of the kind reads it: a spreadsheet drops the zero.
+/// A spreadsheet turns 1.10 into 1.1. Throws InputError at the second row that reads a facet such
+/// as 1.1, if 1.10 is a facet too and no row of that kind reads it.
 void refuse_lost_zeros(const std::vector<WrittenReading>& written, const Stone& stone);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// A name that the mesh does not have: where on the mesh its readings put it. Private to the room.
+// Suggests where on the mesh an unknown facet name belongs, from its readings. Private to the room.
 
 #include <string>
 #include <vector>
@@ -8,9 +8,10 @@
 
 namespace culet {
 
-/// For the end of an error's line, beginning with `; `: the facet of the mesh that stands as the
-/// readings of `name` say and that nothing else was read of, or else the corner that a facet of
-/// that direction would cut off. Empty unless its inclination and azimuth were read.
+/// Text for the end of an error message, beginning with `; `: the facet of the mesh in the
+/// direction that the readings of `name` give and that no other reading names, or else the corner
+/// that a facet of that direction would cut off. Empty unless inclination and azimuth of `name`
+/// were read.
 std::string where_it_may_lie(const std::string& name, const std::vector<WrittenReading>& written,
                              const Stone& stone);
 
