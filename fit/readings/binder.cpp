@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-// A hand-made mesh's inclinations are hardly further off.
+// Hand-made meshes are rarely further off.
 constexpr double k_slip_tolerance_deg = 12;
 
 }  // namespace
@@ -130,7 +130,7 @@ void Binder::set_value(Reading& reading) const {
     }
     if (w.exact && w.released) fail("cannot be exact and released");
     set_side(reading);
-    // A tooth is no angle yet.
+    // A tooth is not an angle yet.
     if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
     if (row_of(reading.kind).measure == WrittenUnit::Of::angle) {
         reading.value = radians(reading.value);
@@ -139,7 +139,7 @@ void Binder::set_value(Reading& reading) const {
     }
 }
 
-// Degrees still. From up, what is over 90 degrees looks down: 139 is 41 on the pavilion's side.
+// In degrees. A value over 90 counts from up all the way: 139 is 41 on the pavilion side.
 void Binder::set_side(Reading& reading) const {
     const std::string& side = written_->side;
     if (side.empty() && !(reading.value > 90)) return;
@@ -157,12 +157,12 @@ void Binder::set_side(Reading& reading) const {
     }
 }
 
-// Degrees still.
+// In degrees.
 void Binder::refuse_value(const Reading& reading) const {
     const double v = reading.value;
     switch (reading.kind) {
         case ReadingKind::inclination: {
-            // A girdle facet that leans the other way by as little as the instrument may be off.
+            // A girdle facet may lean the other way by the instrument's error.
             const double over =
                 reading.side == 0 ? 0 : std::min(3 * reading.sigma, k_over_upright_deg);
             if (v < 0 || v > 90 + over) refuse_inclination(v);
@@ -190,8 +190,7 @@ void Binder::refuse_value(const Reading& reading) const {
     }
 }
 
-// What an impossible inclination may have been meant to be: the slip that comes near to the
-// facet of the mesh.
+// Suggests the slip that leads to an inclination near that of the mesh.
 void Binder::refuse_inclination(double v) const {
     fail(
         fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count from the "

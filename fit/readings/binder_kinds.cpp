@@ -1,4 +1,4 @@
-// What each kind of reading is of.
+// The names in `of`, for each kind of reading.
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 
 namespace culet {
 
-// A side that the mesh does not show: a slip, or another facet. Meshes made by hand may be off by
-// tens of degrees.
+// Refuses a side that the mesh contradicts: a slip, or another facet. Hand-made meshes may be off
+// by tens of degrees.
 void Binder::refuse_side_of_mesh(const Reading& reading, int f) const {
     constexpr double k_far_deg = 45;
     if (reading.side == 0) return;
@@ -22,7 +22,7 @@ void Binder::refuse_side_of_mesh(const Reading& reading, int f) const {
     const double drawn = degrees(std::acos(std::clamp(glm::dot(n, up_), -1.0, 1.0)));
     const double read = reading.side > 0 ? degrees(reading.value) : 180 - degrees(reading.value);
     if (std::abs(read - drawn) < k_far_deg) return;
-    // A girdle facet that was read a little over 90 degrees: no side was meant.
+    // A girdle facet read slightly over 90 degrees: no side was meant.
     if (written_->side.empty() && 90 - degrees(reading.value) < k_over_upright_deg) return;
     if (written_->side.empty()) refuse_inclination(*written_->value);
     fail(fmt::format("{} is on the {} in the mesh, not on the {}", facet_name(f),
@@ -56,7 +56,7 @@ std::vector<Reading> Binder::of_one_facet(const Reading& base) const {
         return {reading};
     }
     for (int f : named.facets) {
-        // A pattern means the facets that can be read so.
+        // A pattern means only facets that can be read so.
         if (base.kind == ReadingKind::azimuth && facet_name(f) == stone_.up_facet) continue;
         Reading reading = base;
         reading.id = base.id + "." + facet_name(f);
@@ -84,7 +84,7 @@ std::vector<Reading> Binder::of_two_facets(const Reading& base) const {
     for (int a : first.facets) {
         for (int b : second.facets) {
             const bool several = first.facets.size() > 1 || second.facets.size() > 1;
-            // Of a pattern only the pairs that share an edge are meant.
+            // A pattern means only pairs that share an edge.
             if (several && (a == b || !share_edge(a, b))) continue;
             need_edge(a, b);
             if (spread) {
@@ -117,7 +117,7 @@ Reading Binder::of_two_places(const Reading& base) const {
     if (a.kind == Place::Kind::facet && b.kind == Place::Kind::facet) {
         const Vec3 &m = stone_.solid.facets[a.facet].plane.normal,
                    &n = stone_.solid.facets[b.facet].plane.normal;
-        // A rough mesh does not tell what is parallel.
+        // A rough mesh does not show what is parallel.
         const bool rough = planarity(stone_.solid) > 0.01 * diameter(stone_.solid);
         if (!rough && glm::length(glm::cross(m, n)) > 0.35) {
             fail(

@@ -51,8 +51,8 @@ int Binder::facet(const std::string& name) const {
     return found->second;
 }
 
-// A name, a pattern, each() of names and patterns, which is one of them after the other, or mean(),
-// min(), max().
+// Reads a name, a pattern, each() of names and patterns (one reading for each), or mean(), min(),
+// max().
 Binder::NamedFacets Binder::facets(const std::string& name) const {
     NamedFacets result;
     std::string inside = name;

@@ -1,4 +1,4 @@
-// Names that are not quite those of the mesh, or not quite what was meant.
+// Notes on names that differ slightly from the mesh's, or that may mean something else.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-// Facets of one tier stand alike; of a hand-made mesh within some degrees.
+// Tiers of a pattern whose mean inclinations differ by less are not reported.
 constexpr double k_other_tier_deg = 1;
 
 std::string place_of(const WrittenReading& written) {
@@ -67,7 +67,7 @@ std::vector<int> Binder::facets_in_other_case(const std::string& pattern) const 
     return found;
 }
 
-// `1*` matches the tiers 1, 11 and 12 of a design, which are cut to different angles.
+// `1*` also matches the tiers 11 and 12 of a design, which have other angles.
 void Binder::note_tiers(const std::string& pattern, const std::vector<int>& facets) const {
     if (kind_word(written_->kind)->kind != ReadingKind::inclination) return;
     std::map<std::string, std::vector<double>> tiers;
@@ -94,14 +94,14 @@ void Binder::note_tiers(const std::string& pattern, const std::vector<int>& face
                                           : std::string()));
 }
 
-// A, where the tier is A, A.1, A.2, ... and no other facet of it was read.
+// Notes that A is one facet of the tier A, A.1, A.2, ..., if no other facet of it was read.
 void Binder::note_first_of_tier(const std::string& name) const {
     const auto own = facet_of_name_.find(name);
     if (own == facet_of_name_.end() || facet_of_name_.count(name + ".1") == 0) return;
     if (kind_word(written_->kind)->kind != ReadingKind::inclination) return;
     std::size_t facets = 0;
     for (const std::string& tier : tier_of_) facets += tier == name ? 1 : 0;
-    if (facets == 0) return;  // an exporter's group
+    if (facets == 0) return;  // a group made by an exporter
     for (const WrittenReading& w : all_) {
         if (w.skipped) continue;
         for (const std::string& other : w.of) {

@@ -1,4 +1,4 @@
-// The trade's words: units beside numbers, a diameter, a table, the angle of the mains, the tooth
+// Words of the trade: units beside numbers, a diameter, a table, the angle of the mains, the tooth
 // of an index wheel.
 
 #include <fmt/format.h>
@@ -20,9 +20,9 @@ namespace {
 
 using Of = WrittenUnit::Of;
 
-// Mains less apart than this are opposite each other.
+// Mains are opposite each other if their directions differ by less.
 constexpr double k_opposite_deg = 3;
-// A table is as wide over each pair of opposite corners, or it is no regular polygon.
+// Largest ratio of a regular table's widths over opposite corners.
 constexpr double k_regular = 1.1;
 const char* measure_word(Of measure) {
     switch (measure) {
@@ -58,8 +58,7 @@ std::string example_of(Of measure, LengthUnit unit) {
     }
 }
 
-// Directions that differ by more than `k_opposite_deg`, a half turn being none; degrees in [0,
-// 180).
+// Directions that differ by more than `k_opposite_deg` modulo 180; degrees in [0, 180).
 std::vector<double> distinct_half_turns(std::vector<double> azimuths) {
     for (double& a : azimuths) {
         a = std::fmod(std::fmod(a, 180) + 180, 180);
@@ -79,7 +78,7 @@ double Binder::counted(double number, const WrittenUnit& unit, const char* colum
                        ReadingKind kind) const {
     const bool index = kind_word(written_->kind)->trade == KindWord::Trade::index;
     Of wanted = row_of(kind).measure;
-    // The tooth stands in the value; what it may be off by is teeth or degrees.
+    // The value is a tooth; its sigma is in teeth or degrees.
     if (index) return number;
     if (unit.of == Of::none) return number;
     if (unit.of == Of::percent && wanted == Of::length) {
@@ -96,8 +95,8 @@ double Binder::counted(double number, const WrittenUnit& unit, const char* colum
     return wanted == Of::length ? scaled / mm_per(stone_.unit) : scaled;
 }
 
-// GemCad's rule: a facet's normal at tooth i of a wheel of N lies at t = 360 i / N, clockwise from
-// +y as seen from above (cut_planes.h), the same for crown and pavilion; azimuths run the other
+// GemCad's rule: the normal of a facet at tooth i of a wheel of N is 360 i / N degrees clockwise
+// from +y as seen from above (cut_planes.h), on crown and pavilion alike. Azimuths run the other
 // way, from +x.
 void Binder::from_index(Reading& reading) const {
     const WrittenReading& w = *written_;
@@ -145,8 +144,8 @@ std::vector<Reading> Binder::of_trade(const Reading& base, KindWord::Trade trade
     }
 }
 
-// The mean of what a caliper reads across opposite mains: as many widths of that value, together as
-// sure as the one reading.
+// A diameter is the mean of caliper widths across opposite mains. It makes as many widths of that
+// value, together as certain as the one reading.
 std::vector<Reading> Binder::of_diameter(const Reading& base) const {
     const CaliperWidths widths = caliper_widths(stone_.solid, up_);
     if (!widths.round()) {
@@ -168,7 +167,7 @@ std::vector<Reading> Binder::of_diameter(const Reading& base) const {
         Reading reading = base;
         reading.of = {fmt::format("{:.4g}", a + 0.0)};
         reading.id = base.id + "." + reading.of[0];
-        // Along a direction of the mesh: wherever azimuths that were read begin.
+        // Along a direction of the mesh, wherever the readings' azimuths begin.
         reading.direction = std::cos(radians(a)) * frame.x + std::sin(radians(a)) * frame.y;
         reading.has_direction = true;
         reading.sigma *= std::sqrt(double(azimuths.size()));
@@ -182,13 +181,13 @@ std::vector<Reading> Binder::of_diameter(const Reading& base) const {
     return readings;
 }
 
-// Corner to opposite corner, the mean over all pairs.
+// A table is the mean width from corner to opposite corner.
 std::vector<Reading> Binder::of_table(const Reading& base) const {
     const char* const remedy = "; write `table_width` with an azimuth in `of`";
     if (stone_.up_facet.empty()) {
         fail("needs to know the table: set `up` of [stone] to its facet name");
     }
-    // Azimuths that were read begin where they will.
+    // Azimuth readings may begin anywhere.
     if (!stone_.azimuth_from_mesh) {
         for (const WrittenReading& w : all_) {
             const auto word = kind_word(w.kind);

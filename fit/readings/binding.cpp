@@ -32,7 +32,7 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
     const std::vector<bool> copies = copied_rows(written);
     for (std::size_t i = 0; i < written.size(); ++i) {
         if (copies[i]) continue;
-        if (written[i].outlines) continue;  // of planes, not of names: fit_input
+        if (written[i].outlines) continue;  // they name no facets; fit_input uses them
         std::string id = written[i].id;
         if (id.empty()) {
             id = "r" + std::to_string(i);

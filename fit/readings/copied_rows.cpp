@@ -12,7 +12,7 @@ namespace {
 constexpr double k_chance = 1e-3;
 constexpr int k_most_digits = 9;
 
-// The place of the last digit: 0.01 of 34.25.
+// The step of the last digit: 0.01 for 34.25.
 double last_digit(double value) {
     double step = 1;
     for (int digit = 0; digit < k_most_digits; ++digit, step /= 10) {
@@ -26,12 +26,12 @@ bool is_plain(const WrittenReading& w) {
            *w.sigma > 0;
 }
 
-// Of one unit, so that its numbers show one scale.
+// Rows of one kind and unit share a scale.
 auto scale_of(const WrittenReading& w) {
     return std::make_pair(w.kind, w.value_unit.word);
 }
 
-// That two readings of one quantity show the same number.
+// Bound on the probability that two readings of one quantity show the same number.
 double chance_alike(const WrittenReading& w, double finest) {
     const double sigma = *w.sigma * w.sigma_unit.factor / w.value_unit.factor;
     const double step = w.rounding ? *w.rounding * w.rounding_unit.factor / w.value_unit.factor

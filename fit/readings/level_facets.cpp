@@ -15,7 +15,7 @@ namespace culet {
 namespace {
 
 constexpr double k_level_sigmas = 3;
-// However little was read: facets that lean more are not level.
+// Facets that lean more are not level, however uncertain the reading.
 constexpr double k_level_deg = 5;
 
 bool is_plain(const Reading& r, ReadingKind kind) {
@@ -31,7 +31,7 @@ bool counts_from_up(const Reading& r, int up_facet) {
 
 void refuse_level_azimuths(const std::vector<Reading>& readings, const Stone& stone) {
     const int up_facet = find_facet(stone.solid, stone.up_facet);
-    std::map<int, const Reading*> level;  // and what makes it so
+    std::map<int, const Reading*> level;  // and the reading that makes it level
     for (const Reading& r : readings) {
         if (!r.exact) continue;
         if (is_plain(r, ReadingKind::inclination) && r.value == 0 && counts_from_up(r, up_facet)) {

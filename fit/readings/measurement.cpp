@@ -22,7 +22,7 @@ WrittenReading reading_of_table(const TomlTable& table) {
     reading.line = table.line();
     if (!table.has("kind")) table.fail("", "a reading without `kind`");
     reading.kind = *table.text("kind");
-    // `of` may be one text with slashes, a number (an azimuth) or a list of either.
+    // `of` may be a text with slashes, a number (an azimuth) or a list of either.
     for (const std::string& word : table.words("of").value_or(std::vector<std::string>{})) {
         for (std::string& name : split_names(word)) reading.of.push_back(std::move(name));
     }

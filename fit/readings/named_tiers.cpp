@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-// The names that the standard cuts of stone/cuts give.
+// The names in the standard cuts of stone/cuts.
 std::string words_of(const std::string& name, StonePart part, const std::string& pattern) {
     struct Trade {
         const char* name;

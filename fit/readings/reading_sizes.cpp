@@ -20,14 +20,14 @@ namespace culet {
 
 namespace {
 
-// Overall lengths of a stone and of its mesh agree within tens of per cent, whoever modelled it. A
-// factor near one between two units is a slip of units, not a finding.
+// Overall lengths of a stone and its mesh agree within tens of per cent. A ratio near that of two
+// units is a slip of units, not a finding.
 void refuse_other_unit(const Reading& reading, const Stone& stone) {
     double of_mesh = 0;
     if (reading.kind == ReadingKind::depth) {
         of_mesh = width_along(stone.solid, stone.up);
     } else if (reading.kind == ReadingKind::width) {
-        // Any girdle direction will do to tell a factor of ten.
+        // Any girdle direction is good enough for a factor of ten.
         of_mesh = diameter(stone.solid);
     } else if (reading.kind == ReadingKind::table_width) {
         const int table = find_facet(stone.solid, stone.up_facet);
@@ -73,7 +73,7 @@ void refuse_other_unit(const Reading& reading, const Stone& stone) {
     }
 }
 
-// Logarithms of how much larger readings are than the mesh, in their order, and whose they are.
+// Logarithms of reading / mesh in the readings' order, and the first reading.
 struct Asked {
     std::vector<double> logs;
     const Reading* first = nullptr;
@@ -95,15 +95,15 @@ Asked asked_by_overall_lengths(const std::vector<Reading>& readings, const Stone
     return asked;
 }
 
-// Fewer overall lengths do not outvote the mesh.
+// Fewer overall lengths cannot outvote the mesh.
 constexpr std::size_t k_enough_lengths = 3;
-// Nobody draws a stone so many times too large or small in its own unit.
+// A mesh in the stone's own unit is not off by such a factor.
 constexpr double k_other_size = 2.5;
-// Proportions that are drawn wrong by half and more count for less than that.
+// Wrong proportions of a mesh explain less than this factor.
 constexpr double k_one_size = 8;
 
-// Overall lengths that all ask for the same other size: then it is the mesh that was drawn in
-// another unit, which is no matter, since only its shape counts.
+// True if overall lengths all ask for the same other size. Then the mesh has another unit, which
+// does not matter, since only its shape counts.
 bool mesh_is_in_another_unit(const Asked& overall) {
     if (overall.logs.size() < k_enough_lengths) return false;
     const auto [least, most] = std::minmax_element(overall.logs.begin(), overall.logs.end());
@@ -111,8 +111,8 @@ bool mesh_is_in_another_unit(const Asked& overall) {
            *most - *least < std::log(k_one_size);
 }
 
-// Most overall lengths agree with each other and with the mesh's proportions: one that does not is
-// a slip of its own, which the first check names (first_check.h), and no matter of units.
+// True if most overall lengths agree with each other and the mesh. One that does not is a slip of
+// its own, which the first check names (first_check.h), and no matter of units.
 bool most_lengths_agree(const Asked& overall) {
     if (overall.logs.size() < k_enough_lengths) return false;
     const double middle = overall.middle();
@@ -137,7 +137,7 @@ Asked asked_by_edges(const std::vector<Reading>& readings, const Stone& stone) {
     return asked;
 }
 
-// No mesh, however rough, has its edges so many times too long for its widths.
+// Even a rough mesh's edges are not wrong by this factor against its widths.
 constexpr double k_two_units = 8;
 constexpr std::size_t k_enough_edges = 5;
 
@@ -158,7 +158,7 @@ void refuse_lengths_of_two_units(const Asked& overall, const Asked& edges, const
                     name_of(stone.unit)));
 }
 
-// A rough mesh may be collapsed to a twentieth of its volume; not to less.
+// A rough mesh may be collapsed to a twentieth of its volume, but not further.
 constexpr double k_impossible_volume = 100;
 
 void refuse_impossible_volume(const Reading& reading, const Stone& stone, double larger) {

@@ -90,7 +90,7 @@ std::optional<std::string> near_kind_word(std::string_view written) {
         if (word.size() >= 3 && name.starts_with(word)) return name;
     }
     const auto near = nearest_name(word, known);
-    // More than a third of its letters is another word.
+    // If more than a third of the letters differ, it is another word.
     if (near && edit_distance(word, *near) > std::max<std::size_t>(1, (word.size() + 1) / 3)) {
         return std::nullopt;
     }

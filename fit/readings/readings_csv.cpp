@@ -30,13 +30,13 @@ enum Column { kind, of, value, sigma, exact, released, datum, side, id, note, ro
 constexpr std::array<const char*, Column::count> k_columns{
     "kind", "of", "value", "sigma", "exact", "released", "datum", "side", "id", "note", "rounding"};
 
-// Where each column stands; -1: nowhere.
+// Position of each column; -1: absent.
 std::array<int, Column::count> columns_of(const CsvRow& header, const std::filesystem::path& file) {
     std::array<int, Column::count> at{};
     at.fill(-1);
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
         const std::string name = lower_case(header.fields[i]);
-        // Spreadsheets put empty columns after the last.
+        // Spreadsheets add empty columns at the end.
         if (name.empty()) continue;
         const auto known = std::find(k_columns.begin(), k_columns.end(), name);
         for (const char* const column : k_columns) {

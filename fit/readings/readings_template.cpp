@@ -17,12 +17,11 @@ namespace culet {
 
 namespace {
 
-// The root of a facet's area: so large it seats in a goniometer; so small it still does, barely.
+// Root of a facet's area: above the first it seats well in a goniometer, above the second barely.
 constexpr double k_large_mm = 1, k_small_mm = 0.6;
-// Mains that face each other within this stand across one width.
+// Two mains within this of opposite directions stand across one width.
 constexpr double k_across_deg = 3;
-// A stone that is drawn along x and y is measured along them, though it may be as much narrower
-// across a corner.
+// Measure along x and y if the smaller width there is at most this times the least width.
 constexpr double k_along_axes = 1.03;
 
 std::string quoted(const std::string& field) {
@@ -33,7 +32,7 @@ std::string quoted(const std::string& field) {
     return text + "\"";
 }
 
-// A name that `of` takes for what it is.
+// True if `of` takes the name literally.
 bool can_be_read(const std::string& name) {
     return !name.empty() && name.find_first_of("/,*()\r\n") == std::string::npos &&
            name.front() != ' ' && name.back() != ' ';
@@ -103,7 +102,7 @@ private:
                         tooth));
     }
 
-    // Of a pear only some facets of a tier may reach the table: the others are read as they are.
+    // Completes the tiers of the mains: in a pear only some facets of a tier may reach the table.
     static std::vector<int> whole_tiers(const std::vector<int>& mains,
                                         const std::vector<FacetTier>& tiers) {
         std::vector<int> all;
@@ -130,7 +129,7 @@ private:
         }
         if (facets.empty()) return;
         if (facets.size() == 1) return add_facet(facets[0]);
-        // One value for several facets is off by what they differ, too.
+        // One value for several facets is also off by their differences.
         double sigma = sigmas_.small_facet_deg, least = 90, most = 0;
         std::string names;
         for (const int f : facets) {
@@ -148,7 +147,7 @@ private:
             fmt::format("{} (one value for all {})", expected, facets.size()));
     }
 
-    // The largest crown facet of the girdle's that looks to this azimuth; empty: none.
+    // The largest of these crown facets in this direction; empty if there is none.
     std::string facet_towards(double azimuth, const std::vector<int>& crown) const {
         std::string name;
         double largest = 0;
@@ -164,7 +163,7 @@ private:
     }
 
     // Four directions from jaw to jaw, degrees in [0, 180): across opposite mains of a round stone,
-    // else along the width, the length and between.
+    // else along and between width and length.
     std::vector<double> directions(const CaliperWidths& widths,
                                    const std::vector<int>& crown) const {
         const auto half_turn = [](double a) {

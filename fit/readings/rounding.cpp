@@ -13,7 +13,7 @@ double common_rounding_variance(double sigma, double step) {
     if (!(step > 0)) return 0;
     const double pi2 = std::numbers::pi * std::numbers::pi;
     const double x = 4 * pi2 * (sigma / step) * (sigma / step);
-    // The sum of 1/k^2 alone converges slowly: all of it, less what the exponentials take away.
+    // The sum of 1/k^2 converges slowly: use its limit, less what the exponentials remove.
     if (x < 1e-6) {
         return std::max(0.0, step * step / 12 - sigma * step / std::sqrt(std::numbers::pi));
     }
@@ -33,7 +33,7 @@ double rounded_sigma(double sigma, double step, int replicates) {
 
 namespace {
 
-// Facets that exact symmetry makes alike, by their least number.
+// For each facet the smallest number of those that exact symmetry makes alike.
 std::vector<int> orbits(const std::vector<std::pair<int, int>>& alike, int facets) {
     std::vector<int> root(static_cast<std::size_t>(facets));
     std::iota(root.begin(), root.end(), 0);

@@ -10,9 +10,9 @@ namespace culet {
 
 namespace {
 
-// How often: of wrong numbers that people copied, 79 in 100 have one digit wrong and 10 two
-// neighbours swapped (Verhoeff 1969, Error Detecting Decimal Codes). He counted numbers of fixed
-// length; the others are as frequent as those that he could not class, together.
+// Frequencies: of wrongly copied numbers, 79 in 100 have one wrong digit and 10 two swapped
+// neighbours (Verhoeff 1969, Error Detecting Decimal Codes). He counted numbers of fixed length;
+// the other kinds together are taken as frequent as those that he could not class.
 constexpr double k_wrong = 0.79, k_swapped = 0.10, k_other = 0.025;
 
 std::optional<double> number_of(const std::string& text) {
@@ -22,7 +22,7 @@ std::optional<double> number_of(const std::string& text) {
     return value;
 }
 
-// Those of one kind share its frequency.
+// Slips of one kind share its frequency.
 void add(std::vector<Slip> kind, double frequency, bool telling, std::vector<Slip>& all) {
     for (Slip& slip : kind) {
         slip.weight = frequency / double(kind.size());
@@ -81,7 +81,7 @@ void add_of_digits(double written, Measured measured, std::vector<Slip>& all) {
         text.erase(at, 1);
         put(lost, "one digit too many", text);
     }
-    // 03.3, which is 30.3 with two digits swapped, arrives as 3.3.
+    // 30.3 with two digits swapped is 03.3, which arrives as 3.3.
     if (measured == Measured::angle && written >= 0 && written < 10) digits.insert(0, 1, '0');
     const std::vector<std::size_t> places = places_in(digits);
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {

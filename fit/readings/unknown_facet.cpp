@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// A hand-made mesh's facets are hardly further off.
+// Facets of a hand-made mesh are rarely further off.
 constexpr double k_same_deg = 8;
 
 std::optional<double> value_of(const std::string& kind, const std::string& name,
@@ -33,7 +33,7 @@ double azimuth_in(const PlanFrame& frame, const Vec3& n) {
     return std::atan2(glm::dot(frame.y, n), glm::dot(frame.x, n));
 }
 
-// Where the readings' azimuths begin: the mean direction of their differences.
+// The zero of the readings' azimuths: their mean difference from the mesh's.
 double azimuth_zero(const PlanFrame& frame, const std::vector<WrittenReading>& written,
                     const Stone& stone) {
     double east = 0, north = 0;
@@ -61,7 +61,7 @@ std::string where_it_may_lie(const std::string& name, const std::vector<WrittenR
     const double zero = azimuth_zero(frame, written, stone);
     std::set<std::string> read;
     for (const WrittenReading& w : written) read.insert(w.of.begin(), w.of.end());
-    // An inclination does not say whether from above or from below.
+    // An inclination does not say whether it counts from above or below.
     double least = 1e9;
     std::string nearest, corners;
     for (const int side : {1, -1}) {

@@ -15,8 +15,8 @@ namespace {
 
 using Sigmas = MeetSigmas;
 
-// Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
-// redundancy, repeated until it agrees with the one they were weighted by.
+// Foerstner (1979): each group's variance is sum of squares / redundancy of its residuals, repeated
+// until it agrees with the one that weighted them.
 void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions& options,
                           const Progress& progress) {
     for (int round = 0; round < 60; ++round) {
@@ -35,8 +35,8 @@ void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions&
                 std::max(k_meet_size.least_sigma, before * std::exp(std::clamp(change, -2.0, 2.0)));
         }
         model.set_group_sigmas(sigmas);
-        // One per cent of an uncertainty is more than its estimate is worth. Before that, the
-        // weights move again before the steps would end.
+        // No estimate of an uncertainty is better than 1 %. Before that, three steps are enough,
+        // because the weights change again.
         const bool agrees = largest < 1e-2;
         const int steps = finished.iterations;
         finished = finish(model, finished.shape, agrees ? options.iterations : 3);
@@ -51,10 +51,10 @@ void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions&
 struct End {
     Sigmas sigmas;
     Finished finished;
-    double likelihood = 0;  // twice its negative logarithm
+    double likelihood = 0;  // -2 log likelihood
 };
 
-// The likeliest place of a scan: each group alone, then both together.
+// The likeliest point of a scan of each group alone, then of both together.
 Sigmas best_of_scan(MeetLikelihood& likelihood, const Sigmas& from, double& least) {
     Sigmas best = from;
     const auto try_at = [&](const Sigmas& sigmas) {
@@ -74,7 +74,7 @@ Sigmas best_of_scan(MeetLikelihood& likelihood, const Sigmas& from, double& leas
     return best;
 }
 
-// An end where the planes leave no room for a facet is no stone of this mesh.
+// A solution without room for some facet is no stone of this mesh.
 bool has_all_facets(const FitModel& model, const Finished& finished) {
     if (!finished.enclosed) return false;
     const Enclosed enclosed = enclosed_by(model, finished.shape);
