@@ -14,14 +14,14 @@ namespace culet {
 
 namespace {
 
-// Reading and estimate are trusted for so many of their sigmas.
+// Reading and estimate are trusted to within this many of their sigmas.
 constexpr double k_trust = 3.5;
 
 }  // namespace
 
 Proposal proposal_for(const Reading& reading, double estimate, double sigma, double part_missed) {
     Proposal proposal{reading.id, is_angle(reading.kind), estimate, sigma, {}, 0, {}};
-    // Slips are made in the unit of files.
+    // Slips happen in the units of files.
     const double unit = file_unit(reading.kind);
     const double both = std::hypot(sigma, reading.sigma), within = k_trust * both;
     if (is_relation(reading.kind) || !(within < part_missed * std::abs(reading.value - estimate))) {

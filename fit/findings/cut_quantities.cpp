@@ -16,18 +16,18 @@ namespace culet {
 
 namespace {
 
-// Half diameters: of central differences. Rounding leaves 1e-9 of a slope; shorter edges of the
-// outline have none.
+// Half diameters: step of central differences. Rounding errors leave 1e-9 of a slope; outline edges
+// shorter than this have no slope.
 constexpr double k_step = 1e-7;
 
 using Corners = std::vector<int>;  // of the outline
 
-// The corners that decide how large a cut is. As long as they do, its lengths are smooth functions
-// of where these corners are.
+// The corners that determine the size of a cut. While they stay the same, its lengths are smooth
+// functions of their positions.
 struct Cut {
     Corners hull;                         // in plan, counter-clockwise
-    std::array<int, 2> jaw{};             // the edge of it that one jaw of the least width lies on
-    int opposite = -1;                    // what the other jaw touches
+    std::array<int, 2> jaw{};             // ends of the hull's edge at one jaw of the least width
+    int opposite = -1;                    // the corner at the other jaw
     std::array<int, 2> ends{}, widest{};  // of the length; of the largest width
     Corners table;
     std::array<int, 2> table_ends{};    // along the least width
@@ -36,7 +36,7 @@ struct Cut {
 };
 
 struct Along {
-    Vec3 edge, across;  // in plan; across: inwards
+    Vec3 edge, across;  // in plan; `across` points inwards
 };
 Along along(const Cut& cut, const std::vector<Vec3>& at) {
     const Vec3 step = at[std::size_t(cut.jaw[1])] - at[std::size_t(cut.jaw[0])];
@@ -50,7 +50,7 @@ int farthest(const Corners& corners, const std::vector<Vec3>& at, const Vec3& di
     });
 }
 
-// Corners where the girdle (or, without one, the other side) meets this side.
+// Corners at which the girdle (or, without one, the other side) meets this side.
 Corners rim(const FitModel& model, const Shape& shape, const Outline& outline, bool crown) {
     std::set<int> girdle, side, other;
     for (std::size_t f = 0; f < outline.loops.size(); ++f) {
@@ -68,7 +68,7 @@ Corners rim(const FitModel& model, const Shape& shape, const Outline& outline, b
     return both;
 }
 
-// Without a hull: nothing has an extent in plan.
+// Has no hull if the stone has no extent in plan.
 Cut cut_of(const FitModel& model, const Shape& shape, const Outline& outline,
            const std::vector<Vec3>& at) {
     std::set<int> known;
@@ -98,7 +98,7 @@ Cut cut_of(const FitModel& model, const Shape& shape, const Outline& outline,
     if (table < 0 || outline.loops[std::size_t(table)].size() < 3) return cut;
     cut.table = outline.loops[std::size_t(table)];
     cut.table_ends = {farthest(cut.table, at, -across), farthest(cut.table, at, across)};
-    // Level facets' corners are all the highest at once.
+    // If the table is level, all its corners are the highest.
     if (std::find(cut.table.begin(), cut.table.end(), cut.top[0]) != cut.table.end()) {
         cut.top = cut.table;
     }
@@ -116,7 +116,7 @@ double mean_radius(const Corners& loop, const std::vector<Vec3>& at) {
     return mean;
 }
 
-// Lengths in half diameters times `scale`.
+// `at` is in half diameters; `scale` converts to `unit`.
 std::vector<CutQuantity> lengths_of(const Cut& cut, const std::vector<Vec3>& at, double scale,
                                     const std::string& unit) {
     const auto between = [&](const std::array<int, 2>& ends) {
@@ -169,7 +169,7 @@ std::vector<CutQuantity> lengths_of(const Cut& cut, const std::vector<Vec3>& at,
     return all;
 }
 
-// With their derivatives.
+// The same with derivatives.
 std::vector<CutQuantity> lengths_of(const FitModel& model, const Shape& shape,
                                     const Outline& outline) {
     std::vector<Vec3> at;

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
-// Mean and largest less least of the facets' angles.
+// Mean and range of the facets' angles.
 std::pair<double, double> mean_and_spread(const FitResult& result, const Tier& tier,
                                           double FittedFacet::*angle) {
     double sum = 0, least = 1e9, most = -1e9;
@@ -62,7 +62,7 @@ void describe_axis(const FitModel& model, const Shape& shape, const Frame::Pose&
     }
     if (axis.known) {
         const Vec3 inside = axis.direction;
-        // Directions go outside as normals of planes do.
+        // Directions transform like plane normals.
         axis.direction = model.frame().outside_plane({inside, 0}, pose).normal;
         axis.azimuth = outside_azimuth(inside, pose);
     }
@@ -70,8 +70,8 @@ void describe_axis(const FitModel& model, const Shape& shape, const Frame::Pose&
     result.findings.own_axis = std::move(axis);
 }
 
-// When a few wrong readings explain the contradiction, they are the simpler story; when they leave
-// it, they are none.
+// The most chi-square that one suspect explains, if a few of them explain the contradiction (the
+// simpler explanation); else 0.
 double explained_by_readings(const FitResult& result) {
     double explained = 0, largest = 0;
     for (const FittedReading& r : result.readings) {
@@ -100,8 +100,8 @@ void describe_meets(const FitModel& model, const Shape& shape, const Covariance&
     }
 }
 
-// Held corners as exact equations, as they lie; of an edge that is held at both ends one, since the
-// other says the same.
+// Held corners as exact equations at their present heights. An edge held at both ends gives one
+// equation, because the other repeats it.
 std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
                                     const std::vector<ActiveCorner>& held) {
     std::vector<Equation> conditions;
@@ -121,15 +121,16 @@ std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
     return conditions;
 }
 
-// One sentence a tier and kind of freedom: `nothing measured fixes the azimuth of crown facet S3`.
+// One sentence for each tier and kind of parameter: `nothing measured fixes the azimuth of crown
+// facet S3`.
 std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape,
                                        const std::vector<Undetermined>& undetermined) {
     if (undetermined.empty()) return {};
     const Solid& mesh = model.stone().solid;
-    // By the form: numbers of facets say nothing of tiers.
+    // From the mesh's form, because facet numbers do not tell tiers.
     const std::vector<FacetTier> tiers = culet::tiers_of(mesh, model.stone().up);
     const std::vector<int> tier_of = tier_of_each(tiers, mesh.facets.size());
-    // In the order in which tiers first appear.
+    // Tiers in the order of their first appearance.
     std::vector<std::pair<int, std::string>> order;
     std::map<std::pair<int, std::string>, std::vector<std::string>> groups;
     for (const Undetermined& u : undetermined) {
@@ -157,7 +158,8 @@ std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape
 void propose(const FitModel& model, const Diagnosis& diagnosis, FitFindings& findings) {
     const auto reading = [&](int r) -> const Reading& { return model.readings()[std::size_t(r)]; };
     for (const Suspicion& s : diagnosis.suspicions) {
-        // The others are not sure of each other: a slip must leave little of what it explains.
+        // The other readings may be wrong too, so a slip must leave little of the error
+        // unexplained.
         constexpr double k_part_missed = 0.25;
         Proposal proposal = proposal_for(reading(s.reading), s.estimate, s.sigma, k_part_missed);
         for (const int other : s.alternatives) proposal.alternatives.push_back(reading(other).id);
@@ -166,7 +168,7 @@ void propose(const FitModel& model, const Diagnosis& diagnosis, FitFindings& fin
     for (const int r : diagnosis.disagreeing) findings.disagreeing.push_back(reading(r).id);
 }
 
-// Proportions, what is open, and what to read next.
+// Proportions, undetermined parameters, and what to read next.
 void describe_whole(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
                     FitFindings& findings) {
     const Covariance& covariance = *diagnosis.covariance;
@@ -202,7 +204,7 @@ void describe_findings(const FitModel& model, const Finished& finished,
     findings.shapes = find_open_shape(model, finished, held, diagnosis, *covariance, result);
     const bool declared =
         std::any_of(model.readings().begin(), model.readings().end(), declares_whole_symmetry);
-    // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
+    // A declared symmetry would only be found again: `fit_stone` asks for a fit without it.
     if (result.log.options.find_symmetry && !declared) {
         findings.symmetry = symmetry_of(model, finished.shape, *covariance, result.log.options);
     }

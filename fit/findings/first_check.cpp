@@ -19,16 +19,17 @@ namespace {
 
 using Kind = ReadingKind;
 
-// Beyond so many sigmas a reading is doubted: of 40 honest readings, normally distributed, one in
-// 3 700 sets has one. Stones' own errors have longer tails, so that sigmas are not taken too small.
+// Sigmas beyond which a reading is doubted: of 40 correct readings with normal errors, one in 3 700
+// sets has one. Real errors have longer tails, so the tolerances below are wide.
 constexpr double k_doubted = 4.5;
-// Where a common slip explains it, less is needed; it has to lead near what was expected.
+// A common slip lowers this limit, if it leads to within `k_explained` sigmas of the expected
+// value.
 constexpr double k_doubted_with_slip = 3.5, k_explained = 2;
-// Two others that differ do not say which of them is wrong.
+// Two others that differ do not tell which of them is wrong.
 constexpr std::size_t k_fewest_others = 2;
 
-// How much honest readings differ (docs/measuring.md): radians, and logarithms of lengths; more
-// beside a mesh that was drawn by hand.
+// How much correct readings differ (docs/measuring.md): radians, and logarithms of lengths. A mesh
+// drawn by hand allows more.
 struct Tolerances {
     explicit Tolerances(bool is_design) : from_mesh(radians(is_design ? 1 : 3)) {
         if (is_design) return;
@@ -38,13 +39,13 @@ struct Tolerances {
     double widths = 0.007, tables = 0.01, depth = 0.03, table = 0.04, volume = 0.06, lengths = 0.04;
 };
 
-// What a row should be about, how far off an honest one would be, and by whom.
+// The expected value of a row, the sigma of a correct one, and its origin in words.
 struct Expected {
     double value = 0, sigma = 0;
     std::string by;
 };
 
-// About the median of others, which is itself uncertain: pi / 2n of the variance.
+// From the median of others, whose own variance is pi / 2n of theirs.
 Expected beside(const std::vector<double>& others, double tolerance) {
     const double sigma = std::max(tolerance, robust_sigma(others));
     return {median(others), sigma * std::sqrt(1 + 1.5708 / double(others.size())), {}};
@@ -124,8 +125,8 @@ Expected FirstCheck::inclination_of(const CheckedRow& own) const {
     for (const CheckedRow& r : rows_) {
         if (is_sister(r)) values.push_back(r.value);
     }
-    // Facets of a tier are alike, or they differ as they are drawn: whichever the row suits better.
-    // So an odd facet of a design is no slip, and a rough drawing of like facets makes none.
+    // Facets of a tier are equal or differ as drawn: take what the row agrees with better. Then an
+    // odd facet of a design is no slip, and a rough drawing of equal facets makes none.
     const Expected alike = beside(values, honest_.sisters);
     Expected as_drawn = beside(off_mesh, honest_.sisters);
     as_drawn.value = own.at(as_drawn.value);
@@ -150,7 +151,7 @@ std::optional<Expected> FirstCheck::length_of(const CheckedRow& own) const {
     };
     const auto widths = off([](const CheckedRow& r) { return r.kind == Kind::width; });
     if (widths.size() <= k_fewest_others) {
-        // One of two that differ may be either. The volume grows with the cube.
+        // If two differ, either may be wrong. The volume grows with the cube of lengths.
         auto others = off([&](const auto& r) { return is_other(r) && !is_size(r.kind); });
         const auto sizes = off([](const auto& r) { return is_size(r.kind); });
         if (!sizes.empty()) others.push_back(sizes.front() / 3);
@@ -168,7 +169,7 @@ std::optional<Expected> FirstCheck::length_of(const CheckedRow& own) const {
                "the widths and the mesh");
 }
 
-// Lengths that are themselves in doubt say nothing of it.
+// Doubted lengths are not used.
 std::optional<Expected> FirstCheck::size_of(const CheckedRow& own) const {
     const auto believed = [&](Kind kind) {
         return off([&](const CheckedRow& r) { return r.kind == kind && !is_doubted(r); });
@@ -238,8 +239,8 @@ std::vector<Doubt> FirstCheck::doubts() {
     return std::move(doubts_);
 }
 
-// The fit without the reading knows better what it should be than the first look did. Of several
-// facets the least sure one's sigma is no less than that of their mean.
+// The fit without the reading gives a better estimate than the first check. For several facets,
+// their largest sigma is an upper limit of that of the mean.
 Proposal ask_the_fit(const Reading& r, const FitResult& result, const Doubt& doubt) {
     const Proposal first{
         r.id, is_angle(r.kind), doubt.expected, doubt.sigma, doubt.slip, doubt.corrected, {}};

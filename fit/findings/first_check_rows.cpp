@@ -15,9 +15,9 @@ namespace culet {
 
 namespace {
 
-// More level facets have no azimuth to speak of.
+// Facets more level than this have no usable azimuth.
 constexpr double k_no_azimuth = radians(5);
-// Fewer azimuths, or such that scatter more, do not say where they begin.
+// With fewer azimuths, or more scatter, their zero is unknown.
 constexpr std::size_t k_fewest_azimuths = 4;
 constexpr double k_no_agreement = radians(10);
 
@@ -29,7 +29,7 @@ public:
             readings, [&](int facet) { return normal(facet); }, stone.azimuth_from_mesh);
     }
 
-    // What a reading would be of the mesh, where that can be told.
+    // The reading's quantity in the mesh, if it can be told.
     std::optional<double> in_mesh(const Reading& r) const;
 
 private:
@@ -39,7 +39,7 @@ private:
 
     const Stone& stone_;
     Vec3 up_;
-    double turn_ = 0;  // of the azimuths read against the mesh
+    double turn_ = 0;  // from the mesh's azimuths to those read
 };
 
 std::optional<double> Rows::in_mesh_angle(const Reading& r) const {
@@ -87,8 +87,8 @@ double half_turn(double angle) {
     return std::remainder(angle, 2 * std::numbers::pi);
 }
 
-// Azimuths count from a mark of their own: from where they say on the median. Where they do not
-// agree on it they are not checked.
+// Azimuths count from a mark of their own, at the median of their differences from the mesh. If
+// they do not agree on it, they are not checked.
 void turn_azimuths(std::vector<CheckedRow>& rows) {
     std::vector<double> off;
     for (CheckedRow& row : rows) {
@@ -159,7 +159,7 @@ double robust_sigma(const std::vector<double>& values) {
     const double middle = median(values);
     std::vector<double> off;
     for (const double v : values) off.push_back(std::abs(v - middle));
-    return 1.4826 * median(std::move(off));  // of a normal distribution
+    return 1.4826 * median(std::move(off));  // sigma of a normal distribution
 }
 
 }  // namespace culet

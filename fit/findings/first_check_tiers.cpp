@@ -1,5 +1,4 @@
-// Tiers beside each other: one that is off the mesh as a whole. Its readings agree with each other,
-// so that none is odd by itself.
+// Finds tiers that are off the mesh as a whole. Their readings agree, so none is odd by itself.
 
 #include <fmt/format.h>
 
@@ -14,25 +13,25 @@ namespace culet {
 
 namespace {
 
-// Of all tiers of a set; more than for one reading, since a tier is rarely typed wrong. The value
-// of another tier comes within what facets of a tier differ by (0.3 degrees either way) of one
-// angle in eight by chance, where six tiers share 30 degrees: beside one the rest may be likelier.
+// Significance over all tiers of a set; stricter than for one reading, since a tier is rarely typed
+// wrong. It is relaxed if the value is another tier's: where six tiers share 30 degrees, one angle
+// in eight is within 0.3 degrees of another tier's by chance.
 constexpr double k_tier_level = 0.001, k_level_of_another = 0.008;
 constexpr double k_alike = radians(0.3);
-// Of so many other tiers one learns how far tiers of this stone are off the mesh.
+// With fewer other tiers nobody knows how far this stone's tiers are off the mesh.
 constexpr std::size_t k_fewest_other_tiers = 2;
-// What is expected of them counts for one observation, as in the prior.
+// The expected scatter counts as one observation, as in the prior.
 constexpr double k_stated_count = 1;
 
 struct TierRead {
     const NamedTier* tier = nullptr;
     std::vector<const CheckedRow*> rows;
     std::vector<double> values;
-    double value = 0, mesh = 0, off = 0;  ///< means; what its readings agree that it is off
+    double value = 0, mesh = 0, off = 0;  ///< means; `off`: what its readings agree on
 };
 
-// The median; of an even number the middle one nearer to the mesh. One of two readings that is off
-// is a slip in that one, not in both.
+// The median; of an even number, the middle value nearer to the mesh: if one of two readings is
+// off, the slip is in that one, not in both.
 double agreed(std::vector<double> off) {
     std::sort(off.begin(), off.end());
     const double low = off[(off.size() - 1) / 2], high = off[off.size() / 2];
@@ -62,7 +61,7 @@ std::vector<TierRead> tiers_read(const std::vector<CheckedRow>& rows,
     return found;
 }
 
-// Another tier whose angle this one's readings are.
+// Another tier with the angle that was read here.
 const TierRead* whose_value(const TierRead& own, const std::vector<TierRead>& all) {
     for (const TierRead& other : all) {
         const double apart =
@@ -72,7 +71,7 @@ const TierRead* whose_value(const TierRead& own, const std::vector<TierRead>& al
     return nullptr;
 }
 
-// How far the tiers that one is held against are off the mesh.
+// How far the tiers used for comparison are off the mesh.
 struct Others {
     double sigma = 0, dof = 0, largest = 0;
     double sigma_of(const TierRead& own) const {
@@ -136,9 +135,9 @@ void check_tiers(const std::vector<Reading>& readings, const std::vector<Checked
     std::stable_sort(
         farthest_first.begin(), farthest_first.end(),
         [](const TierRead* a, const TierRead* b) { return std::abs(a->off) > std::abs(b->off); });
-    // Who writes the pavilion's angles into the crown's rows has several tiers wrong at once, and
-    // each would hide the others: from half of the tiers down, the least far of so many is held
-    // against those that are nearer (Rosner 1983).
+    // If the pavilion's angles were written into the crown's rows, several tiers are wrong and hide
+    // each other. So, from half of the tiers down, the least deviating of `count` tiers is compared
+    // with those nearer to the mesh (Rosner 1983).
     for (std::size_t count = all.size() / 2; count > 0; --count) {
         const Others others = others_of(
             {farthest_first.begin() + std::ptrdiff_t(count), farthest_first.end()}, from_mesh);

@@ -1,4 +1,4 @@
-// What a fit came to, in the words of its result: solid, facets, readings, meets.
+// Writes the parts of a result: solid, facets, readings, meets.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-// A direction that is nearer to up has no azimuth: radians.
+// Radians: a direction nearer to up has no azimuth.
 constexpr double k_level = 1e-9;
 
 void describe_meets(const FitModel& model, const Shape& shape, FitResult& result) {
@@ -46,7 +46,7 @@ void describe_meets(const FitModel& model, const Shape& shape, FitResult& result
     }
 }
 
-// The solid that is written: corners from the fit, or what the planes enclose.
+// The result's solid: corners from the fit, or the intersection of the planes.
 std::vector<std::string> make_solid(const FitModel& model, const Shape& shape,
                                     const Frame::Pose& pose, FitResult& result) {
     std::vector<std::string> missing;
@@ -88,7 +88,7 @@ void fill_in_facets(const FitModel& model, const Shape& shape, const Diagnosis& 
     result.facet_covariance = diagnosis.facet_covariance;
     const std::size_t size = 3 * result.facets.size();
     for (std::size_t i = 0; i < result.facet_covariance.size(); ++i) {
-        // Offsets are the third of each facet's three.
+        // Offsets are the third of each facet's three parameters.
         if (i / size % 3 == 2) result.facet_covariance[i] *= model.frame().scale();
         if (i % size % 3 == 2) result.facet_covariance[i] *= model.frame().scale();
     }

@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-// Contract with the user: corners lie on their planes to this part of the diameter.
+// Promise to the user: corners lie on their planes within this part of the diameter.
 constexpr double k_planarity = 1e-12;
 
 struct Verdict {
@@ -44,7 +44,7 @@ std::string told_all(const Fit& fit, const std::vector<std::string>& ids) {
     return name_list(words);
 }
 
-// As far as one can tell.
+// Names the readings that are probably wrong.
 std::string who_is_to_blame(const Fit& fit) {
     if (fit.result.findings.suspects.empty()) {
         if (fit.result.findings.disagreeing.empty()) return {};
@@ -76,7 +76,7 @@ MaybeVerdict exact_contradiction(const Fit& fit) {
                                                                : fit.result.findings.disagreeing)};
 }
 
-// What of a stone could not be brought together.
+// Names degenerate facets and edges.
 std::string in_the_way(const Solid& solid) {
     const ComeToNothing come = degenerate_facets(solid);
     std::string text;
@@ -93,7 +93,7 @@ std::string in_the_way(const Solid& solid) {
     return text;
 }
 
-// No stone has the mesh's facets, edges and meets and these readings.
+// No stone has the mesh's topology and these readings.
 MaybeVerdict denied_topology(const Fit& fit) {
     if (!fit.result.checks.missing_facets.empty()) {
         return no_stone("the fitted planes leave no room for facet " +
@@ -139,7 +139,7 @@ MaybeVerdict unsound_solid(const Fit& fit) {
 }
 
 MaybeVerdict unsettled(const Fit& fit) {
-    // Before the steps: next to an edge that has no length they creep.
+    // Checked before convergence, because steps creep next to an edge without length.
     for (const ShapeFinding& f : fit.result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < fit.level) {
             return Verdict{FitStatus::contradictory, f.what + "; allow the topology to change"};
@@ -183,7 +183,7 @@ MaybeVerdict undetermined(const Fit& fit) {
                         : "next, " + bench_words(fit.result.findings.help[0]))};
 }
 
-// Readings that agree better than their sigmas allow: the lower tail of chi-square. Not beside a
+// Readings that agree better than their sigmas allow: the lower tail of chi-square. Not with a
 // prior, where readings count with more than their sigmas (count_beside_prior).
 std::string too_good(const Fit& fit) {
     const FitStatistics& statistics = fit.result.statistics;
@@ -200,7 +200,7 @@ std::string too_good(const Fit& fit) {
         statistics.chi2, statistics.dof, 1 / fit.level);
 }
 
-// The gravest first: what comes later means nothing where an earlier one holds.
+// The most serious first: later ones mean nothing if an earlier one applies.
 Verdict verdict_on(const Fit& fit) {
     for (const auto& verdict : {exact_contradiction, denied_topology, unsound_solid, unsettled,
                                 disagreement, undetermined}) {

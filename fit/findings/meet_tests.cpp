@@ -14,22 +14,22 @@ namespace culet {
 
 namespace {
 
-// A miss is tested when the readings tell it to better than half of the half diameter, and is free
-// to be at all when other exact conditions leave it more than rounding. Variances.
+// Variances. A miss is tested if the readings determine it to better than half of the half
+// diameter, and if other exact conditions leave it more than rounding error.
 constexpr double k_told = 0.25, k_free = 1e-18;
 
-// One meet: which incidences, and the directions in which its planes can miss each other.
+// One meet: its incidences, and the directions in which its planes can miss each other.
 struct Meet {
     int point = -1;
     MeetTreatment how = MeetTreatment::exact;
     std::vector<int> facets;
     std::vector<Eigen::Index> equations;  // exact: among the hard ones
-    Eigen::MatrixXd together, apart;      // facets x 3 and x (facets - 3): [Q U] is orthogonal
-    bool has_score = false;               // exact, and not held by its images: has multipliers
-    Eigen::Index first = 0;               // of its columns among all that have
+    Eigen::MatrixXd together, apart;  // facets x 3 and facets x (facets - 3): [Q U] is orthogonal
+    bool has_score = false;           // exact, and not implied by its images: has multipliers
+    Eigen::Index first = 0;           // of its columns among all with a score
 };
 
-// Planes N x = d have a common point when U'd = 0 with U spanning null(N').
+// Planes N x = d have a common point if U'd = 0, where U spans null(N').
 void find_ways_apart(const Shape& shape, Meet& meet) {
     const std::vector<int>& facets = meet.facets;
     const Eigen::Index count = Eigen::Index(facets.size());
@@ -43,8 +43,8 @@ void find_ways_apart(const Shape& shape, Meet& meet) {
     meet.apart = q.rightCols(count - 3);
 }
 
-// Of a meet whose images under an exact symmetry hold, nothing is left to test: its planes are
-// images of theirs.
+// A meet whose images under an exact symmetry hold cannot be tested: its planes are images of
+// theirs.
 std::vector<bool> held_by_images(const FitModel& model) {
     const Parameters parameters = model.parameters();
     std::vector<bool> held;
@@ -74,7 +74,7 @@ std::vector<Meet> meets_of(const FitModel& model, const Shape& shape,
     for (Meet& meet : meets) {
         find_ways_apart(shape, meet);
         if (meet.equations.size() == meet.facets.size()) continue;
-        // Partly exact: tested by what came out, like a soft one.
+        // Partly exact: tested by its misses, like a soft one.
         if (meet.how == MeetTreatment::exact) meet.how = MeetTreatment::soft;
     }
     const std::vector<bool> held = held_by_images(model);
@@ -89,7 +89,7 @@ std::vector<Meet> meets_of(const FitModel& model, const Shape& shape,
     return meets;
 }
 
-// What the readings pull exact meets apart with, and its covariance.
+// Lagrange multipliers of the exact meets, and their covariance.
 Multipliers exact_meets(const std::vector<Meet>& meets, const Linearised& linear) {
     const Eigen::Index hard = Eigen::Index(linear.hard.size());
     std::vector<Eigen::Triplet<double>> apart, together;
@@ -121,7 +121,7 @@ Multipliers exact_meets(const std::vector<Meet>& meets, const Linearised& linear
                           tested * linear.hard_residuals);
 }
 
-// Estimated miss of the plane that is furthest off, and its sigma, from misses along U.
+// Sets the miss of the plane furthest off and its sigma, from misses along U.
 void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& along,
               const Eigen::MatrixXd& covariance) {
     const Eigen::VectorXd misses = meet.apart * along;
@@ -134,7 +134,7 @@ void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& alo
                                      : std::sqrt(std::max(0.0, variance));
 }
 
-// What is left of them when one meet is let go: given that its planes may miss each other.
+// Conditions the other multipliers on the release of one meet.
 void let_go(Multipliers& exact, const Meet& meet) {
     const Eigen::Index first = meet.first, count = meet.apart.cols();
     Eigen::MatrixXd& v = exact.covariance;
@@ -148,7 +148,7 @@ void let_go(Multipliers& exact, const Meet& meet) {
     v.middleCols(first, count).setZero();
 }
 
-// V^-1 is the covariance of misses: v in [1 / told, 1 / free].
+// V^-1 is the covariance of misses, so V is in [1 / told, 1 / free].
 void set_score(const Multipliers& exact, const Meet& meet, MeetFinding& finding) {
     const Eigen::Index k = meet.apart.cols();
     const Eigen::VectorXd pull = exact.values.segment(meet.first, k);
@@ -161,7 +161,7 @@ void set_score(const Multipliers& exact, const Meet& meet, MeetFinding& finding)
     finding.tested = test.tested;
 }
 
-// Every exact meet by itself; then forward selection among them.
+// Tests every exact meet by itself, then by forward selection.
 void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double level,
                       double least_chi2, std::vector<MeetFinding>& findings) {
     std::vector<std::size_t> held;
@@ -172,7 +172,7 @@ void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double 
     for (bool is_first = true;; is_first = false) {
         for (const std::size_t m : held) set_score(exact, meets[m], now[m]);
         if (is_first) findings = now;
-        // Of several beyond the reach of p the larger statistic.
+        // Among several whose p is rounded to zero, the larger statistic.
         const auto worst = std::min_element(held.begin(), held.end(), [&](auto a, auto b) {
             return std::pair(now[a].p, -now[a].chi2) < std::pair(now[b].p, -now[b].chi2);
         });
@@ -186,7 +186,7 @@ void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double 
     }
 }
 
-// How far each plane passes a fixed place: the point's own motion drops out of U'.
+// How far each plane passes a fixed place. The point's own motion drops out of U'.
 std::vector<Quantity> heights_of(const Shape& shape, const Meet& meet) {
     const Vec3 at = shape.points[std::size_t(meet.point)];
     std::vector<Quantity> heights;
@@ -200,7 +200,7 @@ std::vector<Quantity> heights_of(const Shape& shape, const Meet& meet) {
     return heights;
 }
 
-// A soft or released meet, by the misses that came out.
+// Tests a soft or released meet by its actual misses.
 void test_misses(const Shape& shape, const Covariance& all, const Meet& meet,
                  MeetFinding& finding) {
     const std::vector<Quantity> heights = heights_of(shape, meet);

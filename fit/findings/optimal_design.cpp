@@ -19,16 +19,16 @@ namespace {
 
 using Kind = ReadingKind;
 
-constexpr std::size_t k_tried = 80;  // of the most uncertain candidates, in full
+constexpr std::size_t k_tried = 80;  // most promising candidates, evaluated in full
 constexpr std::size_t k_proposed = 5;
-// Of a large stone about so many edges are tried: each costs solutions of its own.
+// About so many edges of a large stone are tried, because each costs linear solutions.
 constexpr std::size_t k_most_edges = 600;
 // Directions of widths, over half a turn.
 constexpr int k_directions = 16;
-// Supposed when no reading like it was made: radians, half diameters, and of the volume.
+// Used if no similar reading was taken: radians, half diameters, and part of the volume.
 constexpr double k_angle_sigma = radians(0.1), k_length_sigma = 0.002, k_volume_sigma = 0.002;
 
-// A reading that was not made, as a linear function of the unknowns; in the scale of the fit.
+// A reading that was not taken, as a linear function of the unknowns; in the scale of the fit.
 struct Candidate {
     NextReading reading;
     FunctionRow function;
@@ -71,7 +71,7 @@ private:
     std::vector<int> tier_of_;
 };
 
-// Inside the fit: the median of the readings of some kinds, or else `none`.
+// Median sigma of readings of these kinds, in the scale of the fit, or else `none`.
 double Candidates::usual_sigma(const std::set<Kind>& kinds, double none) const {
     std::vector<double> sigmas;
     for (const Reading& r : model_.readings()) {
@@ -81,7 +81,7 @@ double Candidates::usual_sigma(const std::set<Kind>& kinds, double none) const {
     return sigmas.empty() ? none : upper_median(std::move(sigmas));
 }
 
-// `unit`: of the reading, in that of the fit.
+// `unit` converts from the scale of the fit to the reading's unit.
 void Candidates::put(Kind kind, std::vector<std::string> of, const std::string& group,
                      const Formula& formula, double sigma, double unit) {
     all.push_back({{kind, std::move(of), sigma * unit},
@@ -102,7 +102,7 @@ void Candidates::add_facet_angles() {
     }
 }
 
-// Whoever has read most of the stone may have a microscope with a scale; at the bench nobody has.
+// Only someone who has read most of the stone may have a microscope with a scale.
 void Candidates::add_edges() {
     const bool were_read = std::any_of(model_.readings().begin(), model_.readings().end(),
                                        [](const Reading& r) { return r.kind == Kind::edge; });
@@ -160,7 +160,7 @@ void sort_by(std::vector<Candidate>& candidates, const Value& value) {  // the l
                      [&](const auto& a, const auto& b) { return value(a) > value(b); });
 }
 
-// Of a facet's tilts and offset, squared and summed over all facets: what `part` makes of each.
+// Sums `part` over both tilts and the offset of all facets.
 template <typename Part>
 double sum_over_facets(const Shape& shape, const Part& part) {
     const Layout layout = layout_of(shape);
@@ -177,12 +177,12 @@ double sum_over_facets(const Shape& shape, const Part& part) {
     return sum;
 }
 
-// The most uncertain, but some of every kind and tier: their reach differs.
+// The most promising, at most two of every kind and tier, because their reach differs.
 std::vector<Candidate> most_promising(std::vector<Candidate> all, const Covariance& covariance) {
     for (Candidate& c : all) {
         c.variance = covariance.total_variance(c.function);
         const double squares = c.function.squaredNorm();
-        // None where readings say so little that the variance is no number.
+        // Skip if the readings say so little that the variance is not finite.
         if (!std::isfinite(c.variance) || !(c.variance > 0) || !(squares > 0)) continue;
         c.promise = c.variance * (c.variance / (c.sigma * c.sigma + c.variance)) / squares;
     }
@@ -212,7 +212,7 @@ std::vector<NextReading> next_readings(const FitModel& model, const Shape& shape
         });
         const double share = drop / (c.sigma * c.sigma + c.variance) / total;
         c.reading.reduces = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
-        // Tighter than what the mesh says, where only the mesh said something.
+        // It must be tighter than the mesh, and the mesh must have given most of the variance.
         const double open = covariance.rank_defect() > 0 ? covariance.open_variance(c.function) : 0;
         c.reading.closes = open > 4 * c.sigma * c.sigma && open > 0.5 * c.variance;
     }

@@ -14,10 +14,10 @@ namespace culet {
 
 namespace {
 
-// Shapes further than this from a symmetry of their form (root mean square of corners, half
-// diameter 1) were not meant to have it: a round stone is off by 1 %, an oval of 1.2 to 1 by 9 %.
+// Shapes further from a symmetry of their form were not meant to have it (root mean square of
+// corners, half diameter 1): a round stone is off by 1 %, an oval of 1.2 to 1 by 9 %.
 constexpr double k_near_form = 0.05;
-// A direction is told from the next best when it is this much better.
+// Part of the total scatter by which the axis must be better than the next direction.
 constexpr double k_least_gap = 1e-3;
 
 std::string tier_name(const Solid& solid, const std::vector<FacetTier>& drawn,
@@ -31,7 +31,7 @@ std::string tier_name(const Solid& solid, const std::vector<FacetTier>& drawn,
     return name(facets.front()) + ".." + name(facets.back());
 }
 
-// One tier's part of the scatter matrix, about the mean of its normals or about nothing.
+// One tier's part of the scatter matrix, about the mean of its normals or about zero.
 struct Part {
     Part(const Shape& shape, const std::vector<int>& of, bool about_mean) : facets(of) {
         for (const int f : facets) {
@@ -59,17 +59,17 @@ double trace_of(const glm::dmat3& s) {
     return s[0][0] + s[1][1] + s[2][2];
 }
 
-// The least direction of scatter is told from the next.
+// True if the direction of least scatter is distinct from the next.
 bool has_axis(const std::vector<Part>& parts) {
     double total = 0;
     for (const Part& part : parts) total += trace_of(part.matrix);
-    // The second least eigenvalue over the sum: by the trace of the pseudo-inverse.
+    // The trace of the pseudo-inverse gives the second smallest eigenvalue.
     const double inverse = trace_of(axis_of(parts).pseudo_inverse);
     return total > 0 && inverse > 0 && 1 / inverse > k_least_gap * total;
 }
 
-// One over the variance of a tier's inclinations about an axis. The floor of a variance is what the
-// readings know of it: equal facets of a design would otherwise get weights without bound.
+// Weights are 1 / variance of a tier's inclinations about an axis. The variance has a floor,
+// because equal facets of a design would otherwise get unbounded weights.
 void weigh_about(const Vec3& axis, const Shape& shape, std::vector<Part>& parts) {
     double pooled = 0, count = 0;
     std::vector<double> squares, sines;
@@ -84,8 +84,7 @@ void weigh_about(const Vec3& axis, const Shape& shape, std::vector<Part>& parts)
         pooled += squares.back();
         count += double(part.facets.size());
     }
-    // Half a tier's worth of the common variance steadies small tiers; a millionth of a degree,
-    // perfect ones.
+    // Half of the pooled variance stabilises small tiers; a millionth of a degree, perfect ones.
     pooled /= std::max(1.0, count - double(parts.size()) - 2);
     for (std::size_t t = 0; t < parts.size(); ++t) {
         const double n = double(parts[t].facets.size());
@@ -105,14 +104,14 @@ LeastEigenvector weighted_axis(const Shape& shape, std::vector<Part>& parts) {
     return least;
 }
 
-// The axis' component along a direction normal to it, as a function of the facets' normals.
+// The axis's component along a perpendicular direction, as a function of the facets' normals.
 Quantity component_of(const LeastEigenvector& axis, const Shape& shape,
                       const std::vector<Part>& parts, const Vec3& along) {
     const Vec3 back = axis.pseudo_inverse * along;
     Quantity q;
     for (const Part& part : parts) {
         for (const int f : part.facets) {
-            // d(a) = -(S - l)^+ dS a; the means' own motion drops out.
+            // d(a) = -(S - l)^+ dS a; the motion of the means drops out.
             const Vec3 d = shape.normals[f] - part.mean;
             q.add(
                 Quantity::By::normal, f,
@@ -126,8 +125,8 @@ Quantity component_of(const LeastEigenvector& axis, const Shape& shape,
 
 AxisGroup form_group(const FitModel& model, const Shape& shape) {
     const std::vector<Automorphism> all = automorphisms(model.stone().solid);
-    // Corners where their planes come nearest to each other: points of meets that were let go may
-    // lie anywhere.
+    // Corners are the points nearest to their planes, because points of released meets may be
+    // anywhere.
     std::vector<Vec3> points;
     for (std::size_t v = 0; v < model.stone().solid.vertices.size(); ++v) {
         glm::dmat3 normals(0.0);

@@ -48,7 +48,7 @@ PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
         d.add(Quantity::By::offset, facet, 1.0);
         quantities.insert(quantities.end(), {a, b, d});
         const Eigen::Index row = Eigen::Index(3 * f);
-        // An axis turned by a small w sees the stone turned by -w.
+        // Relative to an axis turned by a small w, the stone turns by -w.
         const std::array<Vec3, 2> turns{east, north};
         for (Eigen::Index k = 0; k < 2; ++k) {
             const Vec3 change = -glm::cross(turns[std::size_t(k)], n);
@@ -59,7 +59,7 @@ PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
     }
     c.rows = Eigen::MatrixXd(writer.functions(quantities));
     if (estimate.axis.known) {
-        // The axis itself moves with the facets: towards east by a turn about north.
+        // The axis moves with the facets: towards east by a turn about north.
         const Eigen::MatrixXd moves = writer.functions(estimate.across);
         c.rows += c.placement.col(1) * moves.row(0) - c.placement.col(0) * moves.row(1);
     }
@@ -91,13 +91,13 @@ SymmetricModel symmetric_model(const PolarCoordinates& c, const AxisGroup& group
             model.deviations(row) = c.across[first][0];
             model.deviations(row + 1) = c.across[first][1];
             if (group.order > 1) continue;
-            // In a mirror alone it may lean within the plane.
+            // With a mirror alone it may lean within the plane.
             Eigen::VectorXd& lean = columns.emplace_back(none);
             lean(row) = std::cos(group.plane);
             lean(row + 1) = std::sin(group.plane);
             continue;
         }
-        // Facets that lie in a mirror have its azimuth, or stand opposite; others their own.
+        // Facets in a mirror have its azimuth or the opposite one; others have their own.
         const bool is_own = orbit.own_mirror < 0;
         const double in_plane = group.plane + 0.5 * orbit.mirror.steps * step;
         const double azimuth0 =

@@ -28,7 +28,7 @@ PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
 
 /// `deviations` are the coordinates less those of the nearest stone of the group at a first guess.
 /// `columns` are their derivatives by the parameters of such stones (what each orbit shares, and
-/// the mirror planes' azimuth). Rows of facets without coordinates are zero.
+/// the mirror planes' azimuth).
 struct SymmetricModel {
     Eigen::VectorXd deviations;
     Eigen::MatrixXd columns;

@@ -22,10 +22,9 @@ namespace {
 
 using Shapes = ShapeFinding::Kind;
 
-// Half diameters. Longer edges are no news. What is less sure than half a half diameter, or in area
-// than a tenth of its square, is simply not known.
+// Half diameters. Longer edges are not reported; a length or area with a larger sigma is unknown.
 constexpr double k_short_edge = 0.05, k_unknown_length = 0.5, k_unknown_area = 0.1;
-// Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
+// Half diameters: a held facet narrower than this has vanished (holding leaves 1e-7).
 constexpr double k_shut = 1e-5;
 
 // An edge's two sides, then the facets beyond its ends.
@@ -40,7 +39,7 @@ std::vector<std::string> names_of(const FitModel& model, const Edge& edge) {
     return names;
 }
 
-// Whether holding a corner below a facet keeps this edge, which ends at both, from turning over.
+// True if holding this corner below its facet keeps the edge between them from reversing.
 bool keeps_open(const FitModel& model, const Edge& edge, const ActiveCorner& corner) {
     const auto& [facet, point] = corner;
     if (edge.from != point && edge.to != point) return false;
@@ -62,7 +61,7 @@ public:
     std::vector<ShapeFinding> take() { return std::move(found_); }
 
 private:
-    // `unit`: of value and sigma.
+    // `unit` converts value and sigma to the result's unit.
     void add(Shapes kind, std::vector<std::string> facets, double unit, double value, double sigma,
              double p = 1);
     std::string words(const ShapeFinding& finding) const;
@@ -105,12 +104,12 @@ void OpenShape::add(Shapes kind, std::vector<std::string> facets, double unit, d
     found_.push_back(std::move(finding));
 }
 
-// Corners held below the facet at the other end of an edge keep the edge from turning round. Let
-// go, it would be as long as the readings want it.
+// Corners held below the facet at the other end of an edge keep the edge from reversing. Released,
+// it would get the length that the readings ask for.
 void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
                                     const Covariance& let_go) {
-    // Of an edge both ends may be held, which is one condition said twice: they are let go
-    // together. A corner of an edge of length l lies l times the slope below the far facet.
+    // An edge may be held at both ends, which is one condition twice: both are released together. A
+    // corner of an edge of length l is l times the slope below the far facet.
     std::vector<std::pair<const Edge*, Eigen::VectorXd>> edges;
     for (const Edge& edge : model_.edges().edges) {
         const Vec3 across = glm::cross(shape_.normals[std::size_t(edge.left)],
@@ -128,17 +127,17 @@ void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
     if (edges.empty()) return;
     std::vector<Quantity> heights;
     for (const auto& [facet, point] : held) heights.push_back(height(facet, Corner{point})(shape_));
-    // As they lie they hold.
+    // They hold, so their residuals are zero.
     const Multipliers multipliers =
         multipliers_of(let_go, let_go.linear().writer.functions(heights),
                        Eigen::VectorXd::Zero(Eigen::Index(held.size())));
     for (const auto& [edge, slopes] : edges) {
         const double pull = slopes.dot(multipliers.values);
         const double information = slopes.dot(multipliers.covariance * slopes);
-        // Drawn apart, or pulled so loosely that rounding decides: not what shapes the stone.
+        // Skip edges that are pulled open, or so weakly that rounding errors decide.
         if (!std::isfinite(pull) || !std::isfinite(information)) continue;
         if (!(pull > 0) || !(information > 4)) continue;
-        // One-sided: only a wish for less than nothing counts.
+        // One-sided: only a negative length counts.
         add(Shapes::edge_vanishes, names_of(model_, *edge), model_.frame().scale(),
             -pull / information, 1 / std::sqrt(information),
             0.5 * std::erfc(pull / std::sqrt(2 * information)));
@@ -169,8 +168,8 @@ bool OpenShape::is_held(std::size_t facet, const std::vector<ActiveCorner>& held
     });
 }
 
-// A facet whose outline is shut by the held corners has vanished, unless it is shut at no loss: it
-// may as well be there. One that is as small without being held is as small as the readings say.
+// A facet closed by held corners has vanished, unless that costs nothing: then it may exist. One
+// that is as small without being held is as small as the readings say.
 void OpenShape::add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis) {
     const double unit = model_.frame().scale() * model_.frame().scale();
     const bool at_a_loss = result_.findings.vanishing_edges.empty() || are_edges_denied(result_);

@@ -11,9 +11,9 @@ namespace culet {
 
 namespace {
 
-constexpr std::size_t k_named = 4;  // of a longer list the first ones are named
+constexpr std::size_t k_named = 4;  // names shown of a longer list
 
-// What chi-square says, in the readings' own measure.
+// Chi-square in the readings' own measure.
 std::string misfit_words(const FitStatistics& statistics) {
     return fmt::format(
         "{:.2f} times as far off as their sigmas say (chi-square {:.1f}; {:.1f} expected, up to "
@@ -28,7 +28,7 @@ bool is_left_out(const FitResult& result, const std::string& id) {
     });
 }
 
-// Of the fit with what the first check doubts, and without.
+// Compares the fits with and without the doubted readings.
 std::string without_doubted(const FitResult& result) {
     const bool one = result.findings.doubts.size() == 1;
     std::string figures;
@@ -47,7 +47,6 @@ std::string without_doubted(const FitResult& result) {
         agrees ? "the other readings agree with this stone" : "even so the others do not agree");
 }
 
-// Whether the readings agree.
 std::string verdict(const FitResult& result) {
     const FitStatistics& statistics = result.statistics;
     const std::string why = result.message + ".";
@@ -90,7 +89,7 @@ std::string calipers(const FitResult& result) {
             : "");
 }
 
-// Which facets rest on readings, and what is supposed of the others.
+// Which facets rest on readings, and what the prior assumes of the others.
 std::string supposed(const FitResult& result) {
     const PriorReport& prior = result.statistics.prior;
     if (prior.source == Prior::Source::none) return {};
@@ -105,7 +104,7 @@ std::string supposed(const FitResult& result) {
         degrees(prior.tier_angle), degrees(prior.facet_angle));
 }
 
-// Beside a prior the readings decide whether planes meet: the mesh shows that they do not.
+// With a prior the readings decide whether planes meet; the mesh shows it if they do not.
 std::string missed_meets(const FitResult& result) {
     const MeetReport& meets = result.statistics.meets;
     if (result.statistics.prior.source == Prior::Source::none || !meets.estimated) return {};
@@ -115,7 +114,7 @@ std::string missed_meets(const FitResult& result) {
         meets.sigma, name_of(result.unit));
 }
 
-// By how far the normal may be off.
+// How far the normals may be off.
 std::string least_sure(const FitResult& result) {
     std::vector<std::pair<double, std::string>> sigmas;
     for (const FittedFacet& facet : result.facets) {
@@ -167,7 +166,7 @@ std::string doubtful(const FitResult& result) {
     return words.empty() ? "" : fmt::format("Look again at {}.", name_list(words, k_named));
 }
 
-// Only where no single reading explains the contradiction.
+// Only if no single reading explains the contradiction.
 std::string disagreeing(const FitResult& result) {
     if (result.findings.disagreeing.empty() || !result.findings.suspects.empty()) return {};
     return fmt::format(
@@ -176,7 +175,7 @@ std::string disagreeing(const FitResult& result) {
 }
 
 std::string unchecked(const FitResult& result) {
-    // Beside a prior few are: each is held against its tier instead.
+    // With a prior few are checked: each is compared with its tier instead.
     if (result.statistics.prior.source != Prior::Source::none) return {};
     std::vector<std::string> ids;
     for (const FittedReading& r : result.readings) {
@@ -189,7 +188,7 @@ std::string unchecked(const FitResult& result) {
                        ids.size(), result.readings.size(), name_list(ids, k_named));
 }
 
-// The table need not lie square to the stone: angles from it then differ around the stone.
+// If the table leans, angles from it differ around the stone.
 std::string own_axis(const FitResult& result) {
     const OwnAxis& axis = result.findings.own_axis;
     const double sigma = std::hypot(axis.sigma, axis.scatter_sigma);
@@ -203,7 +202,7 @@ std::string own_axis(const FitResult& result) {
 std::string next_reading(const FitResult& result) {
     if (result.findings.help.empty()) return {};
     const NextReading& best = result.findings.help.front();
-    // A tenth of the variance is five per cent of the uncertainty: less is not worth the work.
+    // A tenth of the variance is 5 % of the uncertainty; less is not worth the work.
     if (!best.closes && best.reduces < 0.1) return {};
     return fmt::format("What would help most: {} ({}).", bench_words(best),
                        best.closes ? "it would settle something that is open"
@@ -219,18 +218,18 @@ std::vector<std::string> fit_summary(const FitResult& result) {
     const auto add = [&](const std::string& sentence) {
         if (!sentence.empty()) sentences.push_back(sentence_of(sentence));
     };
-    // As many as one reads.
+    // At most `k_named` of them.
     const auto add_some = [&](const std::vector<std::string>& found) {
         for (std::size_t i = 0; i < found.size() && i < k_named; ++i) add(found[i]);
         if (found.size() > k_named)
             add(fmt::format("And {} more of these", found.size() - k_named));
     };
-    // As they are: they begin with a file's name.
+    // Unchanged, because they begin with a file name.
     for (const std::string& doubt : findings.doubts) sentences.push_back(doubt + ".");
     const std::string first = verdict(result);
     add(first);
     for (const std::string& note : result.log.notes) {
-        // The verdict may have said so already.
+        // The verdict may contain it already.
         if (first.find(note) == std::string::npos) add(note);
     }
     for (const std::string& change : result.log.changes) add("changed: " + change);
@@ -246,7 +245,7 @@ std::vector<std::string> fit_summary(const FitResult& result) {
     }
     add(doubtful(result));
     add(disagreeing(result));
-    // Open edges are common and follow from the sigmas; what the readings deny is news.
+    // Open edges are common and follow from the sigmas; denied ones are news.
     std::vector<std::string> meets, shapes;
     for (const MeetFinding& meet : findings.meets) {
         if (meet.contradicted && !meet.advice.empty()) meets.push_back(meet.advice);

@@ -19,18 +19,18 @@ namespace culet {
 
 namespace {
 
-// Dense algebra on three numbers a facet; beyond this it would take minutes.
+// Above this, dense algebra on three numbers a facet would take minutes.
 constexpr std::size_t k_most_facets = 700;
-// Told by the readings: better than half of the half diameter.
+// Variance: the readings determine a condition to half of the half diameter.
 constexpr double k_told_variance = 0.25;
-// Exact by other conditions.
+// Variance: a condition is exact by other ones.
 constexpr double k_exact = 1e-18;
-// Tested at least to this part, a group counts as determined.
+// Part of the conditions that must be tested to make a group determined.
 constexpr double k_enough = 0.5;
-// A column that is less than this across the others repeats them.
+// A column with a smaller part outside the others repeats them.
 constexpr double k_repeats = 1e-6;
 
-// How many conditions symmetry puts on a shape whose meets are exact: edges less their orbits.
+// Conditions that symmetry puts on a shape with exact meets: edges less their orbits.
 int edge_conditions(const FitModel& model, const AxisGroup& group) {
     std::set<std::pair<int, int>> seen;
     int orbits = 0;
@@ -44,7 +44,7 @@ int edge_conditions(const FitModel& model, const AxisGroup& group) {
     return static_cast<int>(model.edges().edges.size()) - orbits;
 }
 
-// Orthonormal columns for the range of a matrix: at most `most`, none below `least`.
+// Orthonormal columns for the range of a matrix: at most `most`, with pivots above `least`.
 Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least, Eigen::Index most) {
     if (matrix.size() == 0) return Eigen::MatrixXd(matrix.rows(), 0);
     const PivotedQr qr(matrix);
@@ -54,14 +54,14 @@ Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least, Eigen::Ind
     return qr.first(rank);
 }
 
-// What is told of a stone's planes: three coordinates a facet (polar_coordinates.h), their
-// covariance, and what meets leave open of them, whatever was read (`reach_of`).
+// What is known of a stone's planes: three coordinates a facet (polar_coordinates.h), their
+// covariance, and what meets leave free, whatever was read (`reach_of`).
 struct Told {
     PolarCoordinates coordinates;
     Eigen::MatrixXd covariance, reach;
 };
 
-// Chi-square of the ways in which the stone misses the group's symmetry, however it is placed.
+// Chi-square of the deviations from the group's symmetry, for the best placement.
 GroupTest test_group(const FitModel& model, const AxisGroup& group, const Told& told,
                      double level) {
     GroupTest test;
@@ -74,8 +74,8 @@ GroupTest test_group(const FitModel& model, const AxisGroup& group, const Told& 
                          symmetric.columns.cols() + told.coordinates.placement.cols());
     kept << symmetric.columns, told.coordinates.placement;
     kept = range_of(kept, k_repeats, kept.cols());
-    // Of stones whose meets hold the number of ways is known: what little asymmetry there is in the
-    // fitted shape would show as more.
+    // With exact meets the number of ways is known; small asymmetries of the fitted shape would
+    // seem to add more.
     const Eigen::MatrixXd ways =
         range_of(without_span(told.reach, kept), k_repeats,
                  model.meets().splits ? told.reach.cols() : edge_conditions(model, group));
@@ -107,8 +107,8 @@ Directions directions_of(const std::vector<int>& facets, const SymmetricModel& s
             covariance(rows, rows)};
 }
 
-// But for those that are zero because the frame or exact conditions make them so (the table's, from
-// which all else is read): they say nothing of how far a stone is from symmetric.
+// Without contrasts that are zero because of the frame or exact conditions (those of the table,
+// from which all else is measured): they say nothing about symmetry.
 Contrasts free_contrasts(const Directions& directions) {
     const Contrasts all =
         contrasts_of(directions.deviations, directions.covariance, directions.columns);
@@ -122,7 +122,7 @@ Contrasts free_contrasts(const Directions& directions) {
     return free;
 }
 
-// Where all is held, symmetric it is.
+// If everything is exact, the stone is symmetric.
 VarianceComponent spread_of(const Contrasts& free) {
     return free.values.empty() ? VarianceComponent() : variance_component(free);
 }
@@ -166,7 +166,7 @@ TierSymmetry test_tier(const FitModel& model, const FacetOrbit& orbit,
     return tier;
 }
 
-// Why a form's symmetry is not looked for; empty: it is.
+// Why symmetry is not tested; empty if it is.
 std::string cannot_be_tested(const Shape& shape, const Covariance& all) {
     if (shape.normals.size() > k_most_facets) {
         return fmt::format(
@@ -182,7 +182,7 @@ std::string in_degrees(double angle) {
     return fmt::format("{:.2g}", degrees(angle));
 }
 
-// What a group says in a stone file.
+// The group as readings of a stone file.
 std::vector<std::string> readings_for(const GroupTest& test, const std::string& how) {
     std::vector<std::string> readings;
     if (test.order > 1) {
@@ -195,7 +195,7 @@ std::vector<std::string> readings_for(const GroupTest& test, const std::string& 
     return readings;
 }
 
-// Sets `proposed`, `message` and `readings` by the tests of groups.
+// Sets `proposed`, `message` and `readings` from the tests.
 void conclude(SymmetryReport& report) {
     const GroupTest& form = report.groups.front();
     const auto proposed =
@@ -251,12 +251,12 @@ SymmetryReport symmetry_of(const FitModel& model, const Shape& shape, const Cova
     SymmetricModel symmetric = symmetric_model(told.coordinates, form);
     std::vector<int> alike;
     for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
-        // A single facet is unlike nothing, unless turns must leave it level.
+        // A single facet has nothing to match, unless rotations must leave it level.
         if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
         report.tiers.push_back(test_tier(model, orbit, symmetric, told.covariance, tiers));
         alike.insert(alike.end(), orbit.facets.begin(), orbit.facets.end());
     }
-    // Together: a tier alone may be symmetric about an axis of its own.
+    // All tiers together: one alone may be symmetric about an axis of its own.
     const Eigen::Index placed = told.coordinates.placement.cols();
     symmetric.columns.conservativeResize(Eigen::NoChange, symmetric.columns.cols() + placed);
     symmetric.columns.rightCols(placed) = told.coordinates.placement;

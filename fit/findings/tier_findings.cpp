@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// A sentence is worth saying where chance would say it once in a hundred tiers.
+// Chance produces a finding once in a hundred tiers.
 constexpr double k_level = 0.01;
 constexpr std::size_t k_fewest = 3;
 
@@ -47,7 +47,7 @@ double log_choices(std::size_t n, std::size_t k) {
 }
 
 struct Split {
-    std::size_t from = 0, to = 0;  ///< those that stand out, of the sorted list
+    std::size_t from = 0, to = 0;  ///< range of the sorted list that stands out
     double off = 0, sigma = 0, p = 1;
 };
 
@@ -62,7 +62,7 @@ Split best_split(const std::vector<Read>& reads, std::size_t most) {
             const Mean rest = upper ? mean_of(reads, 0, from) : mean_of(reads, to, n);
             const double off = few.value - rest.value;
             const double sigma = std::hypot(few.sigma(), rest.sigma());
-            // Both ends, every choice of k.
+            // Counts both ends and every choice of k.
             const double tail = chi2_tail(off * off / (sigma * sigma), 1);
             const double p = std::min(1.0, tail * std::exp(log_choices(n, k)));
             if (p < best.p) best = {from, to, off, sigma, p};
@@ -96,7 +96,7 @@ std::vector<Read> reads_of(const NamedTier& tier, const Stone& stone,
             std::find(tier.facets.begin(), tier.facets.end(), r.facets[0]) == tier.facets.end()) {
             continue;
         }
-        // One value for a whole tier does not tell its facets apart.
+        // One value for a whole tier does not distinguish its facets.
         if (r.line > 0 && rows[{r.file.string(), r.line}] > 1) continue;
         by_facet[r.facets[0]].add(r.value, 1 / (sigma * sigma));
     }
@@ -112,7 +112,7 @@ std::vector<Read> reads_of(const NamedTier& tier, const Stone& stone,
 
 std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
     const bool one = odd.facets.size() == 1;
-    // A finding is no surer than the digits that it is told with.
+    // Show as many digits as sigma allows.
     const double off = degrees(std::abs(odd.off)), sigma = degrees(odd.sigma);
     const int digits = sigma < 0.05 ? 2 : 1;
     return fmt::format("{} {} {:.{}f} degrees (+- {:.{}f}) {} than the other {}",
@@ -120,9 +120,9 @@ std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
                        odd.off > 0 ? "steeper" : "flatter", tier.words);
 }
 
-// Whether the drawing tells that these were meant to be like the others: it has not itself the
-// difference that was read (more than it scatters by, and nearer to that than to none); and it is
-// drawn finely enough to show such a difference, or a name confirms the tier.
+// True if the drawing shows that these were meant to be like the others. It must not have the
+// difference that was read (beyond its scatter, and nearer to it than to none), and it must be fine
+// enough to show one, unless a name confirms the tier.
 bool were_meant_alike(const std::vector<Read>& reads, const Split& split, const NamedTier& tier) {
     constexpr double k_surely = 2;
     Mean few, rest, few_read, rest_read;
@@ -141,7 +141,7 @@ void find_odd(const Stone& stone, std::vector<Read> reads, const NamedTier& tier
               NamedTierFinding& finding) {
     std::sort(reads.begin(), reads.end(),
               [](const Read& a, const Read& b) { return a.off < b.off; });
-    // Less than half may stand out, or nobody knows from what.
+    // Fewer than half may stand out, else it is unclear from what.
     std::size_t left = (reads.size() - 1) / 2;
     while (left > 0 && reads.size() >= k_fewest) {
         const Split split = best_split(reads, left);

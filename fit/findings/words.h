@@ -20,7 +20,7 @@ double file_unit(ReadingKind kind);
 /// `; 33.8? (two digits swapped)`; empty if no slip explains the reading.
 std::string slip_words(const Proposal& proposal);
 
-/// In micrometres if small and the unit is known to be larger.
+/// In micrometres below a millimetre, else in `unit`.
 std::string length_words(double value, LengthUnit unit);
 
 /// Adds a capital at the beginning and a full stop at the end.
