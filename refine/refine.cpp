@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-// Facets off by 0.3 degrees move reflexes by 0.01 to 0.03 diameters, so pictures are blurred by as
+// Facets off by 0.3 degrees move reflexes by 0.01 to 0.03 diameters: pictures are blurred by as
 // much at first. The last rounds only settle.
 struct Round {
     double blur;  // in diameters
@@ -50,7 +50,7 @@ auto of_photograph(const std::string& name, const Work& work) {
     }
 }
 
-// How far each move of the solid's facets (three a facet) may still be off, according to the fit.
+// How far each of a facet's three moves may still be off, according to the fit.
 std::vector<double> spreads(const FitResult& fit) {
     std::vector<double> result;
     const std::vector<FacetMoves> moves = moves_of(fit.solid);
@@ -73,8 +73,7 @@ std::vector<double> spreads(const FitResult& fit) {
     return result;
 }
 
-// Maps the evidence from the fitted solid's facets to those of the fit's list, with sigmas larger
-// by the factor `inflation`.
+// From the fitted solid's facets to the fit's list, with sigmas larger by `inflation`.
 PlaneObservations knowledge_of(const PlaneEvidence& evidence, const FitResult& fit,
                                double inflation) {
     PlaneObservations knowledge;
@@ -95,7 +94,7 @@ PlaneObservations knowledge_of(const PlaneEvidence& evidence, const FitResult& f
     return knowledge;
 }
 
-// Sum of squared distances of the observations from the fitted planes, and their redundancy.
+// Squared distances of the observations from the fitted planes, and redundancy.
 struct Misfit {
     double squares = 0, redundancy = 0;
 };
@@ -140,7 +139,6 @@ double root_mean_square(const std::vector<double>& values) {
     return std::sqrt(squares / double(std::max<std::size_t>(1, values.size())));
 }
 
-// One photograph and its evidence.
 struct Witness {
     const RefinePhotograph* given = nullptr;
     PhotographEvidence evidence;
@@ -250,8 +248,7 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
             misfit.squares += own.squares;
             misfit.redundancy += own.redundancy;
         }
-        // For the next round, from how far photographs and readings contradict each other in this
-        // one.
+        // For the next round: how far photographs and readings contradict each other in this one.
         if (misfit.redundancy > 0)
             inflation = std::max(1.0, inflation * std::sqrt(misfit.squares / misfit.redundancy));
     }

@@ -4,10 +4,9 @@
 //
 // A photograph of a faceted stone shows hundreds of reflexes, which move by several times the angle
 // by which a facet turns. The program draws how each facet's small turns and shift change the
-// picture; together with the photograph's difference from the picture this gives plane observations
-// (compare/refine). The fit takes them as one more reading with its uncertainty. Reflexes move
-// linearly only over short distances, so this is repeated from the resulting stone, with blurred
-// pictures first.
+// picture; compared with the photograph, this gives plane observations (compare/refine), one more
+// reading for the fit. Reflexes move linearly only over short distances, so this is repeated from
+// the resulting stone, with blurred pictures first.
 
 #include <string>
 #include <vector>
@@ -41,9 +40,9 @@ struct RefineResult {
 std::vector<std::string> photograph_words(const std::string& name,
                                           const PhotographFinding& finding);
 
-/// `scene` has the light of the photographs, the material, and a camera near theirs; its stone is
-/// replaced. Throws InputError with the photograph's name if it cannot be used, and otherwise as
-/// `fit_stone` does.
+/// `scene` has the photographs' light, the material, and a camera near theirs; its stone is
+/// replaced. Throws InputError with a photograph's name if it cannot be used, and as `fit_stone`
+/// does.
 RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& photographs,
                     const Scene& scene, const RefineOptions& options = {},
                     const Progress& progress = {});

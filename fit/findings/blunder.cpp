@@ -21,7 +21,6 @@ constexpr double k_trust = 3.5;
 
 Proposal proposal_for(const Reading& reading, double estimate, double sigma, double part_missed) {
     Proposal proposal{reading.id, is_angle(reading.kind), estimate, sigma, {}, 0, {}};
-    // Slips happen in the units of files.
     const double unit = file_unit(reading.kind);
     const double both = std::hypot(sigma, reading.sigma), within = k_trust * both;
     if (is_relation(reading.kind) || !(within < part_missed * std::abs(reading.value - estimate))) {

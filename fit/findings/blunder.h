@@ -1,6 +1,6 @@
 #pragma once
-// Restores readings that the fit left out to its result, with the value that they should have and
-// the slip that explains them. Private to the room.
+// Restores left-out readings to a result, with their estimated values and slips. Private to the
+// room.
 
 #include <vector>
 
@@ -8,28 +8,25 @@
 
 namespace culet {
 
-/// What a reading should have been. Adds the slip of the pen that would explain the value written,
-/// if one does within the sigmas, and if these are at most `part_missed` of the error that it
-/// explains.
+/// What a reading should have been, and the slip that explains the value written, if one does
+/// within 3.5 sigmas and these are less than `part_missed` of the error.
 Proposal proposal_for(const Reading& reading, double estimate, double sigma,
                       double part_missed = 1);
 
 /// A reading as it was taken, without anything from the fit.
 FittedReading as_taken(const Reading& reading);
 
-/// Restores the azimuths of level facets to the result of a fit without them, marked as left out.
+/// Restores azimuths of level facets, marked as left out, to the result of a fit without them.
 void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
                   FitResult& result);
 
-/// A reading that was left out, with its proposal.
 FittedReading left_out(const Reading& reading, const Proposal& proposal, const char* why);
 
-/// Makes these the first suspects. The status becomes `contradictory` at best, and the message
-/// begins with `told`.
+/// Makes these the first suspects. The status becomes `contradictory` at best; the message begins
+/// with `told`.
 void accuse(const std::vector<Proposal>& proposals, const std::string& told, FitResult& result);
 
-/// Accuses a reading that the others contradict, with the value that they suggest. `result` comes
-/// from a fit without it; the reading is listed all the same.
+/// Accuses a reading that the others contradict, in the result of a fit without its weight.
 void flag_blunder(const Reading& wrong, double estimate, double sigma, FitResult& result);
 
 }  // namespace culet

@@ -16,14 +16,13 @@ namespace culet {
 
 namespace {
 
-// Half diameters: step of central differences. Rounding errors leave 1e-9 of a slope; outline edges
-// shorter than this have no slope.
+// Half diameters: step of central differences. Rounding leaves 1e-9 of a slope; shorter edges have
+// no slope.
 constexpr double k_step = 1e-7;
 
 using Corners = std::vector<int>;  // of the outline
 
-// The corners that determine the size of a cut. While they stay the same, its lengths are smooth
-// functions of their positions.
+// The corners that determine a cut's size. While they stay the same, its lengths are smooth.
 struct Cut {
     Corners hull;                         // in plan, counter-clockwise
     std::array<int, 2> jaw{};             // ends of the hull's edge at one jaw of the least width
@@ -169,7 +168,6 @@ std::vector<CutQuantity> lengths_of(const Cut& cut, const std::vector<Vec3>& at,
     return all;
 }
 
-// The same with derivatives.
 std::vector<CutQuantity> lengths_of(const FitModel& model, const Shape& shape,
                                     const Outline& outline) {
     std::vector<Vec3> at;

@@ -62,7 +62,6 @@ void describe_axis(const FitModel& model, const Shape& shape, const Frame::Pose&
     }
     if (axis.known) {
         const Vec3 inside = axis.direction;
-        // Directions transform like plane normals.
         axis.direction = model.frame().outside_plane({inside, 0}, pose).normal;
         axis.azimuth = outside_azimuth(inside, pose);
     }
@@ -70,8 +69,7 @@ void describe_axis(const FitModel& model, const Shape& shape, const Frame::Pose&
     result.findings.own_axis = std::move(axis);
 }
 
-// The most chi-square that one suspect explains, if a few of them explain the contradiction (the
-// simpler explanation); else 0.
+// The most chi-square that one suspect explains, if a few explain the contradiction; else 0.
 double explained_by_readings(const FitResult& result) {
     double explained = 0, largest = 0;
     for (const FittedReading& r : result.readings) {
@@ -100,8 +98,7 @@ void describe_meets(const FitModel& model, const Shape& shape, const Covariance&
     }
 }
 
-// Held corners as exact equations at their present heights. An edge held at both ends gives one
-// equation, because the other repeats it.
+// Held corners as exact equations at their present heights; one for an edge held at both ends.
 std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
                                     const std::vector<ActiveCorner>& held) {
     std::vector<Equation> conditions;
@@ -121,8 +118,7 @@ std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
     return conditions;
 }
 
-// One sentence for each tier and kind of parameter: `nothing measured fixes the azimuth of crown
-// facet S3`.
+// One sentence for each tier and kind of parameter.
 std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape,
                                        const std::vector<Undetermined>& undetermined) {
     if (undetermined.empty()) return {};
@@ -130,7 +126,6 @@ std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape
     // From the mesh's form, because facet numbers do not tell tiers.
     const std::vector<FacetTier> tiers = culet::tiers_of(mesh, model.stone().up);
     const std::vector<int> tier_of = tier_of_each(tiers, mesh.facets.size());
-    // Tiers in the order of their first appearance.
     std::vector<std::pair<int, std::string>> order;
     std::map<std::pair<int, std::string>, std::vector<std::string>> groups;
     for (const Undetermined& u : undetermined) {
@@ -158,8 +153,7 @@ std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape
 void propose(const FitModel& model, const Diagnosis& diagnosis, FitFindings& findings) {
     const auto reading = [&](int r) -> const Reading& { return model.readings()[std::size_t(r)]; };
     for (const Suspicion& s : diagnosis.suspicions) {
-        // The other readings may be wrong too, so a slip must leave little of the error
-        // unexplained.
+        // The others may be wrong too: a slip must leave little of the error unexplained.
         constexpr double k_part_missed = 0.25;
         Proposal proposal = proposal_for(reading(s.reading), s.estimate, s.sigma, k_part_missed);
         for (const int other : s.alternatives) proposal.alternatives.push_back(reading(other).id);
@@ -168,7 +162,6 @@ void propose(const FitModel& model, const Diagnosis& diagnosis, FitFindings& fin
     for (const int r : diagnosis.disagreeing) findings.disagreeing.push_back(reading(r).id);
 }
 
-// Proportions, undetermined parameters, and what to read next.
 void describe_whole(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
                     FitFindings& findings) {
     const Covariance& covariance = *diagnosis.covariance;

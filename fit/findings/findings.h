@@ -1,8 +1,6 @@
 #pragma once
-// What a fit finds out besides the stone's shape: proportions, proposals for suspect readings,
-// readings to take next, the stone's own axis and tiers, contradicted meets, topology and symmetry.
-// Plain data. Angles are in radians, lengths in the stone's unit, directions in the frame of the
-// fitted solid.
+// What a fit finds out besides the shape. Plain data: angles in radians, lengths in the stone's
+// unit, directions in the frame of the fitted solid.
 
 #include <string>
 #include <vector>
@@ -12,7 +10,7 @@
 
 namespace culet {
 
-/// A proportion of the cut (see cut_quantities.h for the definitions).
+/// A proportion of the cut (cut_quantities.h).
 struct FittedProportion {
     std::string name, unit;  ///< unit: %, deg, mm3, ct, the stone's length unit, or empty
     double value = 0, sigma = 0;
@@ -37,8 +35,8 @@ struct Proposal {
     std::vector<std::string> alternatives;  ///< ids that would explain the misfit as well
 };
 
-/// The axis about which the facets of each tier are most alike. It belongs to the stone itself and
-/// does not depend on the facet from which angles are measured.
+/// The axis about which the facets of each tier are most alike, whatever facet angles are measured
+/// from.
 struct OwnAxis {
     bool known = false;
     std::string basis;  ///< `tiers` or `girdle`; or why there is no axis
@@ -109,26 +107,24 @@ struct ShapeFinding {
 };
 const char* name_of(ShapeFinding::Kind kind);
 
-/// One symmetry group, tested with the readings.
 struct GroupTest {
     std::string group;  ///< C8v, C4, Cs, ...
     int order = 1;
     bool mirrors = false;
     double mirror_azimuth = 0;  ///< of one mirror plane's normal, as in `mirror` readings
-    int conditions = 0;         ///< conditions that the symmetry puts on the shape
-    int tested = 0;             ///< how many of them the readings determine at all
+    int conditions = 0;         ///< that the symmetry puts on the shape
+    int tested = 0;             ///< of them, that the readings determine at all
     double chi2 = 0, p = 1;
     bool supported = false;   ///< tested, and not rejected at the significance level
     bool determined = false;  ///< at least half of the conditions are tested
 };
 
-/// How far the facets of one tier are from symmetric.
 struct TierSymmetry {
     std::string tier;
     std::vector<std::string> facets;
     double deviation = 0;  ///< root mean square angle from the symmetric direction; radians
     /// Standard deviation of the true directions about symmetry, without the readings' errors; its
-    /// own standard uncertainty; its upper limit with 95 % confidence.
+    /// standard uncertainty; its upper limit with 95 % confidence.
     double sigma = 0, sigma_sigma = 0, at_most = 0;
     double p = 1;          ///< chance of such deviations if the tier is exactly symmetric
     std::string worst;     ///< the facet that deviates most
@@ -141,9 +137,9 @@ struct SymmetryReport {
     std::string message;   ///< in one line
     std::vector<GroupTest> groups;    ///< the largest first
     std::vector<TierSymmetry> tiers;  ///< under the form's group
-    /// Of all tiers together, for "n-fold within sigma degrees".
+    /// Of all tiers, for "n-fold within sigma degrees".
     double sigma = 0, sigma_sigma = 0;
-    /// Readings that would declare the proposed symmetry, as lines of a stone file.
+    /// Readings for a stone file that declare the proposed symmetry.
     std::vector<std::string> readings;
 };
 

@@ -19,17 +19,16 @@ namespace {
 
 using Kind = ReadingKind;
 
-// Sigmas beyond which a reading is doubted: of 40 correct readings with normal errors, one in 3 700
-// sets has one. Real errors have longer tails, so the tolerances below are wide.
+// Sigmas that make a reading doubtful. One of 3 700 sets of 40 correct readings with normal errors
+// has one; tolerances are wide, since real errors have longer tails.
 constexpr double k_doubted = 4.5;
-// A common slip lowers this limit, if it leads to within `k_explained` sigmas of the expected
-// value.
+// The same with a common slip that leads to within `k_explained` sigmas of the expected value.
 constexpr double k_doubted_with_slip = 3.5, k_explained = 2;
 // Two others that differ do not tell which of them is wrong.
 constexpr std::size_t k_fewest_others = 2;
 
-// How much correct readings differ (docs/measuring.md): radians, and logarithms of lengths. A mesh
-// drawn by hand allows more.
+// How much correct readings differ (docs/measuring.md): radians, and logarithms of lengths; more
+// beside a mesh drawn by hand.
 struct Tolerances {
     explicit Tolerances(bool is_design) : from_mesh(radians(is_design ? 1 : 3)) {
         if (is_design) return;
@@ -39,7 +38,7 @@ struct Tolerances {
     double widths = 0.007, tables = 0.01, depth = 0.03, table = 0.04, volume = 0.06, lengths = 0.04;
 };
 
-// The expected value of a row, the sigma of a correct one, and its origin in words.
+// Expected value and sigma of a row, and their origin in words.
 struct Expected {
     double value = 0, sigma = 0;
     std::string by;
@@ -125,8 +124,8 @@ Expected FirstCheck::inclination_of(const CheckedRow& own) const {
     for (const CheckedRow& r : rows_) {
         if (is_sister(r)) values.push_back(r.value);
     }
-    // Facets of a tier are equal or differ as drawn: take what the row agrees with better. Then an
-    // odd facet of a design is no slip, and a rough drawing of equal facets makes none.
+    // Facets of a tier are equal or differ as drawn, whichever suits the row: so an odd facet of a
+    // design is no slip, and a rough drawing of equal facets makes none.
     const Expected alike = beside(values, honest_.sisters);
     Expected as_drawn = beside(off_mesh, honest_.sisters);
     as_drawn.value = own.at(as_drawn.value);
@@ -239,8 +238,8 @@ std::vector<Doubt> FirstCheck::doubts() {
     return std::move(doubts_);
 }
 
-// The fit without the reading gives a better estimate than the first check. For several facets,
-// their largest sigma is an upper limit of that of the mean.
+// The fit without the reading knows its value better. The largest sigma of several facets is an
+// upper limit of that of their mean.
 Proposal ask_the_fit(const Reading& r, const FitResult& result, const Doubt& doubt) {
     const Proposal first{
         r.id, is_angle(r.kind), doubt.expected, doubt.sigma, doubt.slip, doubt.corrected, {}};

@@ -1,7 +1,6 @@
 #pragma once
-// Checks readings before the fit: against other readings of their tier, the mesh, and what any
-// stone can have. This finds slips of the pen without redundancy, before they bend the fit. The
-// method is in docs/fitting.md, "Findings".
+// Checks readings before the fit: against their tier, the mesh, and what any stone can have. Finds
+// slips of the pen without redundancy, before they bend the fit (docs/fitting.md, "Findings").
 
 #include <string>
 #include <vector>
@@ -10,7 +9,7 @@
 
 namespace culet {
 
-/// A reading that is far from similar readings.
+/// A reading that is far from similar ones.
 struct Doubt {
     std::size_t reading = 0;  ///< index
     double expected = 0;      ///< in the reading's unit (radians, length, mm3, carat)
@@ -22,15 +21,13 @@ struct Doubt {
     std::string what;  ///< one line for people, beginning with file and line; without the slip
 };
 
-/// The readings that cannot be right, the most certain first. Readings of one row of a file are
-/// doubted together. `is_design`: the mesh has the proportions of the design the stone was cut
-/// after; a mesh drawn by hand is trusted less.
+/// Returns doubtful readings, the most certain first; those of one row of a file together.
+/// `is_design`: the mesh has the design's proportions; one drawn by hand is trusted less.
 std::vector<Doubt> first_check(const Stone& stone, const std::vector<Reading>& readings,
                                bool is_design);
 
-/// Lists the doubted readings as first suspects in the result of a fit without them. The status
-/// becomes `contradictory` at best. The expected inclination, and the slip that explains the
-/// reading, come from the fit.
+/// Lists doubted readings as first suspects in the result of a fit without them. The status becomes
+/// `contradictory` at best. Expected inclinations and their slips come from the fit.
 void restore_doubted(const std::vector<Reading>& readings, std::vector<Doubt> doubts,
                      FitResult& result);
 

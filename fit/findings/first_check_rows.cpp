@@ -87,8 +87,8 @@ double half_turn(double angle) {
     return std::remainder(angle, 2 * std::numbers::pi);
 }
 
-// Azimuths count from a mark of their own, at the median of their differences from the mesh. If
-// they do not agree on it, they are not checked.
+// Azimuths count from their own mark: the median difference from the mesh. They are not checked if
+// they do not agree on it.
 void turn_azimuths(std::vector<CheckedRow>& rows) {
     std::vector<double> off;
     for (CheckedRow& row : rows) {

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of readings that the first check compares with the mesh. Private to the room.
+// Rows of readings beside the mesh, for the first check. Private to the room.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace culet {
 
-/// A number that was written once, with its value in the mesh. Inclinations of one row of a file
-/// form one; every other reading is a row of its own.
+/// A number that was written once, beside its value in the mesh: the inclinations of one row of a
+/// file, or any other reading.
 struct CheckedRow {
     std::vector<std::size_t> readings;
     ReadingKind kind = ReadingKind::inclination;
@@ -25,7 +25,6 @@ struct CheckedRow {
     double at(double off) const;
 };
 
-/// Rows for all readings that the mesh can check, in their order.
 std::vector<CheckedRow> checked_rows(const Stone& stone, const std::vector<Reading>& readings,
                                      const Vec3& up, const std::vector<NamedTier>& tiers);
 
@@ -36,8 +35,8 @@ double robust_sigma(const std::vector<double>& values);
 /// `33.7 to 33.9`, from radians.
 std::string range_of(const std::vector<double>& values);
 
-/// Doubts all rows of a tier that is off the mesh as a whole, if none of them is odd by itself.
-/// `from_mesh` is how far a tier is expected to be off.
+/// Doubts all rows of a tier that is off the mesh as a whole, if none is odd by itself.
+/// `from_mesh`: how far a tier is expected to be off.
 void check_tiers(const std::vector<Reading>& readings, const std::vector<CheckedRow>& rows,
                  const std::vector<NamedTier>& tiers, double from_mesh, std::vector<Doubt>& doubts);
 

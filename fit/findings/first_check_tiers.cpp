@@ -13,9 +13,9 @@ namespace culet {
 
 namespace {
 
-// Significance over all tiers of a set; stricter than for one reading, since a tier is rarely typed
-// wrong. It is relaxed if the value is another tier's: where six tiers share 30 degrees, one angle
-// in eight is within 0.3 degrees of another tier's by chance.
+// Significance over all tiers, stricter than for readings: a tier is rarely typed wrong. It is
+// relaxed for the value of another tier, since where six tiers share 30 degrees, one angle in eight
+// is within 0.3 degrees of another tier's by chance.
 constexpr double k_tier_level = 0.001, k_level_of_another = 0.008;
 constexpr double k_alike = radians(0.3);
 // With fewer other tiers nobody knows how far this stone's tiers are off the mesh.
@@ -30,8 +30,8 @@ struct TierRead {
     double value = 0, mesh = 0, off = 0;  ///< means; `off`: what its readings agree on
 };
 
-// The median; of an even number, the middle value nearer to the mesh: if one of two readings is
-// off, the slip is in that one, not in both.
+// The median; of an even number, the middle value nearer to the mesh: with two readings, the one
+// that is off has the slip.
 double agreed(std::vector<double> off) {
     std::sort(off.begin(), off.end());
     const double low = off[(off.size() - 1) / 2], high = off[off.size() / 2];
@@ -135,9 +135,9 @@ void check_tiers(const std::vector<Reading>& readings, const std::vector<Checked
     std::stable_sort(
         farthest_first.begin(), farthest_first.end(),
         [](const TierRead* a, const TierRead* b) { return std::abs(a->off) > std::abs(b->off); });
-    // If the pavilion's angles were written into the crown's rows, several tiers are wrong and hide
-    // each other. So, from half of the tiers down, the least deviating of `count` tiers is compared
-    // with those nearer to the mesh (Rosner 1983).
+    // With the pavilion's angles in the crown's rows, several tiers are wrong and hide each other.
+    // So the least deviating of `count` tiers is compared with those nearer to the mesh, from half
+    // of the tiers down (Rosner 1983).
     for (std::size_t count = all.size() / 2; count > 0; --count) {
         const Others others = others_of(
             {farthest_first.begin() + std::ptrdiff_t(count), farthest_first.end()}, from_mesh);

@@ -46,7 +46,6 @@ void describe_meets(const FitModel& model, const Shape& shape, FitResult& result
     }
 }
 
-// The result's solid: corners from the fit, or the intersection of the planes.
 std::vector<std::string> make_solid(const FitModel& model, const Shape& shape,
                                     const Frame::Pose& pose, FitResult& result) {
     std::vector<std::string> missing;
@@ -88,7 +87,7 @@ void fill_in_facets(const FitModel& model, const Shape& shape, const Diagnosis& 
     result.facet_covariance = diagnosis.facet_covariance;
     const std::size_t size = 3 * result.facets.size();
     for (std::size_t i = 0; i < result.facet_covariance.size(); ++i) {
-        // Offsets are the third of each facet's three parameters.
+        // Offsets are the third of each facet's parameters.
         if (i / size % 3 == 2) result.facet_covariance[i] *= model.frame().scale();
         if (i % size % 3 == 2) result.facet_covariance[i] *= model.frame().scale();
     }

@@ -9,17 +9,15 @@
 
 namespace culet {
 
-/// Fills in the solid (corners from the fit, or the intersection of the planes), its faults, all
-/// facets and all readings. `as_read` has the readings with their given sigmas; `weights` are those
-/// of a robust loss, or empty.
+/// As in describe.h.
 void fill_in(const FitModel& model, const std::vector<Reading>& as_read, const Shape& shape,
              const Diagnosis& diagnosis, const Frame::Pose& pose,
              const std::vector<double>& weights, FitResult& result);
 
-/// A reading as it was taken, without anything from the fit.
+/// As in blunder.h.
 FittedReading as_taken(const Reading& reading);
 
-/// Restores these readings to the result of a fit without them, marked as left out.
+/// As in blunder.h.
 void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
                   FitResult& result);
 

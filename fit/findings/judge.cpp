@@ -93,7 +93,6 @@ std::string in_the_way(const Solid& solid) {
     return text;
 }
 
-// No stone has the mesh's topology and these readings.
 MaybeVerdict denied_topology(const Fit& fit) {
     if (!fit.result.checks.missing_facets.empty()) {
         return no_stone("the fitted planes leave no room for facet " +
@@ -139,7 +138,7 @@ MaybeVerdict unsound_solid(const Fit& fit) {
 }
 
 MaybeVerdict unsettled(const Fit& fit) {
-    // Checked before convergence, because steps creep next to an edge without length.
+    // Before convergence, because steps creep next to an edge without length.
     for (const ShapeFinding& f : fit.result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < fit.level) {
             return Verdict{FitStatus::contradictory, f.what + "; allow the topology to change"};
@@ -183,8 +182,8 @@ MaybeVerdict undetermined(const Fit& fit) {
                         : "next, " + bench_words(fit.result.findings.help[0]))};
 }
 
-// Readings that agree better than their sigmas allow: the lower tail of chi-square. Not with a
-// prior, where readings count with more than their sigmas (count_beside_prior).
+// The lower tail of chi-square. Not with a prior, where readings count with more than their sigmas
+// (count_beside_prior).
 std::string too_good(const Fit& fit) {
     const FitStatistics& statistics = fit.result.statistics;
     if (fit.result.log.options.prior.source != Prior::Source::none) return {};
@@ -200,7 +199,7 @@ std::string too_good(const Fit& fit) {
         statistics.chi2, statistics.dof, 1 / fit.level);
 }
 
-// The most serious first: later ones mean nothing if an earlier one applies.
+// The most serious first: later ones mean nothing beside an earlier one.
 Verdict verdict_on(const Fit& fit) {
     for (const auto& verdict : {exact_contradiction, denied_topology, unsound_solid, unsettled,
                                 disagreement, undetermined}) {

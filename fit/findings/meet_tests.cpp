@@ -14,11 +14,10 @@ namespace culet {
 
 namespace {
 
-// Variances. A miss is tested if the readings determine it to better than half of the half
-// diameter, and if other exact conditions leave it more than rounding error.
+// Variances. A miss is tested if the readings determine it to half of the half diameter, and other
+// exact conditions leave it more than rounding error.
 constexpr double k_told = 0.25, k_free = 1e-18;
 
-// One meet: its incidences, and the directions in which its planes can miss each other.
 struct Meet {
     int point = -1;
     MeetTreatment how = MeetTreatment::exact;
@@ -43,8 +42,7 @@ void find_ways_apart(const Shape& shape, Meet& meet) {
     meet.apart = q.rightCols(count - 3);
 }
 
-// A meet whose images under an exact symmetry hold cannot be tested: its planes are images of
-// theirs.
+// A meet with images under an exact symmetry cannot be tested: its planes are images of theirs.
 std::vector<bool> held_by_images(const FitModel& model) {
     const Parameters parameters = model.parameters();
     std::vector<bool> held;
@@ -161,7 +159,6 @@ void set_score(const Multipliers& exact, const Meet& meet, MeetFinding& finding)
     finding.tested = test.tested;
 }
 
-// Tests every exact meet by itself, then by forward selection.
 void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double level,
                       double least_chi2, std::vector<MeetFinding>& findings) {
     std::vector<std::size_t> held;
@@ -200,7 +197,6 @@ std::vector<Quantity> heights_of(const Shape& shape, const Meet& meet) {
     return heights;
 }
 
-// Tests a soft or released meet by its actual misses.
 void test_misses(const Shape& shape, const Covariance& all, const Meet& meet,
                  MeetFinding& finding) {
     const std::vector<Quantity> heights = heights_of(shape, meet);

@@ -21,14 +21,14 @@ using Kind = ReadingKind;
 
 constexpr std::size_t k_tried = 80;  // most promising candidates, evaluated in full
 constexpr std::size_t k_proposed = 5;
-// About so many edges of a large stone are tried, because each costs linear solutions.
+// Edges of a large stone that are tried, about: each costs linear solutions.
 constexpr std::size_t k_most_edges = 600;
 // Directions of widths, over half a turn.
 constexpr int k_directions = 16;
 // Used if no similar reading was taken: radians, half diameters, and part of the volume.
 constexpr double k_angle_sigma = radians(0.1), k_length_sigma = 0.002, k_volume_sigma = 0.002;
 
-// A reading that was not taken, as a linear function of the unknowns; in the scale of the fit.
+// A reading that was not taken, linear in the unknowns; in the scale of the fit.
 struct Candidate {
     NextReading reading;
     FunctionRow function;
@@ -71,7 +71,7 @@ private:
     std::vector<int> tier_of_;
 };
 
-// Median sigma of readings of these kinds, in the scale of the fit, or else `none`.
+// Median sigma of readings of these kinds in the scale of the fit, or `none`.
 double Candidates::usual_sigma(const std::set<Kind>& kinds, double none) const {
     std::vector<double> sigmas;
     for (const Reading& r : model_.readings()) {
@@ -182,7 +182,7 @@ std::vector<Candidate> most_promising(std::vector<Candidate> all, const Covarian
     for (Candidate& c : all) {
         c.variance = covariance.total_variance(c.function);
         const double squares = c.function.squaredNorm();
-        // Skip if the readings say so little that the variance is not finite.
+        // Too few readings make the variance infinite.
         if (!std::isfinite(c.variance) || !(c.variance > 0) || !(squares > 0)) continue;
         c.promise = c.variance * (c.variance / (c.sigma * c.sigma + c.variance)) / squares;
     }

@@ -14,8 +14,8 @@ namespace culet {
 
 namespace {
 
-// Shapes further from a symmetry of their form were not meant to have it (root mean square of
-// corners, half diameter 1): a round stone is off by 1 %, an oval of 1.2 to 1 by 9 %.
+// Shapes further from a symmetry were not meant to have it (root mean square of corners, half
+// diameter 1): a round stone is off by 1 %, an oval of 1.2 to 1 by 9 %.
 constexpr double k_near_form = 0.05;
 // Part of the total scatter by which the axis must be better than the next direction.
 constexpr double k_least_gap = 1e-3;
@@ -31,7 +31,7 @@ std::string tier_name(const Solid& solid, const std::vector<FacetTier>& drawn,
     return name(facets.front()) + ".." + name(facets.back());
 }
 
-// One tier's part of the scatter matrix, about the mean of its normals or about zero.
+// One tier's scatter matrix, about the mean of its normals or about zero.
 struct Part {
     Part(const Shape& shape, const std::vector<int>& of, bool about_mean) : facets(of) {
         for (const int f : facets) {
@@ -59,7 +59,7 @@ double trace_of(const glm::dmat3& s) {
     return s[0][0] + s[1][1] + s[2][2];
 }
 
-// True if the direction of least scatter is distinct from the next.
+// True if the direction of least scatter is distinct.
 bool has_axis(const std::vector<Part>& parts) {
     double total = 0;
     for (const Part& part : parts) total += trace_of(part.matrix);
@@ -68,8 +68,8 @@ bool has_axis(const std::vector<Part>& parts) {
     return total > 0 && inverse > 0 && 1 / inverse > k_least_gap * total;
 }
 
-// Weights are 1 / variance of a tier's inclinations about an axis. The variance has a floor,
-// because equal facets of a design would otherwise get unbounded weights.
+// Weights 1 / variance of a tier's inclinations about an axis, with a floor: equal facets of a
+// design would get unbounded weights.
 void weigh_about(const Vec3& axis, const Shape& shape, std::vector<Part>& parts) {
     double pooled = 0, count = 0;
     std::vector<double> squares, sines;
@@ -92,7 +92,6 @@ void weigh_about(const Vec3& axis, const Shape& shape, std::vector<Part>& parts)
     }
 }
 
-// Iteratively reweighted least squares.
 LeastEigenvector weighted_axis(const Shape& shape, std::vector<Part>& parts) {
     LeastEigenvector least = axis_of(parts);
     for (int round = 0; round < 30; ++round) {
@@ -104,7 +103,7 @@ LeastEigenvector weighted_axis(const Shape& shape, std::vector<Part>& parts) {
     return least;
 }
 
-// The axis's component along a perpendicular direction, as a function of the facets' normals.
+// The axis's component along a perpendicular, as a function of the facets' normals.
 Quantity component_of(const LeastEigenvector& axis, const Shape& shape,
                       const std::vector<Part>& parts, const Vec3& along) {
     const Vec3 back = axis.pseudo_inverse * along;
@@ -125,8 +124,7 @@ Quantity component_of(const LeastEigenvector& axis, const Shape& shape,
 
 AxisGroup form_group(const FitModel& model, const Shape& shape) {
     const std::vector<Automorphism> all = automorphisms(model.stone().solid);
-    // Corners are the points nearest to their planes, because points of released meets may be
-    // anywhere.
+    // Corners are the points nearest to their planes: points of released meets may be anywhere.
     std::vector<Vec3> points;
     for (std::size_t v = 0; v < model.stone().solid.vertices.size(); ++v) {
         glm::dmat3 normals(0.0);

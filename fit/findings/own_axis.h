@@ -1,7 +1,6 @@
 #pragma once
-// The stone's own best axis. If the table was polished 0.8 degrees askew, equal pavilion facets
-// read unequal angles from it; about the axis that makes the tiers most alike they are equal again.
-// Private to the room.
+// The stone's own best axis. From a table polished 0.8 degrees askew, equal pavilion facets read
+// unequal angles; about this axis they are equal again. Private to the room.
 
 #include <vector>
 
@@ -11,20 +10,18 @@
 
 namespace culet {
 
-/// Orbits of two or more facets under the form's symmetry, with the girdle's, as far as the shape
-/// comes near to it (within 5 % of the half diameter).
+/// Orbits of two or more facets, the girdle's included, under the form's symmetry.
 std::vector<Tier> tiers_of(const FitModel& model, const Shape& shape, const AxisGroup& group);
 
-/// The symmetry of the form, as far as the shape comes near to it.
+/// The symmetry of the form, if the shape is near to it (within 5 % of the half diameter).
 AxisGroup form_group(const FitModel& model, const Shape& shape);
 
 /// In the frame and scale of the fit. The direction a minimises
-///     sum over tiers w_t / sin^2(i_t) sum over facets (n_k . a - mean of n . a)^2,
-/// and is the eigenvector of the smallest eigenvalue of a 3 x 3 matrix. w_t = 1 / variance of the
-/// tier's inclinations about a, by iterative reweighting: so a tier that is askew (the stars about
-/// a tilted table) does not pull at it. If the form has less than two-fold rotation, a is the
-/// direction with the smallest components along the girdle's normals. If `covariance` is null,
-/// sigmas are infinite.
+///     sum over tiers w_t / sin^2(i_t) sum over facets (n_k . a - mean of n . a)^2
+/// (smallest eigenvalue of a 3 x 3 matrix). w_t = 1 / variance of the tier's inclinations about a,
+/// by iterative reweighting, so that a tier that is askew (the stars about a tilted table) does not
+/// pull. Without at least two-fold rotation in the form, a is the direction with the smallest
+/// components along the girdle's normals. If `covariance` is null, sigmas are infinite.
 struct AxisEstimate {
     OwnAxis axis;                        ///< up, if the axis is not known
     Vec3 east{1, 0, 0}, north{0, 1, 0};  ///< across the axis; azimuths begin where those about up

@@ -1,6 +1,6 @@
 #pragma once
-// The coordinates in which symmetric facets are alike: polar angle, azimuth and distance about the
-// stone's own axis. Private to the room.
+// Polar angle, azimuth and distance about the stone's own axis, in which symmetric facets are
+// alike. Private to the room.
 
 #include <Eigen/Core>
 #include <string>
@@ -12,9 +12,9 @@
 
 namespace culet {
 
-/// Three numbers a facet, in the scale of the fit: angle from the axis; azimuth times the sine of
-/// that angle (so both are angles on the sphere of directions); distance from the middle. For a
-/// level facet (within 3 degrees), the first two are its normal's components across the axis.
+/// Three numbers a facet, in the scale of the fit: angle from the axis; azimuth times its sine
+/// (both are angles on the sphere of directions); distance from the middle. For a level facet
+/// (within 3 degrees) the first two are its normal's components across the axis.
 struct PolarCoordinates {
     std::vector<double> polar, azimuth, distance, sine;
     std::vector<std::array<double, 2>> across;
@@ -26,9 +26,9 @@ struct PolarCoordinates {
 PolarCoordinates polar_coordinates(const FitModel& model, const Shape& shape,
                                    const RowWriter& writer, const std::vector<Tier>& tiers);
 
-/// `deviations` are the coordinates less those of the nearest stone of the group at a first guess.
-/// `columns` are their derivatives by the parameters of such stones (what each orbit shares, and
-/// the mirror planes' azimuth).
+/// `deviations`: coordinates less those of the nearest stone of the group at a first guess.
+/// `columns`: derivatives by the parameters of such stones (what each orbit shares, the mirror
+/// planes' azimuth).
 struct SymmetricModel {
     Eigen::VectorXd deviations;
     Eigen::MatrixXd columns;

@@ -1,5 +1,5 @@
 #pragma once
-// The result of a fit: the stone, each facet and reading with its uncertainty, and the findings.
+// The result of a fit: the stone, its facets and readings with uncertainties, and the findings.
 
 #include <optional>
 #include <string>
@@ -30,8 +30,8 @@ struct FittedFacet {
     double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
-    /// The part of each parameter that comes from readings; the rest comes from the prior. 1 - the
-    /// variance over that of the prior alone; 1 without a prior.
+    /// Part of each parameter that comes from readings instead of the prior: 1 - the variance over
+    /// that of the prior alone; 1 without a prior.
     double read_inclination = 1, read_azimuth = 1, read_offset = 1;
     double area = 0;  ///< of the facet in the result; 0 if it is missing
     double sigma_area = 0;
@@ -91,14 +91,12 @@ struct PriorReport {
     double tier_angle = 0, facet_angle = 0, tier_offset = 0, facet_offset = 0;  ///< estimated
 };
 
-/// Checks of the fitted solid against what a stone must be.
 struct SolidChecks {
     double planarity_max = 0;  ///< largest distance of a corner from one of its facets
     bool closed = false, convex = false;
     std::vector<std::string> missing_facets;  ///< of the mesh, if the planes leave no room for them
 };
 
-/// How well all readings agree together.
 struct FitStatistics {
     /// With a prior: of the readings alone; one value for several facets counts once.
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
@@ -109,19 +107,17 @@ struct FitStatistics {
     PriorReport prior;
 };
 
-/// What the fit found out about the readings and the stone.
 struct FitFindings {
     std::vector<std::string> suspects;  ///< ids, the worst first
     std::vector<Proposal> proposals;    ///< for the suspects
-    /// Readings left out because they are far from similar ones, one line each (first_check.h).
+    /// Readings left out because they are far from similar ones, a line each (first_check.h).
     std::vector<std::string> doubts;
-    /// An irreducible inconsistent set: readings that contradict each other, while the others agree
-    /// if any one of these is left out.
+    /// An irreducible inconsistent set: the readings agree if any one of these is left out.
     std::vector<std::string> disagreeing;
     std::vector<Undetermined> undetermined;
     std::vector<std::string> undetermined_words;  ///< undetermined parameters, one sentence each
     std::vector<NextReading> help;  ///< the most useful further readings, the best first
-    /// Edges to which the readings give no length, as `A/B`. The fit keeps them at almost none.
+    /// Edges to which the readings give no length, as `A/B`; the fit keeps them at almost none.
     std::vector<std::string> vanishing_edges;
     double vanishing_chi2 = 0;  ///< the chi-square that keeping them costs
     std::vector<FittedProportion> proportions;
@@ -136,7 +132,6 @@ struct FitFindings {
 /// `Change::what` of readings that a fit leaves out.
 inline constexpr const char* k_readings_left_out = "readings left out";
 
-/// How the fit got to its result.
 struct FitLog {
     FitOptions options;  ///< as asked for; the prior as it was used
     int starts = 0;      ///< starts tried
@@ -144,8 +139,8 @@ struct FitLog {
     /// How the mesh was changed before the fit: turned, scaled, ...
     std::vector<std::string> notes;
     std::vector<std::string> changes;  ///< of the topology, in their order
-    /// Changes to what was given: to the mesh, and to the problem where the fit is better with them
-    /// by the same measure.
+    /// Changes to the mesh, and to the problem where the fit is better with them by the same
+    /// measure.
     std::vector<Change> changed;
     int iterations = 0;
     double seconds = 0;
@@ -161,14 +156,13 @@ struct FitResult {
     SolidChecks checks;
     std::vector<FittedFacet> facets;  ///< in the mesh's order
     /// Covariance of the facets' inclinations, azimuths (radians) and offsets (`unit`), row-major,
-    /// three rows a facet in the order of `facets`. Empty if unknown or with more than 300 facets.
+    /// three rows a facet. Empty if unknown or with more than 300 facets.
     std::vector<double> facet_covariance;
     std::vector<FittedReading> readings;  ///< in their order
     FitStatistics statistics;
     FitFindings findings;
     FitLog log;
 
-    /// True if the result can be used further.
     bool usable() const { return status == FitStatus::converged; }
 };
 

@@ -104,12 +104,12 @@ void OpenShape::add(Shapes kind, std::vector<std::string> facets, double unit, d
     found_.push_back(std::move(finding));
 }
 
-// Corners held below the facet at the other end of an edge keep the edge from reversing. Released,
-// it would get the length that the readings ask for.
+// Corners held below the facet at an edge's other end keep the edge from reversing. Released, it
+// would get the length that the readings ask for.
 void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
                                     const Covariance& let_go) {
-    // An edge may be held at both ends, which is one condition twice: both are released together. A
-    // corner of an edge of length l is l times the slope below the far facet.
+    // An edge held at both ends has one condition twice: both are released together. A corner of an
+    // edge of length l is l times the slope below the far facet.
     std::vector<std::pair<const Edge*, Eigen::VectorXd>> edges;
     for (const Edge& edge : model_.edges().edges) {
         const Vec3 across = glm::cross(shape_.normals[std::size_t(edge.left)],
@@ -168,8 +168,8 @@ bool OpenShape::is_held(std::size_t facet, const std::vector<ActiveCorner>& held
     });
 }
 
-// A facet closed by held corners has vanished, unless that costs nothing: then it may exist. One
-// that is as small without being held is as small as the readings say.
+// A facet closed by held corners has vanished, unless that costs nothing: then it may exist.
+// Without held corners it is as small as the readings say.
 void OpenShape::add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis) {
     const double unit = model_.frame().scale() * model_.frame().scale();
     const bool at_a_loss = result_.findings.vanishing_edges.empty() || are_edges_denied(result_);

@@ -12,17 +12,16 @@
 
 namespace culet {
 
-/// Vanishing edges come from corners held below a neighbour facet, by their multipliers (as in
-/// `meet_tests.h`); open ones from lengths and areas below twice their standard uncertainty.
-/// `holding` is the covariance with the held corners as hard equations. `result` has the chi-square
-/// that keeping the edges costs, and receives their names.
+/// Vanishing edges come from corners held below a neighbour facet, by their multipliers
+/// (meet_tests.h); open ones from lengths and areas below twice their sigma. `holding` is the
+/// covariance with held corners as hard equations. `result` has the chi-square that keeping the
+/// edges costs, and receives their names.
 std::vector<ShapeFinding> find_open_shape(const FitModel& model, const Finished& finished,
                                           const std::vector<ActiveCorner>& held,
                                           const Diagnosis& diagnosis, const Covariance& holding,
                                           FitResult& result);
 
-/// True if chi-square, with one degree of freedom for each kept edge, rejects that these edges have
-/// a length.
+/// True if chi-square, one degree of freedom for each kept edge, rejects that they have a length.
 bool are_edges_denied(const FitResult& result);
 
 }  // namespace culet

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t k_named = 4;  // names shown of a longer list
 
-// Chi-square in the readings' own measure.
 std::string misfit_words(const FitStatistics& statistics) {
     return fmt::format(
         "{:.2f} times as far off as their sigmas say (chi-square {:.1f}; {:.1f} expected, up to "
@@ -28,7 +27,6 @@ bool is_left_out(const FitResult& result, const std::string& id) {
     });
 }
 
-// Compares the fits with and without the doubted readings.
 std::string without_doubted(const FitResult& result) {
     const bool one = result.findings.doubts.size() == 1;
     std::string figures;
@@ -104,7 +102,7 @@ std::string supposed(const FitResult& result) {
         degrees(prior.tier_angle), degrees(prior.facet_angle));
 }
 
-// With a prior the readings decide whether planes meet; the mesh shows it if they do not.
+// With a prior the readings decide whether planes meet, and the mesh shows it.
 std::string missed_meets(const FitResult& result) {
     const MeetReport& meets = result.statistics.meets;
     if (result.statistics.prior.source == Prior::Source::none || !meets.estimated) return {};
@@ -175,7 +173,7 @@ std::string disagreeing(const FitResult& result) {
 }
 
 std::string unchecked(const FitResult& result) {
-    // With a prior few are checked: each is compared with its tier instead.
+    // With a prior few are: each is compared with its tier instead.
     if (result.statistics.prior.source != Prior::Source::none) return {};
     std::vector<std::string> ids;
     for (const FittedReading& r : result.readings) {

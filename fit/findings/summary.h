@@ -8,9 +8,9 @@
 
 namespace culet {
 
-/// Plain sentences, one a line, the most important first: the verdict, how certain the facets are,
-/// readings to check and what the others say of them, undetermined parameters, meets that miss, the
-/// reading to take next. Leaves out what does not apply.
+/// Plain sentences, the most important first: the verdict, how certain facets are, readings to
+/// check and what the others say of them, undetermined parameters, meets that miss, the reading to
+/// take next. Leaves out what does not apply.
 std::vector<std::string> fit_summary(const FitResult& result);
 
 }  // namespace culet

@@ -54,8 +54,8 @@ Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least, Eigen::Ind
     return qr.first(rank);
 }
 
-// What is known of a stone's planes: three coordinates a facet (polar_coordinates.h), their
-// covariance, and what meets leave free, whatever was read (`reach_of`).
+// What is known of the planes: coordinates (polar_coordinates.h), their covariance, and what meets
+// leave free, whatever was read (`reach_of`).
 struct Told {
     PolarCoordinates coordinates;
     Eigen::MatrixXd covariance, reach;
@@ -107,8 +107,8 @@ Directions directions_of(const std::vector<int>& facets, const SymmetricModel& s
             covariance(rows, rows)};
 }
 
-// Without contrasts that are zero because of the frame or exact conditions (those of the table,
-// from which all else is measured): they say nothing about symmetry.
+// Without contrasts that the frame or exact conditions make zero (the table's, from which all else
+// is measured): they say nothing about symmetry.
 Contrasts free_contrasts(const Directions& directions) {
     const Contrasts all =
         contrasts_of(directions.deviations, directions.covariance, directions.columns);
@@ -166,7 +166,6 @@ TierSymmetry test_tier(const FitModel& model, const FacetOrbit& orbit,
     return tier;
 }
 
-// Why symmetry is not tested; empty if it is.
 std::string cannot_be_tested(const Shape& shape, const Covariance& all) {
     if (shape.normals.size() > k_most_facets) {
         return fmt::format(
@@ -182,7 +181,6 @@ std::string in_degrees(double angle) {
     return fmt::format("{:.2g}", degrees(angle));
 }
 
-// The group as readings of a stone file.
 std::vector<std::string> readings_for(const GroupTest& test, const std::string& how) {
     std::vector<std::string> readings;
     if (test.order > 1) {
@@ -195,7 +193,6 @@ std::vector<std::string> readings_for(const GroupTest& test, const std::string& 
     return readings;
 }
 
-// Sets `proposed`, `message` and `readings` from the tests.
 void conclude(SymmetryReport& report) {
     const GroupTest& form = report.groups.front();
     const auto proposed =

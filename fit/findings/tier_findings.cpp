@@ -112,7 +112,6 @@ std::vector<Read> reads_of(const NamedTier& tier, const Stone& stone,
 
 std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
     const bool one = odd.facets.size() == 1;
-    // Show as many digits as sigma allows.
     const double off = degrees(std::abs(odd.off)), sigma = degrees(odd.sigma);
     const int digits = sigma < 0.05 ? 2 : 1;
     return fmt::format("{} {} {:.{}f} degrees (+- {:.{}f}) {} than the other {}",
@@ -120,9 +119,9 @@ std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
                        odd.off > 0 ? "steeper" : "flatter", tier.words);
 }
 
-// True if the drawing shows that these were meant to be like the others. It must not have the
-// difference that was read (beyond its scatter, and nearer to it than to none), and it must be fine
-// enough to show one, unless a name confirms the tier.
+// True if these were drawn to be like the others: the mesh lacks the difference that was read
+// (beyond its scatter, and nearer to it than to none), and is fine enough to show one, unless a
+// name confirms the tier.
 bool were_meant_alike(const std::vector<Read>& reads, const Split& split, const NamedTier& tier) {
     constexpr double k_surely = 2;
     Mean few, rest, few_read, rest_read;

@@ -7,11 +7,10 @@
 
 namespace culet {
 
-/// Uses the readings alone, before any fit: for each facet the weighted mean of its own. If the
-/// mesh is a design whose tier has several angles (an oval's mains), the differences from each
-/// one's own angle are compared. Facets stand out together if the likeliest split of the tier into
-/// a majority and a few passes the significance level (Bonferroni over all splits). `left_out`
-/// readings are not used.
+/// Uses the readings alone: for each facet the weighted mean of its own. In a design whose tier has
+/// several angles (an oval's mains), differences from each one's own angle are compared. Facets
+/// stand out together if the likeliest split of the tier into a majority and a few passes the
+/// significance level (Bonferroni over all splits). `left_out` readings do not count.
 std::vector<NamedTierFinding> tier_findings(const Stone& stone,
                                             const std::vector<Reading>& readings,
                                             const std::vector<std::string>& left_out,

@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// Removes corners at which only two facets meet: they are points on an edge.
+// Corners of only two facets are points on an edge.
 bool drop_idle_corners(Solid& solid) {
     std::vector<std::set<int>> facets(solid.vertices.size());
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -76,7 +76,6 @@ Solid with_collapsed_edges(const Solid& solid, const std::vector<std::pair<int, 
         busy = drop_flat_facets(result);
         busy = drop_idle_corners(result) || busy;
     }
-    // Removes corners without facets.
     std::vector<int> renumbered(result.vertices.size(), -1);
     std::vector<Vec3> kept;
     for (Facet& facet : result.facets) {

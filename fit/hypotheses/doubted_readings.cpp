@@ -29,8 +29,6 @@ bool is_among(const std::string& id, const std::vector<Reading>& readings) {
                        [&](const Reading& r) { return r.id == id; });
 }
 
-// Readings that determine the stone check each other. They are doubted only if they contradict each
-// other and do not accuse one of the doubted alone.
 bool may_be_bent(const Problem& given, const FitResult& result, const std::vector<Doubt>& doubts) {
     if (!given.read_in_full || result.status == FitStatus::not_converged) return true;
     if (result.status != FitStatus::contradictory) return false;
@@ -51,7 +49,7 @@ double denied_by(const Reading& r, const FitResult& without) {
     return std::abs(facet.inclination - r.value) / std::hypot(facet.sigma_inclination, r.sigma);
 }
 
-// By a fit without it. Readings other than inclinations cannot be tested and count as denied.
+// Only inclinations can be tested; other readings count as denied.
 bool is_denied(const Reading& r, const FitResult& without) {
     return !is_plain_inclination(r) || denied_by(r, without) > without.statistics.suspect_limit;
 }
@@ -66,9 +64,9 @@ double rows_of(const Problem& given, const std::vector<Doubt>& doubts) {
     return static_cast<double>(rows.size());
 }
 
-// If the readings determine the prior's width, a slip widens it and misses by less: the chi-squares
-// of the two fits have different sigmas. With the first fit's sigmas, leaving out one reading
-// lowers chi-square by the square of Baarda's w, and leaving out more by no less.
+// If the readings determine the prior's width, a slip widens it, and the two fits' chi-squares have
+// different sigmas. With the first fit's, leaving out one reading lowers chi-square by the square
+// of Baarda's w, and leaving out more by no less.
 double fall_at_first_sigmas(const Problem& given, const std::vector<Doubt>& doubts,
                             const FitResult& first) {
     double most = 0;
@@ -82,9 +80,9 @@ double fall_at_first_sigmas(const Problem& given, const std::vector<Doubt>& doub
     return most;
 }
 
-// A tier that is off as a whole widens the prior until nothing misses with the first fit's sigmas.
-// With the second fit's, restoring one of its readings raises chi-square by the square of this, and
-// restoring more by no less.
+// A tier that is off as a whole widens the prior until nothing misses. With the second fit's
+// sigmas, restoring one of its readings raises chi-square by the square of this, and restoring more
+// by no less.
 double rise_at_second_sigmas(const Problem& given, const std::vector<Doubt>& doubts,
                              const FitResult& again) {
     double most = 0;
@@ -122,8 +120,8 @@ Verdict judge_doubted(const Problem& given, const Attempt& first, const Problem&
                       rise_at_second_sigmas(given, doubts, again) >
                           chi2_quantile(level / double(doubts.size()), 1);
     if (first.result.status != FitStatus::not_converged && !pays) return {};
-    // With a rough mesh, good readings are doubted: those that the others do not contradict are
-    // restored.
+    // With a rough mesh, good readings are doubted: restore those that the others do not
+    // contradict.
     std::vector<Doubt> denied = doubts;
     if (given.read_in_full) {
         std::erase_if(denied,

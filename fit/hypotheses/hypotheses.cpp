@@ -32,13 +32,9 @@ Verdict take_with_prior(const Problem&, const Attempt&, const Problem&, FitResul
 constexpr Hypothesis k_hypotheses[] = {
     // The mesh is the mirror image of the stone. First, because it makes many readings look wrong.
     {"mesh mirrored", mesh_mirrored, judge_mirrored_mesh},
-    // The readings leave parts of the stone undetermined.
     {"", with_prior, take_with_prior},
-    // The readings that the first check doubts are wrong.
     {k_readings_left_out, without_doubted, judge_doubted},
-    // All azimuths count from another mark.
     {"azimuths turned", azimuths_turned_back, judge_turned_azimuths},
-    // The first suspect is wrong.
     {"reading left out", without_first_suspect, judge_first_suspect},
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What may be wrong with a problem whose fit found no stone or contradictory readings: one list,
-// tried in order. Private to the room.
+// What may be wrong if a fit found no stone or contradictory readings: one list, tried in order.
+// Private to the room.
 
 #include <optional>
 #include <span>
@@ -9,14 +9,14 @@
 
 namespace culet {
 
-/// The verdict of a changed problem's fit on a hypothesis; empty: it does not hold.
+/// A hypothesis judged by the changed problem's fit; empty: it does not hold.
 struct Verdict {
     std::optional<FitResult> explained;  ///< result of the problem as given, with the explanation
     std::optional<Problem> next;         ///< the same hypothesis with another change
 };
 
 struct Hypothesis {
-    /// What is changed, for the report's list `changed`; empty if nothing given is changed.
+    /// For the report's list `changed`; empty if nothing given is changed.
     const char* what;
     /// The changed problem; nothing if the hypothesis does not apply.
     std::optional<Problem> (*changed)(const Problem& given, const Attempt& first);

@@ -12,7 +12,7 @@ namespace culet {
 namespace {
 
 using PutBack = std::function<void(FitResult&)>;
-// Changes the problem if it applies, and returns the function that undoes this in the result.
+// Changes the problem if it applies, and returns what undoes this in the result.
 using Preparation = std::optional<PutBack> (*)(Problem&);
 
 std::optional<PutBack> leave_level_azimuths_out(Problem& problem) {

@@ -10,12 +10,11 @@ namespace culet {
 
 struct Prepared {
     Problem problem;
-    /// To be applied to a result in this order; gives the result of the problem as given.
+    /// To be applied in this order; gives the result of the problem as given.
     std::vector<std::function<void(FitResult&)>> restored;
 };
 
-/// Leaves out azimuths of level facets, which mean nothing, and takes the stone's size from the
-/// mesh if no length was read.
+/// Leaves out azimuths of level facets, and takes the size from the mesh if no length was read.
 Prepared prepared(Problem problem);
 
 }  // namespace culet

@@ -26,8 +26,8 @@ struct Attempt {
     double work = 0;       ///< of all starts, roughly, in multiplications
 };
 
-/// Fewer starts, because a corrected problem is easily solved: two, or one if those of the first
-/// attempt were costly (a large stone, or readings that fit none).
+/// A corrected problem needs few starts: two, or one if those of the first attempt were costly (a
+/// large stone, or readings that fit none).
 Problem with_few_starts(Problem problem, const Attempt& first);
 
 /// `left_out`: indices, sorted.

@@ -58,8 +58,8 @@ bool change(TopologyStage& stage, const FitResult& result, int& released,
                 solid.facets[std::size_t(find_facet(solid, finding.facets[0]))].corners;
             if (std::any_of(loop.begin(), loop.end(), [&](int c) { return touched.count(c) > 0; }))
                 continue;
-            // Collapses the facet to the edge or point that is left of it: edges longer than a
-            // hundredth of its longest stay.
+            // Collapses the facet to an edge or a point: edges above a hundredth of its longest
+            // stay.
             double longest = 0;
             const auto length = [&](std::size_t i) {
                 const Vec3 d = result.solid.vertices[std::size_t(loop[i])] -
@@ -101,8 +101,8 @@ bool change(TopologyStage& stage, const FitResult& result, int& released,
         }
         return true;
     }
-    // One meet at a time, the worst first, because lengths read to a bad meet also accuse its
-    // neighbours. Many at once if there are more than rounds.
+    // One meet at a time, the worst first, because lengths read to it also accuse its neighbours.
+    // Many at once if there are more than rounds.
     std::vector<const MeetFinding*> bad;
     for (const MeetFinding& meet : result.findings.meets) {
         if (meet.contradicted && meet.how != "released") bad.push_back(&meet);
@@ -120,8 +120,8 @@ bool change(TopologyStage& stage, const FitResult& result, int& released,
     return !bad.empty();
 }
 
-// The shortest edges of the fitted stone, which may be flipped in the real one. A contradiction
-// need not drive an edge to zero if lengths were read that end at its corners.
+// The shortest edges, which may be flipped in the real stone. A contradiction need not drive an
+// edge to zero if lengths were read that end at its corners.
 std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
                                                 const FitResult& result) {
     const Solid &mesh = stage.stone.solid, &fitted = result.solid;
@@ -141,7 +141,6 @@ std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
     return shortest;
 }
 
-// Collapses one edge and releases the resulting meet.
 bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
             std::vector<std::string>& changes) {
     std::vector<std::string> names, sides;
@@ -168,7 +167,6 @@ bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
     return true;
 }
 
-// Restores every reading of the user to its place.
 void put_readings_back(const std::vector<Reading>& first, const TopologyStage& stage,
                        FitResult& result) {
     std::vector<FittedReading> all(first.size());
@@ -197,8 +195,7 @@ void put_readings_back(const std::vector<Reading>& first, const TopologyStage& s
     });
 }
 
-// Prefers a closed stone with all facets, then one that agrees with the readings, then one that
-// converged.
+// Prefers closed stones with all facets, then agreement with the readings, then convergence.
 bool is_better(const FitResult& a, const FitResult& b) {
     const auto rank = [](const FitResult& r) {
         return std::tuple(!r.checks.closed || !r.checks.missing_facets.empty(),

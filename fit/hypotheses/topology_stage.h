@@ -9,15 +9,14 @@
 
 namespace culet {
 
-/// The stone as it is now, and the original readings that still apply.
 struct TopologyStage {
     Stone stone;
     std::vector<Reading> readings;
     std::vector<int> origin;  ///< index among the original readings; -1: added later
 };
 
-/// Replaces the stage's solid if the changed one may be fitted; keeps the readings that still
-/// apply, and adds to `changes` what is gone. Returns whether it did.
+/// Replaces the stage's solid, unless it cannot be fitted (returns false). Keeps the readings that
+/// still apply, and adds to `changes` what is gone.
 bool change_solid(TopologyStage& stage, Solid solid, std::vector<std::string>& changes);
 
 /// A reading that releases the meet of these facets.
@@ -27,7 +26,6 @@ Reading released_meet(const TopologyStage& stage, const std::vector<std::string>
 /// All facets round the corner that these facets share.
 std::vector<std::string> corner_of(const Solid& solid, const std::vector<std::string>& names);
 
-/// The names, separated by commas.
 std::string list_of(const std::vector<std::string>& names);
 
 }  // namespace culet

@@ -5,12 +5,12 @@
 
 namespace culet {
 
-/// Turns all azimuths back if they are said to count from the mesh, stand turned by a multiple of
-/// 15 degrees, and the readings therefore contradict each other.
+/// Turns all azimuths back if they are said to count from the mesh but are turned by a multiple of
+/// 15 degrees, and the readings contradict each other.
 std::optional<Problem> azimuths_turned_back(const Problem& given, const Attempt& first);
 
-/// Holds if that removes most of chi-square. The result keeps the azimuths as read; it accuses none
-/// of them, but begins with what they share.
+/// Holds if that removes most of chi-square. The azimuths stay as read in the result, which accuses
+/// none of them, but says first what they share.
 Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const Problem& changed,
                               FitResult again);
 

@@ -7,15 +7,13 @@
 
 namespace culet {
 
-/// True if some reading is a length, a volume or a weight.
 bool says_size(const std::vector<Reading>& readings);
 
-/// The depth of the mesh as a reading with a relative sigma of a millionth. Without any length, the
-/// angles agree best with a stone of size zero whose planes all meet in one point.
+/// The mesh's depth with a relative sigma of a millionth. Without any length, the angles agree best
+/// with a stone of size zero whose planes all meet in one point.
 Reading size_of_mesh(const Stone& stone);
 
-/// Removes that reading (the last) from the result of a fit with it, and reports the size as
-/// undetermined.
+/// Removes that last reading from the result of a fit with it; the size becomes undetermined.
 void take_back_size(const Reading& size, FitResult& result);
 
 }  // namespace culet

@@ -130,7 +130,6 @@ void Binder::set_value(Reading& reading) const {
     }
     if (w.exact && w.released) fail("cannot be exact and released");
     set_side(reading);
-    // A tooth is not an angle yet.
     if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
     if (row_of(reading.kind).measure == WrittenUnit::Of::angle) {
         reading.value = radians(reading.value);
@@ -190,7 +189,7 @@ void Binder::refuse_value(const Reading& reading) const {
     }
 }
 
-// Suggests the slip that leads to an inclination near that of the mesh.
+// Suggests the slip that leads near the mesh's inclination.
 void Binder::refuse_inclination(double v) const {
     fail(
         fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count from the "

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the names of written readings on a solid, and refuses readings that cannot be meant.
-// Private to the room; callers use `bind_readings` of measurement.h.
+// Finds the names of written readings on a solid. Private to the room, behind `bind_readings` of
+// measurement.h.
 
 #include <map>
 #include <optional>
@@ -25,8 +25,7 @@ public:
     /// `all` are the readings of the file; they tell where an unknown facet may lie.
     Binder(const Stone& stone, const std::vector<WrittenReading>& all);
 
-    /// Returns one reading, or one for each facet that a pattern matches, or several for a trade's
-    /// word.
+    /// One reading, or one for each facet of a pattern, or several for a trade's word.
     std::vector<Reading> bind(const WrittenReading& written, const std::string& id);
 
     /// One line for each name or row that was not taken literally.

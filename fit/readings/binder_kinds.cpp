@@ -13,8 +13,7 @@
 
 namespace culet {
 
-// Refuses a side that the mesh contradicts: a slip, or another facet. Hand-made meshes may be off
-// by tens of degrees.
+// Refuses a side that the mesh contradicts; hand-made meshes may be off by tens of degrees.
 void Binder::refuse_side_of_mesh(const Reading& reading, int f) const {
     constexpr double k_far_deg = 45;
     if (reading.side == 0) return;

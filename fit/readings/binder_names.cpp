@@ -51,8 +51,7 @@ int Binder::facet(const std::string& name) const {
     return found->second;
 }
 
-// Reads a name, a pattern, each() of names and patterns (one reading for each), or mean(), min(),
-// max().
+// A name, a pattern, each() (one reading for each), or mean(), min(), max().
 Binder::NamedFacets Binder::facets(const std::string& name) const {
     NamedFacets result;
     std::string inside = name;

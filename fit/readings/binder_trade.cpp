@@ -1,5 +1,5 @@
-// Words of the trade: units beside numbers, a diameter, a table, the angle of the mains, the tooth
-// of an index wheel.
+// Words of the trade: units, a diameter, a table, the angle of the mains, the tooth of an index
+// wheel.
 
 #include <fmt/format.h>
 
@@ -96,8 +96,8 @@ double Binder::counted(double number, const WrittenUnit& unit, const char* colum
 }
 
 // GemCad's rule: the normal of a facet at tooth i of a wheel of N is 360 i / N degrees clockwise
-// from +y as seen from above (cut_planes.h), on crown and pavilion alike. Azimuths run the other
-// way, from +x.
+// from +y seen from above (cut_planes.h), on both sides of the stone. Azimuths run the other way,
+// from +x.
 void Binder::from_index(Reading& reading) const {
     const WrittenReading& w = *written_;
     if (!w.datum.empty()) fail("takes no datum: teeth are counted on the wheel");
@@ -144,8 +144,8 @@ std::vector<Reading> Binder::of_trade(const Reading& base, KindWord::Trade trade
     }
 }
 
-// A diameter is the mean of caliper widths across opposite mains. It makes as many widths of that
-// value, together as certain as the one reading.
+// The mean of caliper widths across opposite mains: as many widths of that value, together as
+// certain as the one reading.
 std::vector<Reading> Binder::of_diameter(const Reading& base) const {
     const CaliperWidths widths = caliper_widths(stone_.solid, up_);
     if (!widths.round()) {
@@ -181,7 +181,7 @@ std::vector<Reading> Binder::of_diameter(const Reading& base) const {
     return readings;
 }
 
-// A table is the mean width from corner to opposite corner.
+// The mean width from corner to opposite corner.
 std::vector<Reading> Binder::of_table(const Reading& base) const {
     const char* const remedy = "; write `table_width` with an azimuth in `of`";
     if (stone_.up_facet.empty()) {

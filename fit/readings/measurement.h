@@ -1,7 +1,6 @@
 #pragma once
-// Readings as they were written, and as they are bound to the facets of a solid.
-// Written angles are in degrees, bound ones in radians. Lengths are in the stone's unit, volume in
-// cubic millimetres and weight in carats throughout.
+// Readings as written (angles in degrees), and as bound to the facets of a solid (radians). Lengths
+// are in the stone's unit, volume in cubic millimetres, weight in carats.
 
 #include <filesystem>
 #include <memory>
@@ -42,14 +41,13 @@ struct PlaneObservations;
 const char* name_of(ReadingKind kind);
 std::optional<ReadingKind> reading_kind(std::string_view name);
 
-/// True for kinds that state something about the shape and have no value (meet, parallel, coplanar,
-/// rotation, mirror, silhouette, photograph).
+/// Kinds that relate facets and have no value (meet, parallel, coplanar, rotation, mirror,
+/// silhouette, photograph).
 bool is_relation(ReadingKind kind);
-/// True if the value is an angle: degrees in files, radians when bound.
+/// Kinds whose value is an angle.
 bool is_angle(ReadingKind kind);
 
-/// One reading as it stands in a file. Numbers are in their written unit, else in that of their
-/// kind.
+/// One reading as it stands in a file. Numbers are in their written unit, else in their kind's.
 struct WrittenReading {
     std::string id;  ///< empty if none is given
     std::string kind;
@@ -65,24 +63,20 @@ struct WrittenReading {
     std::shared_ptr<const SilhouetteSet> outlines;  ///< of a [[silhouette]] table, else null
 };
 
-/// Number of readings that were skipped.
 std::size_t skipped_readings(const std::vector<WrittenReading>& written);
 
-/// Reads the [[reading]] tables of a stone file, then the rows of its `readings` file, then the
-/// [[silhouette]] tables as kind `silhouette`. Throws InputError with file and line for anything
-/// that is no reading.
+/// Reads the [[reading]] tables of a stone file, the rows of its `readings` file, then the
+/// [[silhouette]] tables. Throws InputError with file and line.
 std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
                                           const std::vector<std::string>& overrides = {});
 
-/// Reads a readings.csv. Its header is `kind,of,value,sigma` with any of `exact`, `released`,
-/// `datum`, `side`, `id`, `note`, `rounding`, in any order. The header line tells the separator:
-/// `;`, a tab or `,`. Fields may be quoted; `#` starts a comment line. Numbers may have a decimal
-/// comma (between commas only in quotes) and a unit. A row whose kind needs a value and has none is
-/// `skipped`.
+/// Reads a readings.csv: header `kind,of,value,sigma` and any of `exact`, `released`, `datum`,
+/// `side`, `id`, `note`, `rounding`, in any order. The header tells the separator (`;`, a tab or
+/// `,`). Fields may be quoted; `#` starts a comment line; numbers may have a decimal comma (between
+/// commas only in quotes) and a unit. A row without a value that its kind needs is `skipped`.
 std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file);
 
-/// Several facets may share one reading through mean(), min() and max(). each() gives every facet a
-/// reading of its own, like a pattern.
+/// mean(), min() and max() make one reading of several facets, each() one for each.
 enum class Aggregate { single, mean, min, max };
 
 /// The direction from which an angle is measured.
@@ -103,8 +97,8 @@ struct Reading {
     ReadingKind kind = ReadingKind::inclination;
     std::vector<std::string> of;  ///< as written, patterns resolved
     Aggregate aggregate = Aggregate::single;
-    /// The facets meant. Kinds of one facet: one, or several with an aggregate. Kinds of two
-    /// facets: two for each term (first, second, first, second, ...). Relations: all of them.
+    /// Kinds of one facet: one, or several with an aggregate. Kinds of two: two for each term
+    /// (first, second, first, second, ...). Relations: all of them.
     std::vector<int> facets;
     std::vector<Place> places;  ///< distance: two for each term
     Vec3 direction{1, 0, 0};    ///< width along a vector; unit length
@@ -112,20 +106,20 @@ struct Reading {
     double azimuth = 0;  ///< width, table_width, mirror plane's normal; radians
     int order = 0;       ///< rotation
     Datum datum;
-    /// Inclination: 1 if the facet looks up (crown), -1 if down (pavilion), 0 if the reading does
-    /// not say. The value is measured from that side, and may be slightly over 90 degrees.
+    /// Inclination: 1 if the facet looks up (crown), -1 if down (pavilion), 0 if unstated. The
+    /// value counts from that side, and may be slightly over 90 degrees.
     int side = 0;
     double value = 0;  ///< radians, length, mm3 or carat; 0 for relations
     /// In the same unit; of relations: length (meet, coplanar) or radians. 0 for a meet that is
-    /// neither exact nor released: then it is estimated.
+    /// neither exact nor released: estimated.
     double sigma = 0;
     double rounding = 0;  ///< step to which the instrument rounds, in the same unit; 0 if none
     bool exact = false, released = false;
     std::string note;
     std::filesystem::path file;
     long line = 0;
-    /// Silhouette: its outlines, the set's number among those of the stone, and the plane
-    /// observations of all sets together (silhouettes/silhouette_fit.h).
+    /// Silhouette: its outlines, the set's number, and the plane observations of all sets together
+    /// (silhouettes/silhouette_fit.h).
     std::shared_ptr<const SilhouetteSet> outlines;
     int outline_set = 0;
     std::shared_ptr<const OutlineKnowledge> told;
@@ -133,13 +127,12 @@ struct Reading {
     std::shared_ptr<const PlaneObservations> photograph;
 };
 
-/// Finds every name on the solid and gives every reading an id. A pattern for single facets makes
-/// one reading a facet, with `.NAME` after the id. A word of the trade may make several readings
-/// (docs/readings.md). `notes`, if given, receives a line for everything that was not taken
-/// literally.
+/// Finds every name on the solid and gives every reading an id. A pattern makes one reading a
+/// facet, with `.NAME` after the id; a word of the trade may make several (docs/readings.md).
+/// `notes`, if given, receives a line for everything not taken literally.
 /// Throws InputError with file and line for unknown names (with similar ones), a wrong number of
-/// names, impossible values and uncertainties, repeated ids, lengths that look like another unit,
-/// and a form whose rows are all empty.
+/// names, impossible values and sigmas, repeated ids, lengths in another unit, and a form without
+/// any value.
 std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone,
                                    std::vector<std::string>* notes = nullptr);
 

@@ -17,7 +17,7 @@ struct NamedTier {
     bool named = false;       ///< a common name confirms it
 };
 
-/// Returns the tiers; a facet is in one at most. `up` is a unit vector.
+/// A facet is in one tier at most. `up` is a unit vector.
 std::vector<NamedTier> named_tiers(const Solid& solid, const Vec3& up);
 
 }  // namespace culet

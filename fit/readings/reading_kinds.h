@@ -1,6 +1,5 @@
 #pragma once
-// The kinds of reading, one row each, which the functions of measurement.h read. Private to the
-// room.
+// The kinds of reading, one row each. Private to the room, behind the functions of measurement.h.
 
 #include <string>
 #include <vector>

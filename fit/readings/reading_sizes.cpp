@@ -20,8 +20,8 @@ namespace culet {
 
 namespace {
 
-// Overall lengths of a stone and its mesh agree within tens of per cent. A ratio near that of two
-// units is a slip of units, not a finding.
+// Overall lengths of stone and mesh agree within tens of per cent: a ratio near that of two units
+// is a slip.
 void refuse_other_unit(const Reading& reading, const Stone& stone) {
     double of_mesh = 0;
     if (reading.kind == ReadingKind::depth) {
@@ -102,8 +102,8 @@ constexpr double k_other_size = 2.5;
 // Wrong proportions of a mesh explain less than this factor.
 constexpr double k_one_size = 8;
 
-// True if overall lengths all ask for the same other size. Then the mesh has another unit, which
-// does not matter, since only its shape counts.
+// True if overall lengths agree on another size: the mesh has another unit, which does not matter,
+// since only its shape counts.
 bool mesh_is_in_another_unit(const Asked& overall) {
     if (overall.logs.size() < k_enough_lengths) return false;
     const auto [least, most] = std::minmax_element(overall.logs.begin(), overall.logs.end());
@@ -111,8 +111,8 @@ bool mesh_is_in_another_unit(const Asked& overall) {
            *most - *least < std::log(k_one_size);
 }
 
-// True if most overall lengths agree with each other and the mesh. One that does not is a slip of
-// its own, which the first check names (first_check.h), and no matter of units.
+// True if most overall lengths agree with each other and the mesh. Another one is a slip that the
+// first check names (first_check.h), no matter of units.
 bool most_lengths_agree(const Asked& overall) {
     if (overall.logs.size() < k_enough_lengths) return false;
     const double middle = overall.middle();

@@ -7,10 +7,10 @@
 
 namespace culet {
 
-/// Throws InputError for an overall length that differs from the mesh's by a large factor, with the
-/// unit that would explain it; but not if all of them agree that the mesh has another size. Also
-/// for widths and edges that cannot have the same unit (eight times apart, by the mesh's
-/// proportions), and for a volume or weight that is off by a factor of a hundred.
+/// Throws InputError for an overall length that is many times the mesh's or a fraction of it,
+/// naming the unit that would explain it, unless all agree that the mesh has another size. Also for
+/// widths and edges in different units (eight times apart, by the mesh's proportions), and for a
+/// volume or weight a hundred times off.
 void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// The words of a readings file: kinds, and the trade's names for them. Private to the room.
+// Words of a readings file: kinds, and the trade's names for them. Private to the room.
 
 #include <optional>
 #include <string>
@@ -10,11 +10,10 @@
 
 namespace culet {
 
-/// A kind as written.
 struct KindWord {
     ReadingKind kind = ReadingKind::inclination;
-    /// Words that are not just another name of a kind: a diameter or a table without an azimuth,
-    /// the angle of a side's mains, the tooth of an index wheel.
+    /// Words that mean more than a kind: a diameter or table without an azimuth, the angle of a
+    /// side's mains, the tooth of an index wheel.
     enum class Trade {
         none,
         diameter,
@@ -25,16 +24,16 @@ struct KindWord {
     } trade = Trade::none;
 };
 
-/// Finds a kind. Upper and lower case are the same, and so are `_`, `-` and blanks.
+/// Ignores case; `_`, `-` and blanks are the same.
 std::optional<KindWord> kind_word(std::string_view written);
 
-/// Suggests a word for an unknown one: the nearest, or one with this beginning.
+/// The nearest word, or one with this beginning.
 std::optional<std::string> near_kind_word(std::string_view written);
 
-/// Splits names at `/`, but not inside the brackets of mean(A/B), and trims blanks.
+/// Splits at `/`, but not inside the brackets of mean(A/B), and trims blanks.
 std::vector<std::string> split_names(std::string_view text);
 
-/// Marks a row of a form as skipped if it has no value and its kind needs one.
+/// Marks a row without a value as skipped if its kind needs one.
 void mark_blank(WrittenReading& reading);
 
 }  // namespace culet

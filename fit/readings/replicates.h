@@ -26,12 +26,12 @@ struct Replicates {
     std::vector<Replicate> all;
 };
 
-/// Sets of two or more readings of the same kind, facets, places, direction and datum, each in the
-/// order of the readings. Exact readings and relations are in none. Inclinations of exactly 0 state
-/// more than others (level both ways), so they form sets of their own.
+/// Sets of two or more readings of the same kind, facets, places, direction and datum, in the order
+/// of the readings; without exact ones and relations. Inclinations of exactly 0 (level both ways)
+/// form sets of their own.
 std::vector<std::vector<int>> repeated_readings(const std::vector<Reading>& readings);
 
-/// Merges a set. Values and sigmas are divided by `unit`; azimuths may lie on both sides of 0.
+/// Values and sigmas are divided by `unit`; azimuths may lie on both sides of 0.
 Replicates merged(const std::vector<Reading>& readings, const std::vector<int>& group, double unit);
 
 }  // namespace culet

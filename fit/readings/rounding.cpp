@@ -33,7 +33,7 @@ double rounded_sigma(double sigma, double step, int replicates) {
 
 namespace {
 
-// For each facet the smallest number of those that exact symmetry makes alike.
+// For each facet, the first of those that exact symmetry makes alike.
 std::vector<int> orbits(const std::vector<std::pair<int, int>>& alike, int facets) {
     std::vector<int> root(static_cast<std::size_t>(facets));
     std::iota(root.begin(), root.end(), 0);

@@ -12,7 +12,7 @@ namespace {
 
 // Frequencies: of wrongly copied numbers, 79 in 100 have one wrong digit and 10 two swapped
 // neighbours (Verhoeff 1969, Error Detecting Decimal Codes). He counted numbers of fixed length;
-// the other kinds together are taken as frequent as those that he could not class.
+// the other kinds together count like those that he could not class.
 constexpr double k_wrong = 0.79, k_swapped = 0.10, k_other = 0.025;
 
 std::optional<double> number_of(const std::string& text) {

@@ -17,25 +17,23 @@ struct Slip {
     bool telling = true;
 };
 
-/// What was measured: each quantity has slips of its own.
 enum class Measured { angle, length, weight };
 Measured measured_by(ReadingKind kind);
 
-/// The value that was probably meant, from other readings.
+/// The value probably meant, from other readings.
 struct Meant {
     double value = 0, sigma = 0;
-    double within = 0;  ///< a corrected value further from `value` than this explains nothing
+    double within = 0;  ///< corrected values further off explain nothing
 };
 
-/// Returns the slips that turn a value near the one meant into `written`, the likeliest first: a
-/// moved decimal point, swapped digits (also with a leading zero that a spreadsheet drops), inches
-/// for millimetres, grams for carats, an angle from the other side (90 - a, 180 - a, a +- 180), one
-/// digit wrong, lost or doubled. The likelihood is the frequency of the kind of slip, divided by
-/// the number of slips of that kind, times the normal density of the corrected value. Empty if none
-/// fits, or if `written` itself is within reach.
+/// Slips that turn a value near the one meant into `written`, the likeliest first: a moved decimal
+/// point, swapped digits (also with a leading zero that a spreadsheet drops), inches for
+/// millimetres, grams for carats, an angle from the other side (90 - a, 180 - a, a +- 180), one
+/// digit wrong, lost or doubled. The likelihood is the frequency of the kind, over the number of
+/// slips of that kind, times the normal density of the corrected value. Empty if none fits, or if
+/// `written` itself is near.
 std::vector<Slip> find_slips(double written, const Meant& meant, Measured measured);
 
-/// The likeliest of them.
 std::optional<Slip> find_slip(double written, const Meant& meant, Measured measured);
 
 }  // namespace culet

@@ -9,7 +9,6 @@ namespace culet {
 
 namespace {
 
-// A TOML basic string.
 std::string toml_text(const std::string& text) {
     std::string quoted_text = "\"";
     for (const char c : text) {

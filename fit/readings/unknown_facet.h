@@ -8,10 +8,9 @@
 
 namespace culet {
 
-/// Text for the end of an error message, beginning with `; `: the facet of the mesh in the
-/// direction that the readings of `name` give and that no other reading names, or else the corner
-/// that a facet of that direction would cut off. Empty unless inclination and azimuth of `name`
-/// were read.
+/// End of an error message, beginning with `; `: the mesh's facet in the direction read for `name`,
+/// if no other reading names it, or else the corner that such a facet would cut off. Empty unless
+/// inclination and azimuth were read.
 std::string where_it_may_lie(const std::string& name, const std::vector<WrittenReading>& written,
                              const Stone& stone);
 

@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Adds `tier_angles`, `proportions`, `disagreeing`, `proposals`, `undetermined` and `help`; if
-/// they were asked for, also `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`,
-/// `changes`, `symmetry`, and the facets' `inclination_own_axis`.
+/// Adds `tier_angles`, `proportions`, `disagreeing`, `proposals`, `undetermined`, `help`; if asked
+/// for, also `own_axis`, `tiers`, `meets.list`, `meets.proposals`, `shape`, `changes`, `symmetry`,
+/// and the facets' `inclination_own_axis`.
 void add_findings(const FitResult& result, nlohmann::ordered_json& report);
 
 }  // namespace culet

@@ -8,17 +8,15 @@
 
 namespace culet {
 
-/// Unknown (non-finite) numbers become null, since JSON has no other form for them.
+/// Unknown (non-finite) numbers become null.
 inline nlohmann::ordered_json json_number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// Angle in radians to degrees.
 inline nlohmann::ordered_json json_degrees(double angle) {
     return json_number(degrees(angle));
 }
 
-/// A JSON array with `object(element)` for each element.
 template <class Elements, class Object>
 nlohmann::ordered_json json_list(const Elements& elements, const Object& object) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -116,7 +116,6 @@ void add_side(const Vec3& from, const Vec3& to, double weight, Contour& contour)
     }
 }
 
-// Only the ratios of a set's weights matter.
 void make_mean_weight_one(std::vector<Contour>& contours) {
     double sum = 0;
     std::size_t count = 0;
@@ -235,9 +234,9 @@ ShadowContours read_shadow_contours(const std::filesystem::path& file, LengthUni
                 ++read.sides_left_out;
             } else if (span > 0) {
                 // More pixels determine a line better, but they are not independent, so the weight
-                // grows more slowly than their number. The root of the length predicts the left-out
-                // half of two scanned diamonds' outlines best (rms 0.364 and 0.365 of the scanner's
-                // own; with the length 0.452, with neither 0.400 and 0.343: bench_silhouettes).
+                // grows more slowly. The root of the length predicts left-out halves of two scanned
+                // diamonds' outlines best (rms 0.364 and 0.365 of the scanner's own; with the
+                // length 0.452, with neither 0.400 and 0.343: bench_silhouettes).
                 add_side(from, to, confidence * std::sqrt(span), contour);
             }
         }

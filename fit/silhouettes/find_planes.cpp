@@ -45,8 +45,8 @@ std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh, bool at_
     return kept;
 }
 
-// How far the outlines that show a plane edge-on reach along its normal: their median, so that
-// neither dust nor a cut-off outline decides.
+// How far outlines that show a plane edge-on reach along its normal: the median, against dust and
+// cut-off outlines.
 std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& problem,
                                   const PlaneFit& fit) {
     constexpr double k_edge_on = 0.05;
@@ -65,8 +65,8 @@ std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& pro
     return upper_median(std::move(reaches));
 }
 
-// Restarts a mesh facet that slid off the body where the outlines end. If they extend beyond the
-// body (a holder), the up facet restarts where it cuts off a little.
+// Restarts a mesh facet that slid off the body where the outlines end; the up facet where it cuts
+// off a little, if they extend beyond the body (a holder).
 void bring_back(const Stone& mesh, PlaneFitProblem& problem, FoundPlanes& found) {
     constexpr double k_little = 0.02;  // of the width
     PlaneFit& fit = found.fit;
@@ -108,8 +108,7 @@ void run_on(const PlaneFitProblem& problem, int steps, FoundPlanes& found) {
     }
 }
 
-// Keeps only these planes. Renews body, distances and scales at once, because they refer to planes
-// by number.
+// Renews body, distances and scales at once, because they refer to planes by number.
 void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, FoundPlanes& found) {
     std::vector<Plane> start, planes;
     std::vector<double> tilts;
@@ -157,7 +156,7 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
     }
     problem.reach = 0;
     bring_back(mesh, problem, found);
-    // Every pass but the last drops planes, so the result is a fit of its own planes.
+    // Every pass but the last drops planes.
     for (;;) {
         run_on(problem, k_last_steps, found);
         const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found), true);

@@ -70,9 +70,8 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
     return places;
 }
 
-// The sum of weighted squares, in variances, that a further plane must save: log(points) for each
-// of its three parameters (Schwarz 1978). A cut saves mean^2 * weight in the outline that shows it
-// best.
+// Sum of weighted squares, in variances, that a plane must save: log(points) for each of its three
+// parameters (Schwarz 1978). A cut saves mean^2 * weight in the outline that shows it best.
 double price_of_plane(const PlaneFitProblem& problem) {
     std::size_t points = 0;
     for (const FlatContour& contour : problem.contours) points += contour.points.size();

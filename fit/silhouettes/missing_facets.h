@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Returns planes that cut off the body where it extends beyond the outlines by more than their
-/// scatter explains: at corners and edges of the projected outline, the deepest first, one for each
-/// place, at most `most`. A girdle drawn with few facets gets more of them.
+/// At most `most` planes that cut off the body where it extends beyond the outlines by more than
+/// their scatter: at corners and edges of the projected outline, the deepest first, one for each
+/// place. A girdle drawn with few facets gets more.
 std::vector<Plane> missing_planes(const PlaneFitProblem& problem, const PlaneFit& fit,
                                   std::size_t most);
 

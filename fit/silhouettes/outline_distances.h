@@ -19,20 +19,18 @@ struct OutlineDistances {
     std::vector<ProjectedOutline> outlines;                       ///< by contour
     std::vector<std::vector<ProjectedOutline::Nearest>> nearest;  ///< by contour and point
 };
-/// `motions` are those of the sets.
 OutlineDistances outline_distances(std::span<const Vec3> corners,
                                    std::span<const FlatContour> contours,
                                    std::span<const FrameMotion> motions);
 
-/// Robust standard deviation of one set's distances: 1.4826 times the weighted median of their
-/// sizes, which is sigma for normal errors.
+/// Robust standard deviation of one set's distances: 1.4826 times the weighted median size.
 double robust_scale(const OutlineDistances& distances, std::span<const FlatContour> contours,
                     int set);
 
-/// Hampel's descending weight: 1 for a distance within `k_sure` scales, 0 from `k_outlier` on,
-/// linear in between. One in 16 000 normal errors gets less than 1. With a `reach` (a length),
-/// distances beyond `k_sure` scales count by their sign (Huber) up to the reach and not beyond it:
-/// before convergence a good point may lie far off.
+/// Hampel's descending weight: 1 within `k_sure` scales, 0 from `k_outlier` on, linear in between;
+/// one in 16 000 normal errors gets less than 1. With a `reach` (a length), distances beyond
+/// `k_sure` scales count by their sign (Huber) up to it: before convergence good points may lie far
+/// off.
 double inlier_weight(double distance, double scale, double reach = 0);
 inline constexpr double k_sure = 4, k_outlier = 7;
 

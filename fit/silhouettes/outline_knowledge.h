@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// The motions of the stone that the outlines' frame determines; it never determines the shift.
+/// Motions of the stone that the fit takes from the outlines' frame; never the shift.
 struct FrameHolds {
     Vec3 up{0, 0, 1};    ///< in the stone's frame
     bool tilts = false;  ///< of up

@@ -20,7 +20,7 @@ struct PlaneBody {
 
 PlaneBody enclosed_body(std::span<const Plane> planes);
 
-/// Two unit directions perpendicular to a unit normal, along which a plane tilts.
+/// Two unit directions perpendicular to a unit normal.
 std::array<Vec3, 2> tilts_of(const Vec3& normal);
 
 /// d(corner) = sum over its three planes of along[i] * (d(offset_i) - d(normal_i) . corner).

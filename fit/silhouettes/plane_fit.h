@@ -1,11 +1,10 @@
 #pragma once
 // Fits the planes of a convex stone to outlines. Private to the room.
 //
-// The outline of a convex body along a direction is the convex hull of its projected corners, and
-// each corner is the intersection of three planes. Damped Gauss-Newton steps (Levenberg 1944,
-// Marquardt 1963) in the planes and the motions of the sets minimise the distances of the outlines'
-// points from that hull, with analytic derivatives. After each step the body is enclosed anew, so
-// corners may come and go.
+// An outline is the convex hull of the projected corners, and each corner is the intersection of
+// three planes. Damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) in the planes and the
+// sets' motions minimise the points' distances from that hull, with analytic derivatives. After
+// each step the body is enclosed anew, so corners may come and go.
 
 #include <Eigen/Core>
 #include <span>
@@ -41,13 +40,12 @@ struct PlaneFit {
 PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& planes,
                     int most_steps);
 
-/// Information of a fit. `sigmas` has one for each set, stated or estimated from the residuals as
-/// sqrt(sum of weighted squares / (points - parameters)).
+/// `sigmas`: of each set, stated or estimated as sqrt(sum of weighted squares / (points -
+/// parameters)).
 struct PlaneInformation {
     std::vector<double> sigmas;
-    /// For all planes, with two tilts along `tilts_of(normal)` and an offset each: J' J / sigma^2
-    /// plus the information of the start. The motions of free sets are eliminated (Schur
-    /// complement).
+    /// Two tilts along `tilts_of(normal)` and an offset for each plane: J' J / sigma^2 plus the
+    /// start's information, with the free sets' motions eliminated (Schur complement).
     Eigen::MatrixXd matrix;
     double chi2 = 0;  ///< of sets with a stated sigma
     double chi2_dof = 0;

@@ -77,8 +77,8 @@ void add_gradient(Eigen::VectorXd& gradient, const Slopes& a, double weight) {
     }
 }
 
-// Sums over the points of one edge of one outline. A point whose foot is at part t of the edge
-// follows the edge's ends with weights 1 - t and t.
+// Sums over an edge's points. A point with its foot at part t follows the edge's ends with weights
+// 1 - t and t.
 struct EdgeSums {
     double begin_begin = 0, begin_end = 0, end_end = 0, begin = 0, end = 0;
 };

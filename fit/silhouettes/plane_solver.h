@@ -16,14 +16,12 @@ struct PlaneState {
     OutlineDistances distances;
 };
 
-/// The equations of `fit_planes` at one state.
 class PlaneSolver {
 public:
     explicit PlaneSolver(const PlaneFitProblem& problem);
 
     int planes() const { return planes_; }
-    /// Finds the body that the planes enclose and the distances from it; false if they enclose
-    /// none.
+    /// Finds body and distances; false if the planes enclose nothing.
     bool look(PlaneState& state) const;
     /// Robust scale of each set.
     std::vector<double> scales(const PlaneState& state) const;
@@ -32,8 +30,8 @@ public:
     Weights weights(const PlaneState& state, const std::vector<double>& scales) const;
     double cost(const PlaneState& state, const Weights& weights,
                 const std::vector<double>& sigmas) const;
-    /// Half of the cost's Gauss-Newton matrix (lower triangle) and gradient. The unknowns are three
-    /// for each plane (two tilts along `tilts_of(normal)`, the offset), then six for each free set.
+    /// Half of the cost's Gauss-Newton matrix (lower triangle) and gradient. Unknowns: three for
+    /// each plane (two tilts along `tilts_of(normal)`, the offset), then six for each free set.
     struct Equations {
         Eigen::MatrixXd matrix;
         Eigen::VectorXd gradient;

@@ -10,8 +10,7 @@
 
 namespace culet {
 
-/// A contour's points in its own plane: coordinates along two directions perpendicular to the line
-/// of sight.
+/// A contour's points by coordinates along two directions perpendicular to the line of sight.
 struct FlatContour {
     Vec3 across{1, 0, 0}, along{0, 1, 0};  ///< in the frame of its set
     std::vector<std::array<double, 2>> points;
@@ -21,8 +20,8 @@ struct FlatContour {
 };
 FlatContour flattened(const Contour& contour, int set);
 
-/// A counter-clockwise convex polygon: its corners, and for each edge to the next corner the
-/// outward normal and its offset.
+/// A counter-clockwise convex polygon: for each edge to the next corner the outward normal and its
+/// offset.
 struct ProjectedOutline {
     struct Edge {
         int from = -1, to = -1;  ///< corners of the body

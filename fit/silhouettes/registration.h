@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// place_in_set_frame = scale * turn(place_in_body) + shift: places a body in the frame of a set.
+/// place_in_set_frame = scale * turn(place_in_body) + shift.
 struct Similarity {
     FrameMotion motion;
     double scale = 1;
@@ -19,7 +19,7 @@ struct RegistrationOptions {
     bool turns = true, shifts = true, scales = false;
 };
 
-/// The similarity near `start` that brings the body closest to the contours of one set, by damped
+/// The similarity near `start` that brings the body closest to one set's contours: damped
 /// Gauss-Newton steps of a robust least squares whose scale shrinks with the distances.
 Similarity registered(std::span<const Vec3> corners, std::span<const FlatContour> contours,
                       const Similarity& start, const RegistrationOptions& options);
@@ -30,11 +30,11 @@ std::vector<Vec3> placed_corners(std::span<const Vec3> corners, const Similarity
 double registration_cost(std::span<const Vec3> corners, std::span<const FlatContour> contours,
                          const Similarity& at, double scale);
 
-/// Finds a start without any knowledge. The axis is normal to all lines of sight if they lie in a
-/// plane (a turntable), else one of the three axes of the set's frame. The body stands upright (+z)
-/// on either end of the axis, is scaled to the outlines' widths, and is turned about the axis in
-/// steps of two degrees. The holder may hide one end of the stone. The few best places are
-/// registered; places that the body's symmetry makes equal count once. `up` belongs to the body.
+/// Finds a start. The axis is normal to all lines of sight if they lie in a plane (a turntable),
+/// else one of the three axes of the set's frame. The body stands upright (+z) on either end of it,
+/// is scaled to the outlines' widths and turned in steps of two degrees. The holder may hide one
+/// end. The few best places are registered; places equal by the body's symmetry count once. `up` is
+/// the body's.
 Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
                               std::span<const FlatContour> contours);
 

@@ -87,13 +87,12 @@ Axes axes_of(std::span<const FlatContour> contours) {
     return {{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, false};
 }
 
-// The horizontal of the picture along this line of sight, with the axis upright.
+// Perpendicular to the axis and the line of sight.
 Vec3 level_of(const Vec3& axis, const FlatContour& contour) {
     const Vec3 level = glm::cross(axis, sight_of(contour));
     return glm::length(level) > 1e-3 ? glm::normalize(level) : perpendicular_to(axis);
 }
 
-// Turns the body upright along an axis, then scales and shifts it to the outlines' extents.
 class Search {
 public:
     Search(std::span<const Vec3> corners, const Vec3& up, std::span<const FlatContour> contours)
@@ -173,8 +172,8 @@ bool is_better(const Trial& a, const Trial& b) {
     return a.cost < b.cost;
 }
 
-// True if each corner of one place is near a corner of the other: the same place, or one that the
-// body's symmetry makes equal.
+// True if each corner of one place is near one of the other: the same place, or equal by the body's
+// symmetry.
 bool are_alike(const std::vector<Vec3>& one, const std::vector<Vec3>& other, double within) {
     return std::all_of(one.begin(), one.end(), [&](const Vec3& v) {
         return std::any_of(other.begin(), other.end(),

@@ -23,7 +23,7 @@ struct SilhouetteSet {
     /// They have a frame of their own, which may be turned and shifted against the mesh's.
     bool is_free = false;
     std::vector<Contour> contours;
-    /// Outlines that are only compared with the fitted stone and take no part in the fit.
+    /// Only compared with the fitted stone: no part of the fit.
     std::vector<Contour> held_out;
     /// Parts of outlines that the file itself marks as not measured.
     int parts_left_out = 0;

@@ -1,6 +1,5 @@
 #pragma once
-// Fits a mesh to outlines, and gives the fit their information on the planes, to be weighed with
-// other readings.
+// Fits a mesh to outlines, and derives what they tell the fit of its planes.
 
 #include <memory>
 #include <string>
@@ -12,9 +11,9 @@
 
 namespace culet {
 
-/// Plane observations from outlines; the rows' values are zero. Motions are left out if outlines do
-/// not determine them or the frame of the fit fixes them. The rows cover all planes: those that the
-/// outlines do not show are held near the mesh's, within degrees and per cent.
+/// Plane observations from outlines; the rows' values are zero. Left out are motions that outlines
+/// do not determine or that the fit's frame fixes. Planes that no outline shows are held near the
+/// mesh's, within degrees and per cent.
 struct OutlineKnowledge : PlaneObservations {
     std::vector<FrameMotion> motions;  ///< of the sets, to the stone's frame
     std::vector<double> sigmas;        ///< of the sets, across the outline
@@ -23,21 +22,20 @@ struct OutlineKnowledge : PlaneObservations {
 };
 
 struct SilhouetteFit {
-    /// The mesh in its own place, with its facets and size from the outlines. Facets that only
-    /// outlines show come last, named after the nearest of the mesh. The corners are those that the
-    /// planes enclose.
+    /// The mesh in its place, with facets and size from the outlines. Facets that only outlines
+    /// show come last, named after the nearest of the mesh. Corners are those that the planes
+    /// enclose.
     Stone stone;
     std::shared_ptr<const OutlineKnowledge> knowledge;
     std::vector<std::string> notes;
 };
 
-/// Finds the convex stone that all sets show together. Throws InputError if the stone need not be
-/// convex, or if the outlines enclose none.
+/// The convex stone that all sets show together. Throws InputError if it need not be convex, or if
+/// the outlines enclose none.
 SilhouetteFit fit_silhouettes(const Stone& mesh,
                               const std::vector<std::shared_ptr<const SilhouetteSet>>& sets);
 
-/// Compares `contours` with a solid, after placing the solid so that it agrees best with `fitted`,
-/// starting at `motion`.
+/// Distances of `contours` from a solid, placed where it agrees best with `fitted`, near `motion`.
 SilhouetteMisfit silhouette_misfit(const Solid& solid, const std::vector<Contour>& fitted,
                                    const std::vector<Contour>& contours, const FrameMotion& motion);
 

@@ -14,8 +14,8 @@ namespace {
 
 // Sigma of a facet's tilt: facets of catalogue cuts are off by at most a few times this.
 const double k_start_tilt = radians(2.0);
-// Sigma of the up facet's tilt. If it is hidden, the stone stands on it, perpendicular to the
-// turntable's axis, which the registration finds as well as this.
+// Sigma of the up facet's tilt. If hidden, the stone stands on it, perpendicular to the turntable's
+// axis, which the registration finds as well.
 const double k_up_tilt = radians(0.3);
 
 Plane placed_plane(const Plane& plane, const Similarity& at) {

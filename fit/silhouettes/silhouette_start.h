@@ -10,15 +10,15 @@
 
 namespace culet {
 
-/// The planes in the frame of their fit, and the sets' motions to it. The frame is the mesh's if
-/// one set was taken in it, else that of the first set.
+/// Planes in the frame of their fit, and the sets' motions to it: the mesh's frame if one set was
+/// taken in it, else the first set's.
 struct SilhouetteStart {
     PlaneFitProblem problem;
     Similarity from_mesh;
     bool in_mesh_frame = false;
 };
 
-/// The mesh scaled to the outlines, and registered with them if their frame is free.
+/// The mesh scaled to the outlines; also turned and shifted if their frame is free.
 SilhouetteStart silhouette_start(const Stone& mesh,
                                  const std::vector<std::shared_ptr<const SilhouetteSet>>& sets);
 

@@ -52,8 +52,8 @@ struct Selection {
     std::vector<StudyError> errors;  // of the draws
 };
 
-// Removes readings, a few at a time and the most redundant first, until `target` are left. False if
-// no more can be removed without an undetermined parameter.
+// Removes readings, a few at a time, the most redundant first, until `target` are left. False if
+// the next would leave an undetermined parameter.
 bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
               const StudyBudget& budget, Selection& selection) {
     while (count(selection.readings) > target) {
@@ -77,7 +77,6 @@ bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
     return true;
 }
 
-// Fits one draw.
 void measure(const StudyTruth& truth, const FitOptions& options, int draw, std::uint64_t seed,
              Selection& selection) {
     const std::vector<Reading> drawn = drawn_readings(truth.readings, seed, draw);
@@ -124,8 +123,8 @@ void sum_up(const StudyTruth& truth, Selection& selection) {
 
 void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& truth,
                   StudyBudget& budget, Study& study) {
-    // Soft meets and symmetries are observations too, but those of the true stone cannot be drawn
-    // anew: so they are exact here.
+    // Soft meets and symmetries are observations too, but cannot be drawn anew: they are exact
+    // here.
     FitOptions options = study.options.fit;
     std::vector<Reading> readings = truth.readings;
     const auto treat_exact = [&](MeetTreatment& meets) {
@@ -134,8 +133,8 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         study.limit_made_exact = true;
     };
     treat_exact(options.meets);
-    // The prior is off for the same reason. It is centred on the truth in every draw, so errors
-    // would come out below a limit that counts it.
+    // So is the prior, so it is off: it is centred on the truth in every draw, and errors would
+    // come out below a limit that counts it.
     const bool supposed = options.prior.source != Prior::Source::none;
     options.prior.source = Prior::Source::none;
     for (Reading& reading : readings) {

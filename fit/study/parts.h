@@ -9,7 +9,6 @@
 
 namespace culet {
 
-/// Processor time of this process, seconds.
 inline double processor_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -41,8 +40,8 @@ struct StudyTruth {
     };
     std::map<std::string, Place> places;  ///< by facet name
     bool azimuths_read = false;           ///< some reading fixes the zero of azimuths
-    /// True: offsets count from the mean of the corners, like their uncertainties. False: from the
-    /// centre of the volume, which does not move when meets come apart.
+    /// Offsets count from the mean of the corners, like their uncertainties; else from the centre
+    /// of the volume, which does not move when meets come apart.
     bool from_corner_mean = false;
 };
 
@@ -53,7 +52,7 @@ StudyTruth truth_of(const Stone& stone, const std::vector<Reading>& readings,
 std::vector<Reading> drawn_readings(const std::vector<Reading>& readings, std::uint64_t seed,
                                     int draw);
 
-/// Mean squares over the facets. Level facets (table, culet) have no azimuth and are left out of
+/// Mean squares over the facets; level facets (table, culet) have no azimuth and do not count in
 /// angles.
 struct StudyError {
     double angle = 0, offset = 0;  ///< mean squares: rad2, unit2
@@ -63,9 +62,9 @@ StudyError error_of(const StudyTruth& truth, const FitResult& fitted);
 /// The mean squares that a fit's covariance predicts.
 StudyError limit_of(const StudyTruth& truth, const FitResult& fitted);
 
-/// True if the solid is closed, has every facet, and is convex where it must be.
+/// Closed, with every facet, and convex where it must be.
 bool is_sound(const Stone& stone, const FitResult& fitted);
-/// True if it is sound and the search converged.
+/// Sound, and the search converged.
 bool is_settled(const Stone& stone, const FitResult& fitted);
 
 void study_settings(const Stone& stone, const std::vector<Reading>& readings, const FitResult& base,

@@ -51,7 +51,6 @@ Json limit_json(const StudyLimit& row) {
         {"offset_limit", json_number(row.offset_limit)}};
 }
 
-// The columns are the keys of the first row; null becomes an empty field.
 std::string csv(const Json& rows) {
     if (rows.empty()) return {};
     std::string text;

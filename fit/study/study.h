@@ -1,9 +1,9 @@
 #pragma once
 // What accuracy costs in time, and how near the fit comes to the limit of its readings.
 //
-// The fitted stone is taken as the truth. Its readings are drawn anew, each with a normal error of
-// its own sigma, and fitted again: the distance from the truth is the error to expect in practice
-// if the instruments are as good as their sigmas.
+// The fitted stone is the truth. Its readings are drawn anew with normal errors of their sigmas,
+// and fitted again: the distance from the truth is the error to expect if the instruments are as
+// good as their sigmas.
 
 #include <cstdint>
 #include <string>
@@ -16,10 +16,9 @@ namespace culet {
 struct StudyOptions {
     FitOptions fit;
     std::uint64_t seed = 1;
-    /// Draws of the readings for each row.
     int draws = 8;
-    /// Seconds of processor time; 0: no limit. When it is spent, rows have fewer draws and the last
-    /// rows may be missing; the figures that are there do not depend on the budget.
+    /// Seconds of processor time; 0: no limit. When spent, rows have fewer draws and the last may
+    /// be missing; the other figures do not depend on it.
     double budget_seconds = 60;
     bool times = true;   ///< error and time of each way of fitting
     bool limits = true;  ///< error compared with the theoretical limit
@@ -33,20 +32,19 @@ struct StudySetting {
     int fits = 0;           ///< draws done
     int sound = 0;          ///< closed, with every facet, convex where it must be
     int settled = 0;        ///< sound, and the search converged
-    /// Settled, and as good as the best known: chi-square within max(4, 5 %) of that of the fit
-    /// from the unchanged mesh.
+    /// Settled, with chi-square within max(4, 5 %) of that of the fit from the unchanged mesh.
     int best = 0;
     double angle_error = 0;  ///< root mean square over sound draws and facets, radians
-    /// The same, compared with the fit as asked of the same readings instead of the truth: the
-    /// numerical error. Negative if the setting solves other equations.
+    /// The same against the fit as asked of the same readings: the numerical error. Negative if the
+    /// setting solves other equations.
     double angle_left = -1;
     double offset_error = 0;  ///< the same for planes' distances, in the stone's unit
     /// Processor time of one fit with its covariance: median and quartiles.
     double seconds = 0, seconds_low = 0, seconds_high = 0;
 };
 
-/// The error with this many readings, and the Cramer-Rao limit: no unbiased estimate has a smaller
-/// variance than the inverse of the readings' information (Rao 1945, Cramer 1946).
+/// The error beside the Cramer-Rao limit: no unbiased estimate has a smaller variance than the
+/// inverse of the readings' information (Rao 1945, Cramer 1946).
 struct StudyLimit {
     int readings = 0;
     double share = 1;  ///< of all readings that have a value
@@ -68,8 +66,8 @@ struct Study {
     double seconds = 0;  ///< processor time of that fit
     std::vector<StudySetting> settings;
     std::vector<StudyLimit> limits;
-    /// The limit is studied on a stone with exact meets and symmetries, because soft ones count as
-    /// readings that cannot be drawn anew. False: they are as asked, and were exact already.
+    /// The limit is studied with exact meets and symmetries, because soft ones cannot be drawn
+    /// anew. False: they were exact already.
     bool limit_made_exact = false;
     std::string limit_message;          ///< why `limits` ends early; may be empty
     std::vector<std::string> left_out;  ///< rows that the budget did not reach, in words
@@ -78,8 +76,8 @@ struct Study {
     bool usable() const { return status == FitStatus::converged; }
 };
 
-/// Fits the stone, then studies that fit. Throws as `fit_stone` does. A stone that cannot be fitted
-/// throws nothing: the study is then empty, with status and message.
+/// Fits the stone, then studies that fit. Throws as `fit_stone` does. If no fit is found, the study
+/// is empty, with status and message.
 Study study_fit(const Stone& stone, const std::vector<Reading>& readings,
                 const StudyOptions& options = {}, const Progress& progress = {});
 

@@ -57,8 +57,7 @@ std::vector<Reading> with_symmetry(const std::vector<Reading>& readings, Way::Sy
     return result;
 }
 
-// A badly drawn mesh: every corner is off by a normal error in each coordinate, so facets are no
-// longer planar.
+// A badly drawn mesh: normal errors in every corner's coordinates, so facets are no longer planar.
 Stone shaken(Stone stone, double share, std::uint64_t seed, int draw) {
     std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                            static_cast<std::uint32_t>(draw), 0x5ca1eu};

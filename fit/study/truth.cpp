@@ -15,8 +15,8 @@ namespace {
 
 // A facet more level than this has no usable azimuth.
 constexpr double k_level = 1e-6;
-// A reading of a nearly upright facet does not say to which side it leans. Such facets are compared
-// by azimuth only, because the limit does not count the choice of side.
+// A reading of a nearly upright facet does not say to which side it leans; the limit does not count
+// that choice, so only azimuths are compared.
 constexpr double k_upright = radians(5);
 
 bool is_upright(double inclination) {
@@ -38,8 +38,8 @@ Vec3 up_of(const Stone& stone, const FitResult& fitted) {
     return stone.up;
 }
 
-// Inclinations count from up, 0 .. pi. Counted from the nearer side, they would hide half of the
-// errors of upright facets.
+// Inclinations count from up, 0 .. pi: from the nearer side they would hide half of the errors of
+// upright facets.
 std::map<std::string, StudyTruth::Place> places_of(const Stone& stone, const FitResult& fitted,
                                                    bool from_corner_mean) {
     const Vec3 up = up_of(stone, fitted);

@@ -3,18 +3,17 @@
 // its hard equations. Private to the room: shows Eigen.
 //
 // Readings count with their sigma; hard equations hold exactly; motions of the whole stone that
-// nothing sees are left out (inner constraints). What else no reading determines is `open`:
-// directions of length one in the mesh's metric. Along them the mesh's own uncertainty is reported
-// (20 % of its width).
-// The rule, for any number of facets: let v be a direction with J'J v = lambda M v, and s its
-// largest component as a part of the mesh's own uncertainty of that unknown. The readings leave s /
-// sqrt(lambda) there. If that is half or more (lambda < 4 s^2), v is open. The mesh's errors are
-// not averaged over its facets, because a modeller's errors have much in common. In large stones
-// all v with lambda < 4 are open, but no more of them than there are unknowns that are left as
-// uncertain.
-// Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, also if
-// uncertainties span many powers of ten), and for large stones sparse factors of the normal
-// equations.
+// nothing sees are left out (inner constraints). Other directions that no reading determines are
+// `open`; they have length one in the mesh's metric, and the mesh's own uncertainty is reported
+// along them (20 % of its width).
+// The rule: let J'J v = lambda M v, and let s be the largest component of v as a part of the mesh's
+// own uncertainty of that unknown. The readings leave s / sqrt(lambda) there. If that is half or
+// more (lambda < 4 s^2), v is open. The mesh's errors are not averaged over its facets: a
+// modeller's errors have much in common. In large stones all v with lambda < 4 are open, but at
+// most as many as there are unknowns left so uncertain.
+// Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, even if
+// uncertainties span many powers of ten), and sparse factors of the normal equations for large
+// stones.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -25,7 +24,7 @@
 
 namespace culet {
 
-/// Row-major, because access is by unknown or equation.
+/// Row-major: access is by unknown or equation.
 using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 class Covariance {
@@ -37,10 +36,9 @@ public:
     const Linearised& linear() const { return linear_; }
     /// False if the equations could not be factored; every number is then NaN.
     bool usable() const { return usable_; }
-    /// Variance of a function from what the readings determine, and the part from open directions.
+    /// Variance of a function as far as readings determine it, and the part from open directions.
     double variance(const FunctionRow& function) const;
     double open_variance(const FunctionRow& function) const;
-    /// Sum of both parts.
     double total_variance(const FunctionRow& function) const;
     /// Covariance of functions, one a row. Open directions have `undetermined_variance`.
     Eigen::MatrixXd joint(const FunctionRows& functions) const;
@@ -48,10 +46,8 @@ public:
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
     /// The readings' step in the linear model, with none along open directions.
     Eigen::VectorXd step() const;
-    /// Variance of every soft equation's fitted value in that equation's own units: the diagonal of
-    /// the hat matrix.
+    /// Diagonal of the hat matrix: variance of each soft equation's fitted value in its own units.
     const Eigen::VectorXd& leverages() const { return leverages_; }
-    /// One column of the hat matrix.
     Eigen::VectorXd leverage_column(Eigen::Index equation) const;
     /// Hat matrix times these residuals of the soft equations.
     Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;

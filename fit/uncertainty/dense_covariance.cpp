@@ -1,4 +1,4 @@
-// The covariance of stones that are small enough for dense algebra.
+// The covariance of stones small enough for dense algebra.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -24,8 +24,8 @@ Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd&
     return normal;
 }
 
-// P R^-1 of a QR with rows sorted by size and column pivoting, so that (B'B)^-1 = F F'. It is
-// stable row by row, whatever the weights (Cox & Higham 1998).
+// P R^-1 of a QR with sorted rows and column pivoting: (B'B)^-1 = F F', stable row by row whatever
+// the weights (Cox & Higham 1998).
 Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
     std::vector<Eigen::Index> order(std::size_t(seen.rows()));
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = Eigen::Index(i);
@@ -74,8 +74,8 @@ void Covariance::find_dense() {
     leverages_ = seen_.rowwise().squaredNorm();
 }
 
-// Cholesky factor of the normal equations, if readings determine every direction and none far more
-// tightly than others. False if that is not certain.
+// Cholesky factor of the normal equations, if readings surely determine every direction, and none
+// far more tightly than others; else false.
 bool Covariance::find_well_determined(const FreePart& free) {
     double largest = 0;
     for (Eigen::Index i = 0; i < linear_.soft_rows.rows(); ++i) {
@@ -98,14 +98,13 @@ bool Covariance::find_well_determined(const FreePart& free) {
     // An open direction would leave some unknown this uncertain.
     const Eigen::VectorXd left = held_.rowwise().squaredNorm().cwiseProduct(linear_.metric);
     if (!linear_.has_prior && !(left.maxCoeff() < 1 / k_shapes.determined)) return false;
-    // Every direction is seen once, so all squares add up to their number, unless rounding errors
-    // are large.
+    // Every direction is seen once, so all squares add up to their number, but for rounding errors.
     const double squares =
         seen_.squaredNorm() + std::pow(gauge_weight, 2) * product(free.along, upper).squaredNorm();
     return std::abs(squares - double(size)) < k_cov.precision;
 }
 
-// QR of the equations, whitened by the metric so that eigenvalues compare readings with the mesh.
+// QR, whitened by the metric so that eigenvalues compare readings with the mesh.
 bool Covariance::find_poorly_determined(const FreePart& free) {
     const Eigen::Index size = free.basis.cols();
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);

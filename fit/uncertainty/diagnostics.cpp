@@ -32,7 +32,7 @@ void find_rank_defect(const FitModel& model, const Shape& shape, const Covarianc
     diagnosis.rank_defect = covariance.rank_defect();
     if (diagnosis.rank_defect == 0) return;
     const Layout layout = layout_of(shape);
-    // A parameter is named if the open directions together may move it by a tenth of the mesh's own
+    // Name parameters that the open directions together may move by a tenth of the mesh's
     // uncertainty.
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
@@ -46,7 +46,6 @@ void find_rank_defect(const FitModel& model, const Shape& shape, const Covarianc
     }
 }
 
-// Without a covariance: residuals of the readings only.
 void residuals_only(const FitModel& model, const Linearised& linear,
                     const std::vector<Observation>& observations, Diagnosis& diagnosis) {
     diagnosis.analysed = false;
@@ -64,8 +63,7 @@ void residuals_only(const FitModel& model, const Linearised& linear,
     for (std::size_t i = 0; i < linear.hard.size(); ++i) {
         note(linear.hard[i].reading, linear.hard_residuals(Eigen::Index(i)));
     }
-    // Bounds from counting: at most one degree of freedom for each observation, and at least as
-    // many open parameters as unknowns exceed equations.
+    // Bounds from counting.
     diagnosis.dof = double(observations.size());
     const Eigen::Index equations = Eigen::Index(observations.size()) + linear.hard_rows.rows() +
                                    Eigen::Index(linear.gauge_rows.size());
@@ -98,8 +96,8 @@ void sum_up(const Linearised& linear, const std::vector<Observation>& observatio
     }
 }
 
-// With a prior, whose terms are no readings: chi-square of the readings alone. One value that was
-// read for several facets counts as one observation.
+// With a prior, whose terms are no readings: of the readings alone. One value that was read for
+// several facets counts once.
 void count_readings_alone(const FitModel& model, const Linearised& linear,
                           const std::vector<Observation>& observations,
                           const std::vector<double>& redundancy, int binding,
@@ -123,7 +121,7 @@ void count_readings_alone(const FitModel& model, const Linearised& linear,
     }
 }
 
-// Combines each reading's equations; the worst one represents it.
+// The worst of a reading's equations represents it.
 void check_readings(const FitModel& model, const Linearised& linear,
                     const std::vector<Observation>& observations,
                     const std::vector<double>& redundancy, Diagnosis& diagnosis) {
@@ -159,8 +157,7 @@ void check_readings(const FitModel& model, const Linearised& linear,
     }
 }
 
-// Inclination, azimuth and offset of each facet as in the result, whose frame turns to match the
-// mesh.
+// Inclination, azimuth and offset of each facet in the result's frame, which turns with the mesh.
 std::vector<FunctionRow> facet_rows(const FitModel& model, const Shape& shape, const Vec3& middle) {
     const Layout layout = layout_of(shape);
     const FunctionRow turn = RowWriter(shape).function(model.frame().turn_of(shape));

@@ -1,6 +1,6 @@
 #pragma once
-// How far a fit can be trusted: covariance under hard constraints, redundancy, outlier tests after
-// Baarda (1968), and undetermined parameters.
+// How far a fit can be trusted: covariance, redundancy, outlier tests after Baarda (1968),
+// undetermined parameters.
 
 #include <memory>
 #include <string>
@@ -14,10 +14,10 @@ namespace culet {
 
 class Covariance;
 
-/// Standard uncertainties of one facet's parameters and area, in radians and half diameters.
+/// Standard uncertainties of one facet, in radians and half diameters.
 struct FacetSigma {
     double inclination = 0, azimuth = 0, offset = 0, area = 0;
-    /// The part of the first three that comes from readings (FittedFacet).
+    /// Part of the first three that comes from readings (FittedFacet).
     std::array<double, 3> read{1, 1, 1};
 };
 
@@ -29,7 +29,6 @@ struct ReadingCheck {
     bool suspect = false;
 };
 
-/// A reading that stands out, and its value as estimated from the others.
 struct Suspicion {
     int reading = -1;
     double estimate = 0, sigma = 0;  ///< from the others, in its unit
@@ -38,35 +37,33 @@ struct Suspicion {
 
 struct Diagnosis {
     std::vector<FacetSigma> facets;
-    /// Covariance of all facets' inclinations, azimuths and offsets, row-major, three rows a facet;
-    /// radians and half diameters. A level facet's azimuth has 0. Open directions count with the
-    /// mesh's own uncertainty, as in the sigmas. Empty if unknown or with more than 300 facets.
+    /// As FitResult::facet_covariance, with offsets in half diameters. A level facet's azimuth has
+    /// 0; open directions have the mesh's own uncertainty, as in the sigmas.
     std::vector<double> facet_covariance;
     std::vector<ReadingCheck> readings;
     std::vector<int> suspects;          ///< indices of readings, the worst first
     std::vector<Suspicion> suspicions;  ///< one for each suspect
-    /// An irreducible inconsistent set of readings, if chi2 fails or exact readings contradict each
-    /// other.
+    /// An irreducible inconsistent set, if chi2 fails or exact readings contradict each other.
     std::vector<int> disagreeing;
-    /// False if the equations could not be factored. Then uncertainties, redundancies and
-    /// normalized residuals are NaN, suspects are not searched for, and `dof` (at most) and
-    /// `rank_defect` (at least) are bounds from counting.
+    /// False if the equations could not be factored. Then sigmas, redundancies and normalized
+    /// residuals are NaN, there are no suspects, and `dof` (at most) and `rank_defect` (at least)
+    /// are bounds from counting.
     bool analysed = true;
     std::shared_ptr<const Covariance> covariance;  ///< of the unknowns; null for `full` = false
     double chi2 = 0, dof = 0;
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;
     int rank_defect = 0;
-    /// For each group of estimated uncertainty (`FitModel::group_sigmas`): sum of squared
-    /// residuals, and redundancy.
+    /// By group of estimated uncertainty (`FitModel::group_sigmas`): sum of squared residuals,
+    /// redundancy.
     std::array<double, 2> group_squares{}, group_redundancy{};
 };
 
 struct DiagnosisOptions {
     double significance = 0.001;
     bool full = true;  ///< false: only what variance components need
-    /// Corners that the fit holds. Given which bounds are active, each adds a degree of freedom to
-    /// chi-square (Silvapulle & Sen 2005, chapter 3).
+    /// Number of held corners: each active bound adds a degree of freedom to chi-square (Silvapulle
+    /// & Sen 2005, chapter 3).
     int binding = 0;
 };
 

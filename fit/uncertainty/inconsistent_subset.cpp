@@ -22,8 +22,7 @@ struct Rest {
     Eigen::MatrixXd matrix;
     double chi2 = 0, dof = 0;
 
-    // The best checked first: then rounding errors of the others stay small beside the earlier
-    // pivots.
+    // The best checked first: rounding errors of the others stay small beside the earlier pivots.
     void leave_out(std::vector<Eigen::Index> equations) {
         while (!equations.empty()) {
             const auto next = std::max_element(
@@ -58,8 +57,8 @@ private:
     }
 };
 
-// Leaves out halves of what remains first, then one by one until none can be spared. `spares` tells
-// whether some can be spared, given the others.
+// Leaves out halves first, then single readings, while `spares` says that these can be spared,
+// given the others.
 template <class Spares>
 void leave_out_what_can_be_spared(std::vector<int>& left, const Spares& spares) {
     for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
@@ -96,7 +95,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
     for (std::size_t i = 0; i < owner.size(); ++i) {
         if (owner[i] >= 0) equations[owner[i]].push_back(Eigen::Index(i));
     }
-    // Those least involved in the contradiction are left out first.
+    // The least involved go first.
     std::vector<std::pair<double, int>> order;
     for (const auto& [reading, mine] : equations) {
         double part = 0;
@@ -105,7 +104,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
             if (r > k_checks.no_redundancy)
                 part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
         }
-        // Readings that only check one another have equal parts, but for rounding errors.
+        // Readings that only check one another differ by rounding errors alone.
         order.emplace_back(std::round(part / k_snooping.same_part), reading);
     }
     std::sort(order.begin(), order.end());

@@ -1,6 +1,6 @@
 #pragma once
-// An irreducible inconsistent set of readings: they contradict each other, and the rest agree if
-// any one of them is left out. Private to the room: shows Eigen.
+// Irreducible inconsistent sets of readings: the rest agree if any one of them is left out. Private
+// to the room: shows Eigen.
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,16 +9,14 @@
 
 namespace culet {
 
-/// Finds such a set by leaving out as many readings as possible while chi2 of the rest still fails
-/// at `level`. `matrix` is R of `Residuals`; `owner` is the reading of each equation (-1: a meet or
-/// relation of the mesh, never left out). Empty if all readings together pass, or with too many
-/// equations.
+/// Leaves out as many readings as possible while chi2 of the rest fails at `level`. `matrix` is R
+/// of `Residuals`; `owner` is the reading of each equation (-1: a meet or relation of the mesh,
+/// never left out). Empty if all readings together pass, or with too many equations.
 std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::MatrixXd matrix,
                                       const std::vector<int>& owner, double level);
 
-/// The same for exact readings, at a shape that minimises their misses by least squares: an
-/// irreducible set whose hard equations, together with the meets, have no common solution. Empty if
-/// all have one.
+/// The same for exact readings, at a shape that minimises their misses: their hard equations and
+/// the meets have no common solution. Empty if all have one.
 std::vector<int> inconsistent_exact_readings(const FitModel& model, const Shape& shape,
                                              const std::shared_ptr<const Outline>& outline);
 

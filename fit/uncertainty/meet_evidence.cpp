@@ -13,8 +13,8 @@ namespace culet {
 
 namespace {
 
-// As part of the usual miss; 0 if unknown. The evidence is the likelihood of the readings alone:
-// meets beside the prior have one even without readings, which grows as sigma shrinks.
+// Part of the usual miss; 0 if unknown. Counts the likelihood of the readings alone: meets beside
+// the prior have one of their own, which grows as sigma shrinks.
 double allowed_part(const FitModel& model, const Finished& at, double usual) {
     MeetLikelihood read(model, at), unread(model, at, false);
     double allowed = 0, least = std::numeric_limits<double>::infinity();

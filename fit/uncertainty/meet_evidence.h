@@ -1,6 +1,6 @@
 #pragma once
-// Estimates whether a stone's planes meet, and by how much they miss, when a prior fills in what
-// few readings leave open. Private to the room.
+// Estimates whether planes meet, and how far they miss, when a prior fills in for few readings.
+// Private to the room.
 
 #include <optional>
 
@@ -15,9 +15,9 @@ struct MeetEvidence {
     Finished finished;   ///< if not exact: the fit with the model's new group sigmas
 };
 
-/// `model` has soft meets and a prior; `at` is a local minimum of the same fit with exact meets.
-/// All meets get one sigma: the largest that the readings allow, by their marginal likelihood in
-/// the linear model (Patterson & Thompson 1971). Nothing if the equations do not determine it.
+/// `model` has soft meets and a prior; `at` is a local minimum with exact meets. All meets get one
+/// sigma: the largest that the readings allow, by their marginal likelihood in the linear model
+/// (Patterson & Thompson 1971). Nothing if the equations do not determine it.
 std::optional<MeetEvidence> weigh_meets(FitModel& model, const Finished& at,
                                         const FitOptions& options);
 

@@ -13,12 +13,12 @@ namespace culet {
 /// For polished facets and girdle facets, in the scale of the fit: `FitModel::group_sigmas`.
 using MeetSigmas = std::array<double, 2>;
 
-/// -2 log restricted likelihood of the sigmas (Patterson & Thompson 1971), up to a constant, in the
-/// linear model about one shape: log det V + log det A'V^-1 A + r'V^-1 r. The first two terms are
-/// the determinant of the saddle system [P A'; A -V].
+/// -2 log restricted likelihood (Patterson & Thompson 1971), up to a constant, in the linear model
+/// about one shape: log det V + log det A'V^-1 A + r'V^-1 r. The first two terms are the
+/// determinant of the saddle system [P A'; A -V].
 class MeetLikelihood {
 public:
-    /// `with_readings` = false: of the meets and the prior alone, as if nothing had been read.
+    /// `with_readings` = false: of the meets and the prior alone.
     MeetLikelihood(const FitModel& model, const Finished& at, bool with_readings = true);
 
     bool has(std::size_t group) const { return present_[group]; }

@@ -15,8 +15,8 @@ namespace {
 
 using Sigmas = MeetSigmas;
 
-// Foerstner (1979): each group's variance is sum of squares / redundancy of its residuals, repeated
-// until it agrees with the one that weighted them.
+// Foerstner (1979): each group's variance is sum of squares / redundancy, repeated until it agrees
+// with that of the weights.
 void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions& options,
                           const Progress& progress) {
     for (int round = 0; round < 60; ++round) {
@@ -35,8 +35,8 @@ void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions&
                 std::max(k_meet_size.least_sigma, before * std::exp(std::clamp(change, -2.0, 2.0)));
         }
         model.set_group_sigmas(sigmas);
-        // No estimate of an uncertainty is better than 1 %. Before that, three steps are enough,
-        // because the weights change again.
+        // No estimate of an uncertainty is better than 1 %. Until then three steps do, as weights
+        // change again.
         const bool agrees = largest < 1e-2;
         const int steps = finished.iterations;
         finished = finish(model, finished.shape, agrees ? options.iterations : 3);
@@ -54,7 +54,7 @@ struct End {
     double likelihood = 0;  // -2 log likelihood
 };
 
-// The likeliest point of a scan of each group alone, then of both together.
+// Scans each group alone, then both together.
 Sigmas best_of_scan(MeetLikelihood& likelihood, const Sigmas& from, double& least) {
     Sigmas best = from;
     const auto try_at = [&](const Sigmas& sigmas) {

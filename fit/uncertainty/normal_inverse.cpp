@@ -102,8 +102,8 @@ int negative_pivots(const NormalEquations& equations) {
     if (!factors.factor(matrix)) return 0;
     int negative = static_cast<int>((factors.pivots().array() < 0).count());
     if (!apart.empty()) {
-        // Bordered instead of filled in, [A0, D'; D, -1] has as many additional negative
-        // eigenvalues as borders; by A0's Schur complement they are those of -(1 + D A0^-1 D').
+        // With borders, [A0, D'; D, -1] has as many more negative eigenvalues as borders; by A0's
+        // Schur complement they are those of -(1 + D A0^-1 D').
         const Eigen::MatrixXd rows = dense(equations.rows, apart);
         const Eigen::MatrixXd solved = factors.solve_all(rows.transpose());
         const PivotedCholesky bordered(with_one(culet::product(rows, solved)));

@@ -10,8 +10,8 @@
 
 namespace culet {
 
-/// rows' rows + hard_weight^2 hard' hard + diag(diagonal). Rows with a great part of the unknowns
-/// (volume, means of a whole stone) are kept apart, because they would fill the matrix.
+/// rows' rows + hard_weight^2 hard' hard + diag(diagonal). Long rows (volume, means of a whole
+/// stone) would fill the matrix and are kept apart.
 struct NormalEquations {
     const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows;
     const Eigen::SparseMatrix<double, Eigen::RowMajor>& hard_rows;
@@ -37,8 +37,7 @@ private:
     std::optional<Cholesky> capacitance_;
 };
 
-/// Number of negative eigenvalues of the (indefinite) matrix, from an unpivoted LDL' (Sylvester's
-/// law). 0 if it has no such factors.
+/// Number of negative eigenvalues, from an unpivoted LDL' (Sylvester's law); 0 if there is none.
 int negative_pivots(const NormalEquations& equations);
 
 }  // namespace culet

@@ -1,6 +1,5 @@
 #pragma once
-// The single observations, also where several readings share an equation. Private to the room:
-// shows Eigen.
+// Single observations, also of readings that share an equation. Private to the room: shows Eigen.
 
 #include <vector>
 
@@ -9,9 +8,9 @@
 
 namespace culet {
 
-/// A reading's or a soft meet's part in an equation that counts. If several readings share it,
-/// `part` is the square root of this one's share of the weight: residual_i = part (residual - off /
-/// sigma), and the hat matrix's entry for two readings is that of their equations times both parts.
+/// A reading's or soft meet's part in an equation. If several readings share it, `part` is the root
+/// of this one's share of the weight: residual_i = part (residual - off / sigma), and the hat
+/// matrix's entry for two readings is that of their equations times both parts.
 struct Observation {
     Eigen::Index equation = -1;  ///< index among the soft equations
     int reading = -1;            ///< -1: none
@@ -24,7 +23,7 @@ struct Observation {
     }
 };
 
-/// In the order that they would have if no equation were shared.
+/// In the order as if no equation were shared.
 std::vector<Observation> observations_of(const Linearised& linear);
 
 }  // namespace culet

@@ -8,10 +8,9 @@
 
 namespace culet {
 
-/// True if the readings leave next to nothing of the stone to the mesh. Decided before the fit: by
-/// the number of readings (three quarters of the stone's degrees of freedom), or else by the rank
-/// of the linear model at the mesh (up to four undetermined directions: a rough mesh shows some
-/// that are not).
+/// True if the readings leave next to nothing to the mesh, as far as one can tell before the fit:
+/// by their number (three quarters of the stone's degrees of freedom), or by the rank of the linear
+/// model at the mesh (up to four undetermined directions: a rough mesh shows some that are none).
 bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
                        FitOptions options);
 

@@ -8,7 +8,6 @@ namespace culet {
 
 namespace {
 
-// The same equations without readings: the prior with meets and symmetry.
 Linearised without_readings(const Linearised& linear) {
     Linearised prior = linear;
     for (std::size_t i = 0; i < linear.soft.size(); ++i) {

@@ -6,8 +6,8 @@
 
 namespace culet {
 
-/// Fills in FacetSigma::read: 1 - variance / variance with the prior alone, where meets, symmetry
-/// and exact readings hold in both. Offsets count from `middle`.
+/// Fills in FacetSigma::read: 1 - variance / variance of the prior with meets, symmetry and exact
+/// readings. Offsets count from `middle`.
 void find_parts_read(const Shape& shape, const Covariance& covariance, const Vec3& middle,
                      Diagnosis& diagnosis);
 

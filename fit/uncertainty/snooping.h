@@ -1,6 +1,6 @@
 #pragma once
-// Finds wrong readings: data snooping after Baarda (1968), for several errors at once.
-// Private to the room: shows Eigen.
+// Finds wrong readings: data snooping for several errors at once, after Baarda (1968). Private to
+// the room: shows Eigen.
 
 #include <Eigen/Core>
 #include <functional>
@@ -17,21 +17,19 @@ struct Residuals {
 
 struct Outlier {
     Eigen::Index equation = -1;
-    /// The error that explains the residuals, with the other outliers left out, and its standard
-    /// uncertainty; both in units of sigma.
+    /// The error that explains the residuals without the other outliers, and its standard
+    /// uncertainty; in sigmas.
     double error = 0, error_sigma = 0;
     double gain = 0;  ///< rise of chi2 if it alone is believed again
-    /// Equations that explain the residuals nearly as well (likelihood ratio below e^1.5), so that
-    /// they cannot be told apart from this one.
+    /// Equations that explain the residuals nearly as well (likelihood ratio below e^1.5).
     std::vector<Eigen::Index> alternatives;
 };
 
 /// The set of equations without which nothing stands out, the worst first. It grows by the best one
-/// or the best two at a time (two errors may hide each other), then is pruned and exchanged until
-/// no change improves it. An equation enters if chi2 drops by more than `limit`^2, a pair if by
-/// more than `pair_limit`. Equations of redundancy below 1e-4 cannot be checked. The search ends
-/// early if more than a tenth of the rest still stands out when eight are left out, or if forty are
-/// not enough: then no few readings explain it.
+/// or two at a time (two errors may hide each other), and is pruned and exchanged until no change
+/// improves it. One enters if chi2 drops by more than `limit`^2, a pair by more than `pair_limit`.
+/// Equations of redundancy below 1e-4 cannot be checked. The search ends if a tenth of the rest
+/// still stands out when eight are left out, or at forty: then no few readings explain it.
 std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, double pair_limit,
                                    std::size_t most);
 

@@ -11,8 +11,8 @@ namespace culet {
 
 namespace {
 
-// Puts weights on as many unknowns as there are motions: those that move most (elimination with
-// complete pivoting).
+// Weights on as many unknowns as motions: those that move most (elimination with complete
+// pivoting).
 Eigen::VectorXd pins(Eigen::MatrixXd motions, double weight) {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(motions.rows());
     for (Eigen::Index k = 0; k < motions.cols(); ++k) {
@@ -39,8 +39,8 @@ Covariance::Sparse::Sparse(const Linearised& of)
         }
         tightest = std::max(tightest, sizes(i));
     }
-    // Hard equations are very tight soft ones: their own variance is far below the readings', and
-    // the matrix stays positive definite even if equations repeat.
+    // Hard equations become very tight soft ones, far below the readings' variances; so the matrix
+    // stays positive definite even if they repeat.
     hard_weight_ = std::clamp(1e3 * tightest, 1e4, 1e6);
     gauge_rows_ = linear.metric.asDiagonal() * gauge_;
     pins_ = pins(gauge_, std::max(1e6, tightest * tightest));

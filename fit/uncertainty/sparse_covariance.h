@@ -8,9 +8,8 @@
 
 namespace culet {
 
-/// The factor of the penalised normal equations. Pins (as many unknowns as motions) fix the gauge
-/// freedom; inner constraints follow by Baarda's S-transformation: the covariance is P C P' with P
-/// = 1 - G G' M.
+/// The factor of the penalised normal equations. Pins (one for each motion) fix the gauge freedom;
+/// Baarda's S-transformation gives inner constraints: the covariance is P C P' with P = 1 - G G' M.
 struct Covariance::Sparse {
     explicit Sparse(const Linearised& linear);
 
@@ -26,8 +25,8 @@ struct Covariance::Sparse {
     Eigen::VectorXd with_all(const PinnedInverse& pinned, const Eigen::VectorXd& function) const;
     /// Upper limit of open directions: each leaves some unknown half as uncertain as the mesh.
     double most_open() const;
-    /// An open direction of length q has the variance q^2 / (lambda + prior), so it shows in the
-    /// difference between the two priors.
+    /// An open direction of length q has the variance q^2 / (lambda + prior): the two priors differ
+    /// there.
     double open_variance(const FunctionRow& function) const;
 
     const Linearised& linear;

@@ -17,8 +17,8 @@ namespace {
 Residuals residuals_of(const std::vector<Observation>& observations, const Covariance& covariance) {
     const Linearised& linear = covariance.linear();
     const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
-    // At the optimum the residuals are R times the errors; elsewhere the part that a step would
-    // remove is subtracted first.
+    // At the optimum the residuals are R times the errors; elsewhere a step's part is subtracted
+    // first.
     const Eigen::VectorXd taken = covariance.fitted_part(linear.soft_residuals);
     Residuals residuals;
     residuals.values.resize(count);

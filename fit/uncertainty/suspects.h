@@ -6,8 +6,7 @@
 namespace culet {
 
 /// Data snooping (snooping.h), and an irreducible inconsistent set if chi-square fails. Fills in
-/// `suspects`, `suspicions` and `disagreeing` of a diagnosis that has its covariance, chi-square
-/// and limit.
+/// `suspects`, `suspicions` and `disagreeing` of an otherwise complete diagnosis.
 void find_suspects(const FitModel& model, double significance, Diagnosis& diagnosis);
 
 }  // namespace culet

@@ -10,8 +10,7 @@ namespace culet {
 struct Contrasts {
     std::vector<double> values, variances;
 };
-/// Contrasts of deviations with covariance `v` that do not depend on what `columns` explain: an
-/// orthonormal basis of the rest.
+/// Contrasts of deviations with covariance `v`, free of whatever `columns` explain.
 Contrasts contrasts_of(const Eigen::VectorXd& deviations, const Eigen::MatrixXd& v,
                        const Eigen::MatrixXd& columns);
 
