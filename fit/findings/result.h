@@ -47,7 +47,8 @@ struct SilhouetteFinding {
 
 /// How a photograph of the stone in known light agrees with the fitted stone (compare/refine).
 struct PhotographFinding {
-    double rms_before = 0, rms = 0;  ///< of the pictures' difference, in square roots of radiance
+    double rms_before = 0,
+           rms = 0;         ///< difference of the pictures, in the root of light (white is 1)
     double moves_told = 0;  ///< how many of the planes' parameters, three a facet, it determines
     /// A place where it contradicts the fitted stone, in its pixels.
     struct Place {
