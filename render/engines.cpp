@@ -8,7 +8,6 @@
 
 namespace culet {
 
-// Each in its own file.
 const Engine& reference_engine();  // reference/reference_engine.cpp
 const Engine& beam_engine();       // beams/beam_engine.cpp
 const Engine& preview_engine();    // beams/beam_engine.cpp

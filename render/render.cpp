@@ -25,7 +25,7 @@ RenderResult drawn(const Scene& scene, const Progress& progress) {
     return engine_of(scene.settings).draw(scene, progress);
 }
 
-// What was left out unseen, the picture has shown to be near enough.
+// If the finished picture is close enough, its bound also covers the merged waves.
 void bound_by_picture(RenderResult& result) {
     for (PlanItem& line : result.stats.plan->items) {
         const bool alone = line.name != name_of(Effects::coherence);
@@ -35,8 +35,8 @@ void bound_by_picture(RenderResult& result) {
 
 RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     require_renderable(scene);
-    // A crystal's two waves merged, effects that few pixels say may go, and only those that are
-    // sure to change nothing.
+    // In turn: merge a crystal's two waves; leave out effects that the pilot finds negligible;
+    // leave out only those that certainly change nothing.
     struct Try {
         bool merged_waves;
         Planner::Leave leave;
@@ -63,7 +63,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
                 break;
             }
             RefinedPicture picture = refinement.draw(plan, *estimator);
-            // Where little work is left, more effects may leave more noise than they bring.
+            // With little work left, more effects may add more noise than they remove error.
             if (seconds_before > 0 && scene.settings.meter->limited() &&
                 picture.result.stats.error_bound > result.stats.error_bound)
                 break;
@@ -79,21 +79,21 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
                     "sure to change nothing");
         } catch (const OverBudget&) {
             if (seconds_before == 0) throw;
-            break;  // what was drawn with fewer effects stands, with the error that it has
+            break;  // keep the picture with fewer effects and its error
         }
     }
     result.stats.notes.insert(result.stats.notes.end(), tried.begin(), tried.end());
     return result;
 }
 
-// As finely as the tolerance asks for, as far as that is known beforehand.
+// Draws once, as finely as the tolerance asks for by estimate.
 RenderResult drawn_once(const Scene& scene, const Progress& progress) {
     require_renderable(scene);
     Scene settled = scene;
     RenderSettings& settings = settled.settings;
     if (settings.engine == k_auto_engine && refused_by_beams(scene).empty())
         settings.engine = k_beam_engine;
-    // The estimator's own is better.
+    // The estimator's check is better than the engine's.
     settings.check = Check::none;
     RenderResult result = drawn(settled, progress);
     if (scene.settings.check == Check::none) return result;
@@ -108,12 +108,12 @@ RenderResult drawn_once(const Scene& scene, const Progress& progress) {
     return result;
 }
 
-// Light that is chosen at random: first a few rays a pixel, to be seen soon.
+// Light sampled at random: shows a picture with few rays per pixel first.
 RenderResult drawn_with_preview(const Scene& whole, const Progress& progress,
                                 const PictureSink& better) {
     const bool paced = whole.settings.allowed_ns > 0 && leaves_samples_open(whole);
     const Scene scene = paced ? with_allowed_samples(whole, progress) : whole;
-    // Where few rays are all that is allowed, they come soon.
+    // No preview if few rays are all that is allowed.
     if (better && !(paced && scene.settings.samples <= k_preview_samples)) {
         Scene few = scene;
         few.settings.samples = k_preview_samples;
@@ -131,7 +131,7 @@ RenderResult drawn_with_preview(const Scene& whole, const Progress& progress,
     return result;
 }
 
-// It was of this drawing alone.
+// The meter belongs to this drawing only.
 void forget_meter(RenderStats& stats) {
     if (stats.plan) stats.plan->settings.meter = nullptr;
 }
@@ -152,7 +152,7 @@ ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats) {
 
 bool leaves_something_open(const Scene& scene) {
     const RenderSettings& settings = scene.settings;
-    // What stands around the stone is sampled at random: no pilot tells how near it is.
+    // Light around the stone is sampled at random, so no pilot can tell the error.
     if (scene.has_objects()) return false;
     if (!engine_of(settings).approaches_truth()) return false;
     return settings.tolerance > 0 && (settings.engine == k_auto_engine || settings.effects_auto ||
@@ -188,7 +188,7 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
         forget_meter(result.stats);
         return result;
     }
-    // A plan has many parts: counted together, they tell how far it is.
+    // The meter counts all parts of a plan for the progress report.
     Scene counted = scene;
     if (planned) counted.settings.meter = std::make_shared<WorkMeter>();
     const Progress told =
@@ -203,7 +203,7 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
                         "tolerance {:.3g} that was asked for",
                         stats.error_bound, tolerance));
     }
-    // Of a checked picture the bound says it all.
+    // For a checked picture the bound includes this error.
     if (!planned && tolerance > 0 && stats.standard_error > tolerance) {
         stats.notes.push_back(
             fmt::format("paths chosen at random leave a standard error of {:.3g} a pixel, over the "

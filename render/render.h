@@ -1,5 +1,5 @@
 #pragma once
-// Front door of the room: a scene in, a picture out, and what was left out of it.
+// Public interface of render/: draws a scene and reports what the picture leaves out.
 
 #include <string>
 
@@ -9,31 +9,30 @@
 
 namespace culet {
 
-/// Draws with the scene's engine: the exact reference renderer, or beams. Same scene and seed, same
-/// bytes, whatever the number of threads. `better`: where the tolerance is what `allowed_ns`
-/// allows, told of each picture on the way, the last of which is returned. Throws InputError (stone
-/// not closed, camera inside the stone) and Interrupted.
+/// Draws with the scene's engine. The same scene and seed give the same bytes, whatever the number
+/// of threads. If `allowed_ns` decides the tolerance, `better` receives each picture on the way;
+/// the last one is returned. Throws InputError (stone not closed, camera inside the stone) and
+/// Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {},
                     const PictureSink& better = {});
 
-/// Draws with what was chosen for an earlier picture of the same stone and light, and tells the
-/// error bound of that one: nothing is chosen or checked anew. For turntables, and for other views
-/// of a scene whose plan was kept.
+/// Draws with the plan of an earlier picture of the same stone and light, and reports that
+/// picture's error bound: nothing is chosen or checked anew. For turntables and other views.
 RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
                                const Progress& progress = {});
 
-/// What a picture of the scene was drawn with, for further ones of the same stone and light.
+/// The plan behind a picture of the scene, for `render_as_planned`.
 ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats);
 
-/// Whether `render` chooses anything itself: then `allowed_ns` counts.
+/// Whether `render` has anything to choose. Only then does `allowed_ns` count.
 bool leaves_something_open(const Scene& scene);
 
-/// Where nobody says how near the picture must be, and nothing is chosen by an earlier plan: allows
-/// it the usual time (k_usual_budget_ns), and answers true.
+/// Allows the scene the usual time (k_usual_budget_ns) and returns true, unless it names a
+/// tolerance or nothing is left to choose.
 bool allow_usual_time(Scene& scene);
 
-/// False: the picture should not be trusted. It was allowed the usual time, which was too little to
-/// find out how near it is, or its error bound was held against the truth and is too low.
+/// False if the picture should not be trusted: the usual time was too short to estimate its error,
+/// or verification showed that its error bound is too low.
 bool usable(const RenderStats& stats, bool was_allowed_usual_time);
 
 /// STATS.json (docs/rendering.md) as text.

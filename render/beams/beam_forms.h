@@ -1,13 +1,13 @@
 #pragma once
-// shade_beam (beam_shading.h) for lights whose edges are sharp, and for those that are averaged
-// over a pixel: files of their own, because each is half a minute's work for the compiler.
+// shade_beam (beam_shading.h) for sharp light edges and for edges averaged over a pixel. Each has
+// its own file, as it takes the compiler half a minute.
 
 #include "render/beams/beam_shading.h"
 #include "render/setup/built_effects.h"
 
 namespace culet {
 
-/// Whether more than the intensity has to be carried along; never where polarisation is not built.
+/// Whether polarisation is carried along; false in builds without it.
 inline bool polarised(const ShadingJob& job) {
     return k_has_effects && (job.optics->polarised || job.optics->crystal || job.optics->response);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The beams below one front facet: each is split by the facets that its rays meet next.
+// Grows the beams below one front facet: splits each by the facets that its rays meet next.
 
 #include <atomic>
 #include <functional>
@@ -10,29 +10,29 @@
 
 namespace culet {
 
-/// A beam that is to be split: what its rays have in common.
+/// A beam to be split.
 struct BeamTrunk {
-    FacetRegion part;   ///< the facet met last
-    double weight = 1;  ///< of what goes on behind the facet before that
+    FacetRegion part;   ///< region on the facet met last
+    double weight = 1;  ///< of the light that goes on behind the facet before
     bool sure = true;   ///< no border is off by more than 1/4 pixel
 };
 
-/// Grows the beams below one beam, and keeps the room for it.
+/// Grows the beams below one beam; reuses its memory.
 class BeamGrower {
 public:
     void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
                  double front_area, std::atomic<long long>& grown,
                  const std::function<bool(long long)>& goes_on);
 
-    /// Beams behind the front facet's, with the corners of their regions in `corners()`. None when
-    /// the front beam is not to be split.
+    /// Beams behind the front facet, with the corners of their regions in `corners()`. Empty if the
+    /// front beam need not be split.
     const std::vector<BeamTrunk>& split_front(int facet, const std::vector<ScreenPoint>& outline);
     const std::vector<ScreenPoint>& corners() const { return pool_; }
 
-    /// A beam that nothing is split from: the front facet's.
+    /// Adds the front facet's own beam, unsplit.
     void keep_front(int facet, const std::vector<ScreenPoint>& outline, BeamBranch& out);
 
-    /// All beams below one that `split_front` found; `middle`: of the front facet's outline.
+    /// Grows all beams below one from `split_front`. `middle`: of the front facet's outline.
     void grow_branch(int front, const ScreenPoint& middle, const BeamTrunk& child,
                      const ScreenPoint* region, BeamBranch& out);
 
@@ -58,7 +58,7 @@ private:
     std::atomic<long long>* grown_ = nullptr;  // in all branches
     const std::function<bool(long long)>* goes_on_ = nullptr;
     bool stopped_ = false;
-    long long counted_ = 0;  // of this branch, in that
+    long long counted_ = 0;  // this branch's share of that
     BeamBranch* out_ = nullptr;
     Pencil front_;
     std::vector<std::uint16_t> path_;

@@ -1,6 +1,6 @@
 #pragma once
-// Lights as the shading of beams wants them: single precision, about the stone's middle, and an
-// environment that is averaged beforehand over what a ray's pixel sees of it.
+// Lights for shading beams: in single precision, relative to the stone's middle, with the
+// environment prefiltered over what a ray's pixel sees of it.
 
 #include <array>
 #include <memory>
@@ -19,8 +19,8 @@ struct ShadedLights {
     ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
                  const Vec3& middle, std::shared_ptr<const EnvironmentPyramid> environment);
 
-    /// Degree 0: unpolarised. The vibration of a ray is `along` turned with the sheet's normal into
-    /// it, or without a sheet the projection of `along`.
+    /// Degree 0: unpolarised. A ray vibrates along `along`: turned with the sheet's normal into the
+    /// ray if there is a sheet, else projected.
     struct Polarised {
         float degree = 0;
         bool sheet = false;
@@ -29,7 +29,7 @@ struct ShadedLights {
 
     struct Lobe {
         float x, y, z, exponent;
-        int whole;  ///< the exponent when it is a small whole number, else -1
+        int whole;  ///< the exponent if it is a small integer, else -1
         std::vector<float> radiance;
         Polarised polarised;
     };
@@ -37,7 +37,7 @@ struct ShadedLights {
     struct Disc {
         float cosine, sine;  ///< of the angle from its middle to its rim
     };
-    struct Cap {  ///< what is within the outer and not within the inner; or half of all directions
+    struct Cap {  ///< within `outer` but not `inner`; or half of all directions
         float x, y, z;
         Disc outer, inner;
         std::vector<float> radiance;
@@ -51,13 +51,13 @@ struct ShadedLights {
     struct Plane {
         float x, y, z, offset;
         bool bounded;
-        float s[4], t[4];  ///< coordinates of a point along u and v, as a row; lit within -1..1
+        float s[4], t[4];  ///< row vectors: coordinates of a point along u and v; lit within -1..1
         std::vector<float> radiance;
         Polarised polarised;
     };
 
     int nodes = 1;
-    bool any_edge = false;  ///< lights whose radiance jumps, or an environment
+    bool any_edge = false;  ///< there are lights with edges, or an environment
     std::vector<float> constant;
     Polarised surroundings;  ///< of the constant light and the environment
     std::vector<Lobe> lobes;
@@ -65,7 +65,7 @@ struct ShadedLights {
     std::vector<Sphere> spheres;
     std::vector<Plane> planes;
     std::shared_ptr<const EnvironmentPyramid> environment;
-    /// Of each node: what red and blue add to green.
+    /// Per node: what red and blue add to green.
     std::vector<float> red, blue;
 
 private:

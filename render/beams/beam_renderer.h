@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a convex stone by its beams.
+// Draws a convex stone by its beams.
 
 #include <memory>
 
@@ -18,13 +18,13 @@ struct BeamSettings {
     int threads = 0;
 };
 
-/// Of one picture. Weights are means over what the stone fills, and over wavelengths.
+/// Statistics of one picture. Weights are means over the stone's area and over wavelengths.
 struct BeamReport {
     long long beams = 0, fragments = 0;
-    long long retraced = 0;  ///< rays that did not meet their beam's facets, traced anew
+    long long retraced = 0;  ///< rays that did not meet their beam's facets and were traced again
     double filled = 0;       ///< square pixels of the stone
     double remainder = 0, absorbed = 0, luminance = 0;
-    double lost_area = 0;  ///< that no beam covers, over the front facets' area
+    double lost_area = 0;  ///< area that no beam covers, over the front facets' area
     int deepest = 0;
     double seconds_build = 0, seconds_shade = 0;
 };
@@ -34,9 +34,8 @@ public:
     explicit BeamRenderer(const Solid& convex);
     ~BeamRenderer();
 
-    /// Draws into `picture`, whose memory is used again. Beams are kept where view, indices and
-    /// limits are those of the last call. Throws InputError for a conoscope and
-    /// Interrupted.
+    /// Draws into `picture`, reusing its memory. Keeps the beams while view, indices and limits
+    /// stay the same. Throws InputError for a conoscope, and Interrupted.
     void draw(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
               const BeamSettings& settings, Picture& picture, const Progress& progress = {});
     const BeamReport& report() const;

@@ -1,9 +1,10 @@
 #pragma once
-// Light of a beam's rays, each followed exactly along the facets that the beam names: no search,
-// many rays at once, in single precision about the stone's middle (the regions come from double).
+// Light along a beam's rays. Each ray is followed exactly along the beam's facets without
+// searching, many rays at once, in single precision relative to the stone's middle (the regions are
+// computed in double).
 //
-// What is carried is that of light_paths.h: with polarisation the Stokes parameters of two
-// orthogonal eye polarisations, turned from face to face by products of normals alone.
+// As in light_paths.h, polarised light carries the Stokes parameters of two orthogonal eye
+// polarisations. They are turned from face to face by products of normals alone.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +19,7 @@
 
 namespace culet {
 
-/// The stone as the shading wants it, about `middle`.
+/// The stone relative to `middle`.
 struct ShadedStone {
     explicit ShadedStone(const FacetNet& net);
 
@@ -27,7 +28,7 @@ struct ShadedStone {
     };
     struct Face {
         float x, y, z, offset;
-        std::uint32_t first_side, sides;  ///< a point of the plane is on the facet within all sides
+        std::uint32_t first_side, sides;  ///< sides that bound the facet in its plane
     };
     Vec3 middle{0};
     float size = 1;
@@ -35,56 +36,55 @@ struct ShadedStone {
     std::vector<Side> sides;
 };
 
-/// Light's way through the stone for one band of wavelengths.
+/// Optics of one band of wavelengths.
 struct ShadedOptics {
-    float n = 1.5f;  ///< over the outside's
+    float n = 1.5f;  ///< relative to the outside
     bool polarised = true;
-    std::vector<float> absorption;  ///< of each node, per length; empty: clear
-    /// Where either is wanted there is one node, and `polarised`.
+    std::vector<float> absorption;  ///< per node and length; empty: clear
+    /// With either of these there is one node, and `polarised` is set.
     std::optional<MergedCrystal> crystal;
-    /// What the eye responds to of the four Stokes parameters (stokes.h); none: S0 of unpolarised
-    /// lights.
+    /// The eye's response to the four Stokes parameters (stokes.h); none: S0 of unpolarised lights.
     std::optional<std::array<float, 4>> response;
 
     bool absorbs() const { return crystal || !absorption.empty(); }
 };
 
-/// Eye rays about one of them, at the beam's first facet. All about the stone's middle.
+/// An eye ray and its derivatives, at the beam's first facet, relative to the stone's middle.
 struct ShadedEye {
-    float point[3], direction[3];          ///< where it enters, and its unit direction
-    float point_x[3], point_y[3];          ///< its change from pixel to pixel, at the same distance
-    float direction_x[3], direction_y[3];  ///< and of the direction
-    float origin_x[3], origin_y[3];        ///< and of where the eye ray starts
-    float distance = 0;                    ///< from there to the point
+    float point[3], direction[3];          ///< entry point and unit direction
+    float point_x[3], point_y[3];          ///< change of the point per pixel, at the same distance
+    float direction_x[3], direction_y[3];  ///< change of the direction
+    float origin_x[3], origin_y[3];        ///< change of the eye ray's origin
+    float distance = 0;                    ///< from the origin to the point
     float forward[3], right[3];            ///< of the camera (EyeFrame), for polarised light
 };
 ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Plane& front,
                      const Vec3& middle);
-/// The same where no facet is met: the point is where the ray starts.
+/// The same without a facet: the point is the ray's origin.
 ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Vec3& middle);
 
-/// The rays of one beam; the arrays have room for `k_shading_room` more.
+/// The rays of one beam. Arrays need room for `k_shading_room` more.
 struct Fragments {
-    const float *x = nullptr, *y = nullptr;  ///< pixels from the eye ray of reference
+    const float *x = nullptr, *y = nullptr;  ///< pixels from the reference eye ray
     int count = 0;
-    /// The part of each pixel whose light is wanted, as CoveredPixels has it; null: all of it.
+    /// Parts of the pixels to shade, as in CoveredPixels; null: whole pixels.
     const float *xx = nullptr, *yx = nullptr, *yy = nullptr;
-    /// With these, the region that the parts are of, and the eye ray of reference in the picture;
-    /// null: not known.
+    /// The region that the parts belong to, and the reference eye ray's place in the picture; null:
+    /// unknown.
     const ScreenPoint* corners = nullptr;
     std::size_t corner_count = 0;
     ScreenPoint reference{0, 0};
-    /// Radiance of node i in radiance[i * stride + fragment]: overwritten.
+    /// Output: radiance of node i in radiance[i * stride + fragment].
     float* radiance = nullptr;
     int stride = 0;
-    float* left = nullptr;      ///< what of the eye's unit of light is still inside at the end
+    float* left = nullptr;      ///< share of the eye's unit of light still inside at the end
     float* absorbed = nullptr;  ///< or null
-    /// Where near lights may stand before the stone: the share of a pixel that they leave free, and
-    /// their own radiance, likewise by node. Both or none.
+    /// For near lights in front of the stone: the share of a pixel that they leave free, and their
+    /// own radiance by node. Both or none.
     float *unhidden = nullptr, *before = nullptr;
-    /// 1 where the ray does meet these facets and no others, else 0; null: not looked at.
+    /// 1 if the ray meets exactly these facets, else 0; null: not checked.
     float* follows = nullptr;
-    bool soft = false;  ///< lights' edges are averaged over a pixel
+    bool soft = false;  ///< average lights' edges over a pixel
 };
 constexpr int k_shading_room = 16;
 
@@ -94,26 +94,26 @@ struct ShadingJob {
     const ShadedLights* lights = nullptr;
 };
 
-/// Follows the fragments' rays along `facets`, the front one first.
+/// Follows the fragments' rays along `facets`, front facet first.
 void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                 int facet_count, const Fragments& fragments);
 
-/// What leaves the stone, to first order over a small region of the picture: value, change to the
-/// right, change down.
+/// Light that leaves the stone, to first order over a small region of the picture: value, x
+/// derivative, y derivative.
 struct ShadedLeaving {
     float point[3][3], direction[3][3];
-    float s[3][3];                   ///< with the direction, the frame of Q and U
+    float s[3][3];                   ///< with the direction: the frame of Q and U
     float weight[3], Q[3], U[3];     ///< before absorption
-    std::vector<float> transmitted;  ///< 3 for each node
-    bool polarised = false;          ///< Q and U count
+    std::vector<float> transmitted;  ///< 3 per node
+    bool polarised = false;          ///< Q and U are used
 };
-/// `fragments` are about the point of reference; only the radiance is written.
+/// `fragments` are relative to the reference point; only the radiance is written.
 void shade_leaving(const ShadedLights& lights, const ShadedLeaving& leaving,
                    const Fragments& fragments);
 
-/// One row of pixels and how much of each the stone fills.
+/// One row of pixels and the share of each that the stone fills.
 struct BareRow {
-    float x = 0, y = 0;  ///< the first pixel's middle, from the eye ray of reference
+    float x = 0, y = 0;  ///< middle of the first pixel, from the reference eye ray
     int count = 0;
     const float* cover = nullptr;
     float* radiance = nullptr;  ///< node * stride + pixel: added to
@@ -121,15 +121,15 @@ struct BareRow {
     float factor = 1;
     bool soft = false;
 };
-/// Adds the lights that the eye itself sees beside the stone; its reference ray starts at
+/// Adds the lights that the eye sees directly beside the stone. The reference ray starts at
 /// `eye.point`.
 void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
                       const BareRow& row);
 
-/// Instruction sets that this processor has of those that were compiled, best first; the first is
-/// used. "EMU128" or "SSE2" is the portable one.
+/// Instruction sets compiled in that this processor has, best first; the first is used. The
+/// portable one is "EMU128" or "SSE2".
 std::vector<std::string> shading_targets();
-/// Uses the named one from now on; false when there is no such. For tests.
+/// Selects one by name; false if there is none. For tests.
 bool use_shading_target(const std::string& name);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// How much of a part of a pixel sees a small disc, by the part's own corners: what stands between
-// two beams is then in one of them, and in one of two pixels.
+// Share of a pixel's part that sees a small disc, computed from the part's own corners. A disc on
+// the border of two beams then counts in exactly one of them.
 
 #include <cstddef>
 
@@ -8,20 +8,20 @@
 
 namespace culet {
 
-/// A part of a pixel as it sees a disc, in the plane across the direction to it.
+/// A pixel's part as seen beside a disc, in the plane across the direction to the disc.
 struct PartBesideDisc {
-    Vec3 offset;       ///< of the part's middle from the disc's
-    Vec3 along, down;  ///< its change over the part's sides (CoveredPixels::xx)
+    Vec3 offset;       ///< from the disc's middle to the part's
+    Vec3 along, down;  ///< along the part's sides (CoveredPixels::xx)
     Vec3 normal;       ///< unit, of the plane
     double radius = 0;
 };
 
-/// Area within a circle of `radius` about the origin, of a polygon's: the sum of what its edges cut
-/// off of the circle's sectors. Either orientation; 0 for no area.
+/// Share of a polygon's area within a circle of `radius` about the origin, summed over its edges'
+/// parts of the circle's sectors. Either orientation; 0 for no area.
 double share_in_circle(const ScreenPoint* corners, std::size_t count, double radius);
 
-/// Share of a fragment's part of its pixel. Below 0 where that has no width to speak of, or no
-/// corners are known.
+/// Share of a fragment's part that sees the disc. Below 0 if the part is too thin or has no known
+/// corners.
 double share_in_disc(const Fragments& fragments, int fragment, const PartBesideDisc& seen);
 
 }  // namespace culet

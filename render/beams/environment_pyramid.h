@@ -1,10 +1,10 @@
 #pragma once
 // An environment map averaged over squares of directions, from fine to coarse, so that a ray whose
-// pixel sees much of it sees the mean.
+// pixel sees many texels sees their mean.
 //
-// Octahedral layout (Engelhardt & Dachsbacher 2008): x + y of the square -1..1 are a direction's
-// x, y over |x| + |y| + |z|, folded over the diagonals below the horizon. Each level has a border
-// of one texel that continues it, so that no look-up needs to know of the folds.
+// Octahedral layout (Engelhardt & Dachsbacher 2008): the coordinates in the square -1..1 are a
+// direction's x and y over |x| + |y| + |z|, folded over the diagonals below the horizon. Each level
+// has a border of one texel, so that look-ups need not handle the folds.
 
 #include <functional>
 #include <memory>
@@ -16,17 +16,17 @@ namespace culet {
 
 class EnvironmentPyramid {
 public:
-    /// `goes_on`: asked from any thread, once a row; false: the pyramid is left unfinished.
+    /// `goes_on` is asked from any thread, once per row; false: the pyramid stays unfinished.
     explicit EnvironmentPyramid(const EnvironmentMap& map,
                                 const std::function<bool()>& goes_on = {});
 
     struct Level {
         int side = 1;           ///< texels along an edge, without the border
-        std::size_t start = 0;  ///< of the texel in the border's corner
-        float texel = 1;        ///< its largest extent as an angle, radians
+        std::size_t start = 0;  ///< index of the border's corner texel
+        float texel = 1;        ///< its largest angular extent, radians
     };
     const std::vector<Level>& levels() const { return levels_; }
-    /// Three planes of all levels: red, green, blue.
+    /// One plane of all levels per channel: red, green, blue.
     const float* plane(int channel) const {
         return planes_[static_cast<std::size_t>(channel)].data();
     }
@@ -36,8 +36,8 @@ private:
     std::vector<float> planes_[3];
 };
 
-/// The same again for the same map, as long as somebody has that: making one takes as long as
-/// drawing some pictures. Unfinished, and not kept, where `goes_on` says no. From any thread.
+/// Returns the same pyramid for the same map while anybody holds it: making one takes as long as
+/// several pictures. If `goes_on` says no, it is unfinished and not kept. Thread-safe.
 std::shared_ptr<const EnvironmentPyramid> pyramid_of(
     const std::shared_ptr<const EnvironmentMap>& map, const std::function<bool()>& goes_on);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The facets of a convex stone with their edges and neighbours, for walking from facet to facet.
+// The facets of a convex stone with edges and neighbours, for walking from facet to facet.
 
 #include <algorithm>
 #include <limits>
@@ -12,53 +12,52 @@ namespace culet {
 
 /// An edge of a facet, counter-clockwise from outside.
 struct NetEdge {
-    int from = 0, to = 0;  ///< corners of the net
+    int from = 0, to = 0;  ///< indices of corners
     int beyond = 0;        ///< facet on the other side
-    int line = 0;          ///< the same number for both facets that share the edge
+    int line = 0;          ///< the same for both facets that share the edge
 };
 
-/// What lies beyond one of a facet's edges.
 struct NetNeighbour {
     Plane plane;
     int facet = 0;
 };
 
-/// Corners are the meets of the planes, which alone are the truth: meets that miss each other by
-/// little are held apart, with short edges between them. Edges shorter than the root of the
-/// rounding unit times the diameter have no direction worth the name (a corner's own rounding turns
-/// them), and are one corner here; that moves a corner by as little as their length.
+/// Corners are where planes meet; the planes alone are exact. Meets that miss each other slightly
+/// stay separate, with short edges between them. Edges shorter than the root of the rounding unit
+/// times the diameter are collapsed, since rounding of their corners makes their directions
+/// meaningless; this moves a corner by at most that length.
 class FacetNet {
 public:
-    /// Throws InputError when the planes bound no solid.
+    /// Throws InputError if the planes bound no solid.
     explicit FacetNet(const Solid& convex);
 
-    /// As many as the solid's; a facet that the planes leave no area has no edges.
+    /// As many as the solid's. Facets without area have no edges.
     int facets() const { return static_cast<int>(planes_.size()); }
     int lines() const { return lines_; }
     const Plane& plane(int facet) const { return planes_[static_cast<std::size_t>(facet)]; }
     const std::vector<NetEdge>& edges(int facet) const {
         return edges_[static_cast<std::size_t>(facet)];
     }
-    /// Of each edge, in the same order.
+    /// Per edge, in the same order.
     const std::vector<NetNeighbour>& neighbours(int facet) const {
         return neighbours_[static_cast<std::size_t>(facet)];
     }
-    /// The facet through which a ray that runs along `d` from `x` on facet `from` leaves the stone:
-    /// the largest (n.d)/(c - n.x), found by walking, because over neighbours a largest one is the
-    /// largest of all (a linear-fractional programme).
+    /// The facet through which a ray along `d` from `x` on facet `from` leaves the stone: that with
+    /// the largest (n.d)/(c - n.x). Found by walking: a maximum among neighbours is the global one
+    /// (a linear-fractional programme).
     int exit_of(int from, const Vec3& x, const Vec3& d) const {
         return walk(exits_[cell_of(from, d)], x, d);
     }
     const std::vector<Vec3>& corners() const { return corners_; }
-    /// Of a line whose edge is so short that corners which were made one may turn it: a point far
-    /// along it, in the direction of its higher corner, where its planes cross.
+    /// For a short edge, whose direction may be wrong after corners were merged: a distant point on
+    /// the intersection of its planes, on the side of its higher corner.
     const std::optional<Vec3>& far_along(int line) const {
         return far_along_[static_cast<std::size_t>(line)];
     }
     double size() const { return size_; }
 
 private:
-    // Directions by their x and y, and by the sign of z.
+    // Cells of directions, by x, y and the sign of z.
     static constexpr int k_cells = 6;
     static std::size_t cell_of(int from, const Vec3& d) {
         const auto step = [](double v) {
@@ -74,7 +73,7 @@ private:
     std::vector<std::vector<NetEdge>> edges_;
     std::vector<std::vector<NetNeighbour>> neighbours_;
     std::vector<std::optional<Vec3>> far_along_;
-    std::vector<int> exits_;  // of rays from a facet's middle, where walks begin
+    std::vector<int> exits_;  // of rays from a facet's middle: where walks begin
     std::vector<Vec3> corners_;
     int lines_ = 0;
     double size_ = 0;

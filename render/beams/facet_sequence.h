@@ -1,5 +1,5 @@
 #pragma once
-// Which facets one ray meets, by the reference's search.
+// The facets that one ray meets, by the reference's search.
 
 #include <cstdint>
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace culet {
 
-/// The facets that the eye ray through `at` meets, the front one first: at most `depth`, and fewer
-/// where less than `cut_weight` (mean of s and p) is left. Empty when it misses. `n`: index over
-/// the outside's.
+/// Finds the facets that the eye ray through `at` meets, front facet first: at most `depth`, fewer
+/// if less than `cut_weight` (mean of s and p) is left, none if it misses. `n`: index relative to
+/// the outside.
 void find_facets(const ConvexBody& body, const ScreenView& view, const ScreenPoint& at, double n,
                  int depth, double cut_weight, std::vector<std::uint16_t>& facets);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures by beams, one after the other.
+// Draws one picture after another by beams.
 
 #include <memory>
 
@@ -9,38 +9,37 @@
 
 namespace culet {
 
-/// Frame after frame by beams (engine "beams" or "preview"), for programs that draw while a person
-/// watches: what is kept from frame to frame is memory and whatever the changes left valid.
+/// For interactive programs (engine "beams" or "preview"). Keeps memory from frame to frame, and
+/// whatever a change leaves valid.
 class FrameRenderer {
 public:
-    /// Throws InputError where the scene cannot be drawn by beams.
+    /// Throws InputError if beams cannot draw the scene.
     explicit FrameRenderer(const Scene& scene);
     ~FrameRenderer();
     FrameRenderer(FrameRenderer&&) noexcept;
 
-    /// Another view: beams are grown anew (milliseconds).
+    /// Changes the view: beams are grown anew (milliseconds).
     void look_from(const Camera& camera);
-    /// The same, with the lights turned or moved: the wavelengths stay, which other kinds or
-    /// colours of lights may not.
+    /// The same, with the lights turned or moved. Wavelengths are kept, so the lights' kinds and
+    /// colours must not change.
     void look_from(const Camera& camera, const Lights& lights);
-    /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
-    /// other wavelengths.
+    /// Changes the lights: beams are kept and shaded anew, unless the lights' colours need other
+    /// wavelengths.
     void light_with(const Lights& lights);
-    /// Another view, other lights and other settings: only the stone, which must be the same,
-    /// stays.
+    /// Changes view, lights and settings; the stone must stay the same.
     void show(const Scene& scene);
-    /// Milliseconds of processor time that a frame may take; 0: no limit. Beams that bring little
-    /// are then split no further, as much as the last frame's time asks for: the picture depends on
-    /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.
+    /// Limits a frame's processor time in milliseconds; 0: no limit. Beams that bring little are
+    /// then not split further, depending on the last frame's time. So the picture depends on the
+    /// machine, and its `remainder` grows. Guy & Soler (2004) call this the frame-rate limit.
     void keep_within(double milliseconds);
-    /// Told how far a frame is; may stop it, and `draw` then throws Interrupted.
+    /// Reports the progress of a frame, and may stop it: `draw` then throws Interrupted.
     void report_to(const Progress& progress);
 
-    /// The picture stays valid until the next call. Without `check` no pixels are compared with the
-    /// reference: `error_bound` is that of the last view that was checked, in this light and with
-    /// these settings, as a note says; NaN where none was.
+    /// The picture is valid until the next call. Without `check`, no pixels are compared with the
+    /// reference: `error_bound` is that of the last checked view in this light and with these
+    /// settings, as a note says; NaN if there was none.
     const RenderResult& draw(bool check = false);
-    /// What was drawn last, with its memory.
+    /// Moves the last picture out.
     RenderResult take();
 
 private:
@@ -48,7 +47,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Why beams cannot draw this, in words; empty: they can.
+/// Why beams cannot draw the scene, in words; empty if they can.
 std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup);
 std::string refused_by_beams(const Scene& scene);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pixels side by side, many at once.
+// Vectorised operations on runs of pixels.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,34 +7,34 @@
 
 namespace culet {
 
-/// Some pixels of one row.
+/// Adjacent pixels of one row.
 struct PixelRun {
-    int pixel = 0;  ///< the first's, y * width + x
-    int first = 0;  ///< the first's values, in arrays that hold those of all runs
+    int pixel = 0;  ///< index of the first: y * width + x
+    int first = 0;  ///< index of its first value, in arrays for all runs
     int count = 0;
 };
 using PixelRuns = std::vector<PixelRun>;
 
-/// A plane of pixels, or some rows of it.
+/// A plane of pixels, or some of its rows.
 struct PixelRows {
     float* values = nullptr;
     int first_pixel = 0;
 };
 
-/// Adds factor * values * shares to each pixel of the runs; `values` null: 1.
+/// Adds factor * values * shares to the pixels of the runs; `values` null: 1.
 void add_to_runs(const PixelRuns& runs, const float* values, const float* shares, float factor,
                  const PixelRows& to);
-/// Takes the share of pixels that are taken, and marks the others.
+/// Sets the share of pixels already taken to 0, and marks the others as taken.
 void claim_runs(const PixelRuns& runs, const PixelRows& taken, float* shares);
-/// Sum of the products; `values` null: of the shares.
+/// Sum of values * shares; `values` null: of the shares.
 float sum_of_shared(const float* values, const float* shares, int count);
-/// True where a whole pixel (share 1) has a mark of 0.
+/// True if a whole pixel (share 1) has mark 0.
 bool any_unmarked_whole(const float* marks, const float* shares, int count);
-/// Appends the pixels of value 0, of some rows, next to others in the same rows.
+/// Appends pixels of value 0 that have a nonzero neighbour within these rows.
 void find_gaps(const PixelRows& rows, int width, int count, std::vector<int>& pixels);
-/// Adds factor * values, values above 1 counting as 1.
+/// Adds factor * min(value, 1).
 void add_up_to_one(const float* values, int count, float factor, float* to);
-/// Each value three times.
+/// Writes each value three times.
 void spread_to_rgb(const float* values, std::size_t count, float* rgb);
 
 }  // namespace culet

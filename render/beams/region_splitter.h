@@ -1,5 +1,5 @@
 #pragma once
-// Which facets the rays of a region meet next, and where each does.
+// Splits a region by the facets that its rays meet next.
 
 #include <algorithm>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace culet {
 
-/// What the eye sees of the stone's inside through one beam.
+/// The stone's inside as seen through one beam.
 struct InsideView {
     PencilMap map;
-    /// The virtual eye, as a point times `eye_weight` (0: a direction away from the rays').
+    /// The virtual eye times `eye_weight` (0: a direction, opposite to the rays').
     Vec3 eye{0};
     double eye_weight = 0;
-    int parity = 1;  ///< -1 where the picture is mirrored
+    int parity = 1;  ///< -1: the picture is mirrored
 };
 
 struct FacetRegion {
@@ -25,20 +25,19 @@ struct FacetRegion {
     double doubled_area = 0;
 };
 
-/// An edge's line is computed once, from its lower corner to its higher one, and taken with either
+/// Each edge's line is computed once, from its lower to its higher corner, and used with either
 /// sign by the two facets that share it, so that parts tile the whole without an epsilon.
 class RegionSplitter {
 public:
     void prepare(const FacetNet& net);
 
-    /// Splits a region of `pool`, of a beam that was at facet `from`; the parts' corners are
-    /// appended to the pool. `start`: a facet next to that which `middle` sees.
+    /// Splits a region of `pool`, whose rays come from facet `from`; appends the parts' corners to
+    /// the pool. `start`: a facet close to the one seen at `middle`.
     void split(const InsideView& view, std::vector<ScreenPoint>& pool, const Region& region,
                int from, int start, const ScreenPoint& middle, std::vector<FacetRegion>& parts);
 
 private:
-    // Kept here, where they can be compiled into their callers: they are asked a hundred times a
-    // beam.
+    // Inline, as these run a hundred times per beam.
     const ScreenImage& image(int corner) {
         const std::size_t i = static_cast<std::size_t>(corner);
         if (stamp_of_corner_[i] != stamp_) {
@@ -57,11 +56,11 @@ private:
         }
         return lines_[i];
     }
-    // Of the line's two sides, the one that the facet is on: +1 for the line as it is.
+    // The side of the line on which the facet lies: +1 for the line as it is.
     int inside_of(const NetEdge& edge) const {
         return edge.from < edge.to ? view_->parity : -view_->parity;
     }
-    // True when the view sees the facet from within.
+    // True if the view sees the facet from inside.
     bool leads_out(int facet) const {
         const Plane& plane = net_->plane(facet);
         return glm::dot(plane.normal, view_->eye) - view_->eye_weight * plane.offset < 0;

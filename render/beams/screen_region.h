@@ -1,5 +1,5 @@
 #pragma once
-// Convex regions of the picture, and cutting them.
+// Convex regions of the picture and how to cut them.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// Corners in a pool that several regions share; positively oriented in x and y.
+/// A range of corners in a shared pool; positively oriented in x and y.
 struct Region {
     std::size_t first = 0, count = 0;
 };
@@ -24,7 +24,7 @@ inline double doubled_area(const ScreenPoint* p, std::size_t count) {
     return sum;
 }
 
-/// The middle of its area, which must not be 0.
+/// Centroid of the area, which must not be 0.
 inline ScreenPoint middle_of(const ScreenPoint* p, std::size_t count) {
     double weight = 0, x = 0, y = 0;
     for (std::size_t i = 2; i < count; ++i) {
@@ -37,16 +37,15 @@ inline ScreenPoint middle_of(const ScreenPoint* p, std::size_t count) {
     return {p[0].x + x / (3 * weight), p[0].y + y / (3 * weight)};
 }
 
-/// Cuts a region by lines l, where l.x x + l.y y + l.z is a point's side: what is not below 0
-/// stays.
+/// Cuts a region by lines l. Keeps the side where l.x x + l.y y + l.z >= 0.
 class RegionCutter {
 public:
-    /// A region that is to be cut at most `cuts` times; each adds a corner at most.
+    /// Takes a region to be cut at most `cuts` times; each cut adds at most one corner.
     void take(const ScreenPoint* corners, std::size_t count, std::size_t cuts);
-    /// The sides of all corners; returns the lowest and the highest, and 0.
+    /// Evaluates the line at all corners; returns the lowest and highest value, including 0.
     std::pair<double, double> measure(const Vec3& line);
-    /// Cuts at the line measured last (Sutherland & Hodgman 1974). With all signs turned the
-    /// crossings are the same to the bit: the two parts of a region meet.
+    /// Cuts at the line measured last (Sutherland & Hodgman 1974). With opposite signs the
+    /// crossings are identical to the bit, so the two parts of a region fit.
     void cut();
 
     const ScreenPoint* corners() const { return kept_.data(); }

@@ -1,6 +1,6 @@
 #pragma once
-// One view from one point of the pupil, as what is linear in it: eye rays over the picture's x and
-// y, and the picture of a point.
+// A view from one point of the pupil as linear maps: from the picture's x and y to eye rays, and
+// from points to the picture.
 
 #include <array>
 #include <glm/geometric.hpp>
@@ -13,13 +13,13 @@ struct ScreenPoint {
     double x = 0, y = 0;  ///< pixels, as in EyeRays
 };
 
-/// x w, y w, w of a point in the picture.
+/// Homogeneous image of a point: x w, y w, w.
 using ScreenImage = Vec3;
 
 /// The eye ray through (x, y) starts at o + x ox + y oy and runs along v + x vx + y vy.
 struct ScreenView {
     Vec3 o{0}, ox{0}, oy{0}, v{0}, vx{0}, vy{0};
-    bool parallel = false;  ///< orthographic without a lens: the eye is infinitely far
+    bool parallel = false;  ///< orthographic without a lens: the eye is at infinity
     int width = 0, height = 0;
     Vec3 forward{0, 0, 1}, right{1, 0, 0};
     std::array<Vec3, 3> rows;  ///< of the map from a point to its image
@@ -31,7 +31,7 @@ struct ScreenView {
     ScreenImage of_direction(const Vec3& d) const {
         return {glm::dot(rows[0], d), glm::dot(rows[1], d), glm::dot(rows[2], d)};
     }
-    /// True when the eye is on the plane's outer side.
+    /// True if the eye is on the plane's outer side.
     bool sees(const Plane& plane) const;
     bool operator==(const ScreenView&) const = default;
 };

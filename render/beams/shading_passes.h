@@ -1,5 +1,5 @@
 #pragma once
-// What a plan calls for, as passes over its beams.
+// Divides an optical setup into passes over its beams.
 
 #include <memory>
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace culet {
 
-/// `stokes`: 1, the radiance behind the eye's optics, or 4, the Stokes parameters; plane of
-/// parameter k and node i: k * nodes + i. Every band of the plan has beams of its own.
-/// `split`: the two waves of a crystal go their own ways.
+/// `stokes`: 1 for the radiance behind the eye's optics, 4 for the Stokes parameters; parameter k
+/// of node i is in plane k * nodes + i. Each band of the setup has its own beams. `split`: a
+/// crystal's two waves are followed separately.
 std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& setup,
                                         const WavelengthSet& colours, const Vec3& middle,
                                         std::shared_ptr<const EnvironmentPyramid> environment,

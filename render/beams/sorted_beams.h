@@ -1,5 +1,5 @@
 #pragma once
-// The beams of one view, by the strips of rows that they touch.
+// The beams of one view, sorted into strips of rows.
 
 #include <algorithm>
 #include <vector>
@@ -8,8 +8,7 @@
 
 namespace culet {
 
-/// Rows of pixels that one task shades. A fixed number: sums are in the same order whatever the
-/// number of threads.
+/// Rows of pixels per task. Fixed, so that sums do not depend on the number of threads.
 constexpr int k_strip = 48;
 
 struct BeamNumber {
@@ -24,7 +23,7 @@ struct SortedBeams {
     BeamTree tree;
     std::vector<std::vector<BeamNumber>> strips;
 
-    /// Grows the beams unless they are there, or `goes_on` says no (beam_tree.h).
+    /// Grows the beams unless they are up to date or `goes_on` says no (beam_tree.h).
     void grow(const FacetNet& net, const ScreenView& wanted_view, double wanted_n,
               const BeamLimits& wanted_limits, const std::function<bool(long long)>& goes_on) {
         if (grown && view == wanted_view && n == wanted_n && limits == wanted_limits) return;

@@ -1,11 +1,11 @@
 #pragma once
-// Beams in a crystal, whose every face splits them in two: each follows one wave from face to face,
-// and the two of a face go apart as exactly as the reference's rays (crystal.h). Powers are added:
-// the two waves' coherence is not kept.
+// Beams in a crystal, where every face splits them: each follows one wave from face to face, as
+// exactly as the reference's rays (crystal.h). Powers are added; the coherence of the two waves is
+// lost.
 //
-// A small cell of the picture has one ray of reference. Together with two rays beside it, by which
-// all that belongs to it is known to first order over the cell, it is traced exactly along facets
-// and waves; a facet beside the one that it meets is met by it in the facet's plane.
+// Each small cell of the picture has one reference ray. It and two neighbouring rays, which give
+// all derivatives over the cell, are traced exactly along facets and waves. If a neighbour misses
+// the facet of the reference ray, it is intersected with that facet's plane.
 
 #include <array>
 #include <functional>
@@ -18,22 +18,22 @@
 
 namespace culet {
 
-/// What is seen through a beam where it leaves the stone, as value, change to the right and change
-/// down, from the point of reference.
+/// Light of a beam where it leaves the stone: value, x derivative and y derivative at the reference
+/// point.
 struct LeavingBeam {
     ScreenPoint reference;
     std::array<Vec3, 3> point, direction, s;
-    /// Of the eye's unit of light, before absorption; and the second and third Stokes parameter, in
-    /// the frame of s and direction x s.
+    /// Share of the eye's unit of light before absorption; Stokes parameters Q and U in the frame
+    /// of s and direction x s.
     std::array<double, 3> weight{}, Q{}, U{};
-    std::array<NodeWeights, 3> transmitted{};  ///< by absorption
+    std::array<NodeWeights, 3> transmitted{};  ///< fraction not absorbed
     int facets = 1;                            ///< met so far
 };
 
 struct SplitLimits {
     int depth = 8;  ///< at most 200
     double cut_weight = 1e-3;
-    /// Asked now and then with the number of beams so far; false: no more are followed.
+    /// Asked now and then with the number of beams so far; false stops it.
     std::function<bool(long long)> goes_on = {};
 };
 
@@ -46,7 +46,8 @@ public:
     SplitBeams(const FacetNet& net, const Band& band, const SplitLimits& limits,
                const Stokes& response);
 
-    /// Calls `sink` for all that leaves the stone within a region of a front facet's outline.
+    /// Calls `sink` for each beam that leaves the stone, within a region of a front facet's
+    /// outline.
     void grow(const ScreenView& view, int facet, const ScreenPoint* region, std::size_t count,
               const Sink& sink);
 

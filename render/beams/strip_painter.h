@@ -1,5 +1,5 @@
 #pragma once
-// Beams to pixels: one strip of rows at a time.
+// Paints beams into pixels, one strip of rows at a time.
 
 #include <functional>
 #include <memory>
@@ -15,32 +15,31 @@ namespace culet {
 
 /// How the pixels of a beam are shaded.
 enum class BeamShading {
-    flat,     ///< one colour a beam, exact areas of pixels
-    single,   ///< each pixel's middle exactly, along its beam's facets, verified: no anti-aliasing
-    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it
-              ///< fills
+    flat,     ///< one colour per beam, exact areas of pixels
+    single,   ///< each pixel's middle, exactly and verified: no anti-aliasing
+    averaged  ///< each touched pixel's middle along each beam's facets, times its area
 };
 
-/// What is shaded together: some nodes of a band, all of which follow one set of beams.
+/// Nodes of a band that follow one set of beams and are shaded together.
 struct ShadingPass {
-    std::size_t beams = 0;          ///< which of the view's sets
-    double n = 1;                   ///< index over the outside's
-    std::size_t plane = 0;          ///< the first node's; one plane a node
+    std::size_t beams = 0;          ///< which set of the view
+    double n = 1;                   ///< index relative to the outside
+    std::size_t plane = 0;          ///< of the first node; one plane per node
     double weight = 1;              ///< of its sums in the report, per node
-    bool counts_area = false;       ///< one pass does
-    std::vector<double> luminance;  ///< of each node, for the report
+    bool counts_area = false;       ///< set in one pass only
+    std::vector<double> luminance;  ///< per node, for the report
     ShadedOptics optics;
     ShadedLights lights;
-    /// Crystals whose waves part have no beams kept: they are grown while they are painted.
+    /// Crystals with split waves store no beams: these are grown while painting.
     struct SplitWaves {
-        Band band;  ///< the pass's nodes
+        Band band;
         Stokes response{1, 0, 0, 0};
         bool polarised_lights = false;
     };
     std::shared_ptr<const SplitWaves> split;
 };
 
-/// Where light is added up: planes of pixels, and how much of each the stone fills.
+/// Planes of pixels to which light is added, and the share of each pixel that the stone fills.
 struct Canvas {
     int width = 0, height = 0;
     std::vector<float> planes;  ///< plane * pixels + pixel
@@ -54,12 +53,11 @@ struct Canvas {
 struct StripSums {
     double filled = 0, remainder = 0, absorbed = 0, luminance = 0;
     long long fragments = 0, retraced = 0, beams = 0;
-    long long faces = 0;  ///< met by fragments, up to eight at once
+    long long faces = 0;  ///< met by fragments; up to eight count once
     int deepest = 0;
     StripSums& operator+=(const StripSums& more);
 };
 
-/// The stone in the forms that shading needs.
 struct PaintedStone {
     explicit PaintedStone(const Solid& convex) : net(convex), shaded(net), body(convex) {}
     FacetNet net;
@@ -71,18 +69,18 @@ struct PaintOptions {
     BeamShading shading = BeamShading::averaged;
     int depth = 8;  ///< as the beams' limits
     double cut_weight = 0;
-    double share = 1;  ///< of the picture: one of several points of the pupil
-    /// Asked now and then with what is done of the strip; false: the rest is left out.
+    double share = 1;  ///< of the picture: one over the points of the pupil
+    /// Asked now and then with the strip's sums so far; false: the rest is skipped.
     std::function<bool(const StripSums&)> goes_on = {};
 };
 
-/// One thread's tools.
+/// Painter of one thread.
 class StripPainter {
 public:
     StripPainter(const PaintedStone& stone, Canvas& canvas) : stone_(stone), canvas_(canvas) {}
 
-    /// Adds what `view` sees in strip number `strip`; `beams`: the view's sets.
-    /// `fronts`: its front facets.
+    /// Adds what `view` sees in strip number `strip`. `beams`: the view's sets. `fronts`: its front
+    /// facets.
     StripSums paint(int strip, const ScreenView& view, const SortedBeams* beams,
                     const std::vector<FrontFacet>& fronts, const std::vector<ShadingPass>& passes,
                     const PaintOptions& options);
@@ -113,7 +111,7 @@ private:
                     (pass.plane + static_cast<std::size_t>(node)) * canvas_.pixels(),
                 0};
     }
-    /// Of a plane that holds this strip alone.
+    /// A plane that holds only this strip.
     PixelRows strip(std::vector<float>& values) {
         return {values.data(), row_begin_ * canvas_.width};
     }
@@ -125,7 +123,7 @@ private:
         share_, follows_;
     std::vector<int> holes_;
     std::vector<std::uint16_t> facets_;
-    // Of the strip being painted.
+    // State of the strip being painted.
     const ScreenView* view_ = nullptr;
     PaintOptions options_;
     int row_begin_ = 0, row_end_ = 0;

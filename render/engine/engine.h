@@ -1,5 +1,6 @@
 #pragma once
-// A way of drawing a scene. CONTRIBUTING.md says how to add one; render/engines.cpp lists them.
+// Interface of a rendering engine. CONTRIBUTING.md says how to add one; render/engines.cpp lists
+// them.
 
 #include <string>
 #include <vector>
@@ -11,14 +12,14 @@
 
 namespace culet {
 
-/// What a picture is made of, as far as that is known before it is drawn.
+/// Amount of work in a picture, as known before it is drawn.
 struct DrawingWork {
     double pixels = 0;         ///< of the stone
     double views = 1;          ///< rays of a pixel, or points of the pupil
-    double bands = 1;          ///< of wavelengths, each of which goes its own way
-    double faces_per_ray = 1;  ///< that the light of a ray meets, all branches together
+    double bands = 1;          ///< separately traced sets of wavelengths
+    double faces_per_ray = 1;  ///< faces met per eye ray, in all branches
     double tolerance = 0.01;   ///< of the engine's settings
-    double cut = 0;            ///< their cut_weight; 0: as the tolerance
+    double cut = 0;            ///< the engine's cut_weight; 0: as the tolerance
     bool general = false;      ///< optical_setup.h
     bool polarised = true;
     bool splits = false;
@@ -32,24 +33,24 @@ public:
     Engine& operator=(const Engine&) = delete;
     virtual ~Engine() = default;
 
-    /// As scene files have it.
+    /// The name in scene files.
     virtual std::string name() const = 0;
-    /// Why it cannot draw this scene, in words that go on with ": say engine = ..."; empty: it can.
+    /// Why it cannot draw this scene, to be continued with ": say engine = ..."; empty if it can.
     virtual std::string refuses(const Scene& scene, const OpticalSetup& setup) const = 0;
-    /// Processor time of a picture, about, in the nanoseconds of work/price.h.
+    /// Estimated processor time of a picture, in the nanoseconds of work/price.h.
     virtual double cost_ns(const DrawingWork& work) const = 0;
-    /// With the scene's settings as they are; what they leave open is as exact as their tolerance
-    /// asks for. Throws InputError for what it refuses, and Interrupted.
+    /// Draws with the scene's settings as they are; open settings follow from the tolerance. Throws
+    /// InputError for refused scenes, and Interrupted.
     virtual RenderResult draw(const Scene& scene, const Progress& progress) const = 0;
-    /// Whether finer settings bring its pictures to the truth (the reference with everything on):
-    /// then they are planned, and held against it.
+    /// Whether finer settings converge to the reference with everything on. Such engines' pictures
+    /// are planned and checked.
     virtual bool approaches_truth() const = 0;
 };
 
 const std::vector<const Engine*>& engines();
-/// Throws InternalError where there is none of that name. "auto" is none.
+/// Throws InternalError for an unknown name, such as "auto".
 const Engine& engine_named(const std::string& name);
-/// That of the settings; auto, where nobody has chosen: the reference.
+/// The engine of the settings; the reference for "auto".
 const Engine& engine_of(const RenderSettings& settings);
 
 }  // namespace culet

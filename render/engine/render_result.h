@@ -1,5 +1,5 @@
 #pragma once
-// A picture, and what was left out of it.
+// A picture and its statistics.
 
 #include <functional>
 #include <optional>
@@ -13,57 +13,56 @@
 
 namespace culet {
 
-/// How a finished picture compares with the truth: the reference with everything on at some pixels
-/// of the stone. Errors as in scene_plan.h.
+/// Comparison of a finished picture with the reference picture (everything on) at some pixels of
+/// the stone. Errors are defined in scene_plan.h.
 struct Verification {
     int pixels = 0, samples = 0;
-    double difference = 0;                ///< to the truth as drawn
-    double spread = 0;                    ///< standard error of it, as of pixels chosen at random
-    double noise = 0;                     ///< what the truth's few rays are off by
+    double difference = 0;                ///< from the reference as drawn
+    double spread = 0;                    ///< its standard error
+    double noise = 0;                     ///< error of the reference's few rays
     double measured = 0;                  ///< the difference less the noise
-    double delta_e = 0;                   ///< CIEDE2000, with the noise in it
-    double bound = 0, bound_delta_e = 0;  ///< what the picture says of itself
+    double delta_e = 0;                   ///< CIEDE2000, including the noise
+    double bound = 0, bound_delta_e = 0;  ///< claimed by the picture
     double seconds = 0;
 
-    /// The bound is not below what was measured, as far as that is certain.
+    /// Whether the claimed bound is not clearly below the measured error.
     bool holds() const { return measured - 3 * spread - noise <= bound; }
 };
 
 struct RenderStats {
     std::string engine = k_reference_engine;
-    int depth = 0;  ///< faces on the longest path that brought light
+    int depth = 0;  ///< faces on the longest path that carried light
     std::vector<EffectDecision> effects;
     std::vector<double> wavelengths_nm;
-    double mean_radiance = 0;  ///< of the stone's pixels, luminance
-    /// Mean weight over the stone's pixels of what paths were left at the depth limit, and of paths
-    /// cut for their small weight.
+    double mean_radiance = 0;  ///< luminance, over the stone's pixels
+    /// Mean weight over the stone's pixels: left at the depth limit; of paths cut for their small
+    /// weight; absorbed.
     double remainder = 0, cut = 0, absorbed = 0;
-    /// (remainder + cut) x brightest light / mean radiance: the picture's relative error is below
-    /// this on average over the stone, beside sampling and effects switched off.
+    /// (remainder + cut) x brightest light / mean radiance. Bounds the picture's mean relative
+    /// error over the stone, apart from sampling and effects switched off.
     double error_bound = 0;
-    /// Crystals, whose smallest paths are chosen at random: root mean square over the stone's
-    /// pixels of the standard error of a pixel, relative to the mean. Each choice is made twice,
-    /// independently, and the differences tell it without bias.
+    /// Crystals, whose smallest paths are chosen at random: root mean square standard error of a
+    /// pixel, relative to the mean. Unbiased: each choice is made twice, independently.
     double standard_error = 0;
-    /// Reference: mean over the stone's pixels of about what their few rays are off by, relative to
-    /// the mean: half the difference between every other ray and the rest.
+    /// Reference: mean error of the pixels due to their few rays, relative to the mean radiance.
+    /// Estimated as half the difference between every other ray and the rest.
     double sampling_error = 0;
-    /// What was decided, where the scene left it open; then `error_bound` is that of the plan with
-    /// what the picture shows of its sampling, or of the beams.
+    /// What was chosen, if the scene left anything open. `error_bound` is then the plan's, with the
+    /// measured error of sampling or beams.
     std::optional<ScenePlan> plan;
-    std::optional<Verification> verification;  ///< where asked for
-    /// Where the tolerance was what the work allowed: the one that was chosen.
+    std::optional<Verification> verification;  ///< if asked for
+    /// The tolerance that the allowed work sufficed for.
     std::optional<double> allowed_tolerance;
-    /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
+    /// Largest |sum of powers - 1| at a crystal's face before it was corrected.
     double worst_imbalance = 0;
-    /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,
-    /// measured at `checked_pixels` of them, with three standard errors; part of `error_bound`.
+    /// Beams: mean |difference| from the reference, relative to the mean radiance, plus three
+    /// standard errors, measured at `checked_pixels` pixels. Part of `error_bound`.
     double engine_error = 0;
     int checked_pixels = 0;
-    long long beams = 0;     ///< of all wavelengths and pupil positions
-    long long retraced = 0;  ///< rays that did not meet their beam's facets, and were traced anew
-    double lost_area = 0;    ///< that no beam covers, as a share of the stone's
-    std::vector<std::string> notes;  ///< what a person should know about this picture
+    long long beams = 0;     ///< over all wavelengths and pupil positions
+    long long retraced = 0;  ///< rays that did not meet their beam's facets and were traced again
+    double lost_area = 0;    ///< share of the stone's area that no beam covers
+    std::vector<std::string> notes;  ///< for the user
     long long rays = 0;              ///< eye rays x bands that met the stone
     double seconds_setup = 0, seconds_build = 0, seconds_shade = 0, seconds_check = 0;
 };
@@ -73,7 +72,7 @@ struct RenderResult {
     RenderStats stats;
 };
 
-/// Told of a picture that is nearer to the truth than those before.
+/// Receives each picture that is closer to the truth than those before.
 using PictureSink = std::function<void(const RenderResult&)>;
 
 }  // namespace culet

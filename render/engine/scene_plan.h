@@ -1,12 +1,12 @@
 #pragma once
-// Only what a scene calls for: which effects it needs, with which settings drawing begins, and what
-// leaving out the rest may cost in accuracy.
+// The plan of a scene: which effects it needs, the settings of the first picture, and a bound on
+// the error of leaving out the rest.
 //
-// Errors are means over the stone's pixels of the mean absolute difference of R, G and B to the
-// picture with everything on, relative to the mean radiance of that picture. Bounds are those of
-// the table in docs/plan.md: exactly zero where nothing can change; else the smaller of what is
-// known beforehand and of what a pilot picture shows, with three standard errors. A pilot can miss
-// a light that none of its rays meet; `verify` looks at the finished picture.
+// Errors are mean absolute differences of R, G and B over the stone's pixels from the picture with
+// everything on, relative to its mean radiance. Bounds follow the table in docs/plan.md: exactly
+// zero where nothing can change; else the smaller of the a-priori bound and the pilot picture's
+// error plus three standard errors. A pilot can miss a light that none of its rays meet; `verify`
+// checks the finished picture.
 
 #include <limits>
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace culet {
 
-/// One line of the plan: an effect, or how finely something is resolved.
+/// One line of the plan: an effect or a resolution.
 struct PlanItem {
     /// An effect's name (scene.h); or depth, wavelengths, samples, light_edges,
     /// environment_filter, objects.
@@ -24,42 +24,42 @@ struct PlanItem {
     bool on = false;
     std::string fidelity;  ///< "both waves, each its own way", "15 wavelengths", ...; empty: off
     std::string why;       ///< "garnet is isotropic", "bound 0.0004 under tolerance 0.01", ...
-    /// Of the error that remains, as planned: of leaving it out where it is off, of its fidelity
-    /// where it is on. Coherence: of adding the two waves' powers, were they to interfere. NaN: not
-    /// known.
+    /// Bound on the remaining error: of omitting the effect if it is off, of its fidelity if it is
+    /// on. For coherence: the error of adding the two waves' powers if they do interfere. NaN:
+    /// unknown.
     double bound = 0;
-    double bound_delta_e = 0;  ///< the same as CIEDE2000, mean
-    /// What the picture would be off by without it, as the pilot sees it; NaN: not looked at.
+    double bound_delta_e = 0;  ///< the same as mean CIEDE2000
+    /// Error of the picture without it, as seen by the pilot; NaN: not measured.
     double matters = 0;
     double matters_delta_e = 0;
-    /// Estimated time of the picture, as planned but with this on or off. Processor time, seconds.
+    /// Estimated processor time of the planned picture with this on or off, in seconds.
     double seconds_with = 0, seconds_without = 0;
 };
 
 struct ScenePlan {
-    double tolerance = 0;  ///< that was asked for
+    double tolerance = 0;  ///< as asked for
     /// The scene's settings with every open choice made: of the first picture, or of the one that
-    /// was kept, which a scene with these draws again. Their tolerance is that of the beams.
+    /// was kept, which these settings reproduce. `tolerance` is the beams'.
     RenderSettings settings;
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
-    /// Of all together, but for samples, beams, and what the scene settles itself: effects that it
-    /// switches off, and whether the two waves of a crystal interfere.
+    /// Of all effects together. Excludes sampling, beams, and what the scene itself decides:
+    /// effects it switches off, and whether a crystal's two waves interfere.
     double bound = 0, bound_delta_e = 0;
-    double bound_of_sampling = 0;   ///< the reference's: of few rays in a pixel
-    double bound_of_depth = 0;      ///< in `bound`: of the depth that the scene names
+    double bound_of_sampling = 0;   ///< reference: error of few rays per pixel
+    double bound_of_depth = 0;      ///< part of `bound`: error of the depth that the scene names
     double seconds = 0;             ///< estimated processor time of the picture
-    double seconds_everything = 0;  ///< the same with everything on, by the reference
-    double seconds_planning = 0;    ///< that this plan took
-    double mean_radiance = 0;       ///< of the stone, as the pilot sees it
-    double events_per_ray = 1;      ///< faces that light meets
+    double seconds_everything = 0;  ///< by the reference with everything on
+    double seconds_planning = 0;    ///< spent on this plan
+    double mean_radiance = 0;       ///< of the stone, as seen by the pilot
+    double events_per_ray = 1;      ///< faces met
     double pixels = 0;              ///< of the stone, estimated
-    /// Of the stone and its light (fingerprint.h): another's plan is of no use.
+    /// Key of the stone and its light (fingerprint.h): the plan is valid for these only.
     std::string stone_and_light;
-    /// Error bound of the picture that was drawn with these settings and held against the truth;
-    /// NaN: none was.
+    /// Error bound of the picture drawn with these settings, as checked against the reference; NaN:
+    /// none.
     double checked_bound = std::numeric_limits<double>::quiet_NaN();
-    int pilot_pixels = 0;  ///< 0: nothing was open, or tolerance 0: no pilot
+    int pilot_pixels = 0;  ///< 0: no pilot (nothing was open, or the tolerance is 0)
 
     const PlanItem& item(const std::string& name) const;
 };

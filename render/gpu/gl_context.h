@@ -1,5 +1,5 @@
 #pragma once
-// A GL driver without a window: OpenGL ES 3 by EGL.
+// An OpenGL ES 3 context by EGL, without a window.
 
 #include <string>
 
@@ -7,18 +7,17 @@
 
 namespace culet {
 
-/// Current in the thread that made it, as long as it lives. A real GPU's driver is preferred to one
-/// that computes on the processor.
+/// Current in the thread that made it, for its lifetime. Prefers a real GPU to a software driver.
 class GlContext {
 public:
-    /// Throws InputError where there is no driver, with what to install.
+    /// Throws InputError, saying what to install, if there is no driver.
     GlContext();
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
     const GlFunctions& gl() const { return gl_; }
-    /// The driver's name of itself (GL_RENDERER), printable ASCII, at most 100 characters.
+    /// GL_RENDERER as printable ASCII, at most 100 characters.
     const std::string& renderer() const { return renderer_; }
 
 private:

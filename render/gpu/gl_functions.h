@@ -1,12 +1,12 @@
 #pragma once
-// The functions of OpenGL ES 3 that are used. They are looked up while the program runs, so that it
-// starts where there is no driver.
+// The OpenGL ES 3 functions in use. They are looked up at run time, so that the program starts
+// without a driver.
 
 #include <GLES3/gl3.h>
 
 namespace culet {
 
-// As a table, which clang-format shifts anew each time.
+// A table that clang-format would reflow.
 // clang-format off
 #define CULET_GL_FUNCTIONS(ONE)                                                                  \
     ONE(ActiveTexture) ONE(AttachShader) ONE(BindFramebuffer) ONE(BindTexture)                   \

@@ -1,5 +1,5 @@
 #pragma once
-// A GPU program at work: sums of samples in float framebuffers.
+// Runs a GPU program: sums samples in float framebuffers.
 
 #include <memory>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace culet {
 
-/// Of one picture's size; needs its context, which must be current. Throws InputError for what the
-/// driver cannot do: a size, a number of uniforms, float framebuffers.
+/// For pictures of one size. Its context must be current. Throws InputError if the driver lacks the
+/// size, the number of uniforms or float framebuffers.
 class GpuCanvas {
 public:
     GpuCanvas(const GlContext& context, const GpuProgram& program, int width, int height,
@@ -20,10 +20,10 @@ public:
     GpuCanvas& operator=(const GpuCanvas&) = delete;
 
     void set(const std::vector<GpuUniform>& uniforms);
-    /// The next draw begins a new sum.
+    /// Makes the next draw begin a new sum.
     void start_anew() { keep_ = false; }
-    /// Adds what the program draws with its uniforms as they are, some rows at a time; `goes_on` is
-    /// asked before each. False when it said no: the sum is then of no use.
+    /// Adds one sample drawn with the current uniforms, some rows at a time; asks `goes_on` before
+    /// each part. Returns false, with a useless sum, if that said no.
     template <class GoesOn>
     bool draw(GoesOn&& goes_on) {
         begin();
@@ -34,10 +34,10 @@ public:
         end();
         return true;
     }
-    /// Times that one draw asks to go on.
+    /// Number of parts of one draw.
     int parts() const { return (height_ + rows_ - 1) / rows_; }
 
-    /// RGBA of each pixel, rows from the top. `target`: 0 the sum, 1 the balance, 2 the length.
+    /// RGBA of each pixel, top row first. `target`: 0 the sum, 1 the balance, 2 the length.
     std::vector<float> read(int target) const;
 
 private:

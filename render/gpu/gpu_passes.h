@@ -1,5 +1,5 @@
 #pragma once
-// The wavelengths of a setup as passes of the kernel, and their uniforms.
+// Divides the wavelengths of a setup into passes of the kernel, with their uniforms.
 
 #include "render/beams/beam_lights.h"
 #include "render/gpu/gpu_program.h"
@@ -7,28 +7,28 @@
 
 namespace culet {
 
-/// Wavelengths that go one way together.
+/// Wavelengths that share one path.
 struct GpuPath {
     std::size_t band = 0;
     int first = 0, count = 1;  ///< of the setup's wavelengths
 };
 
-/// How a setup's wavelengths are laid out.
+/// Layout of a setup's wavelengths.
 struct GpuLayout {
-    int nodes = 1;  ///< of a path, absent ones included
-    int paths = 1;  ///< of a pass at most
+    int nodes = 1;  ///< per path, padding included
+    int paths = 1;  ///< most per pass
     bool crystal = false, absorbs = false;
     std::vector<GpuPath> all;
 };
 
 GpuLayout gpu_layout(const OpticalSetup& setup, const LightCounts& lights, int pass_wavelengths);
 
-/// Uniforms that passes of one path take at most, in vectors of four, and how many there may be:
-/// WebGL2 promises 224 to a fragment shader.
+/// Most uniform vectors (of four) of passes with one path, and the limit: WebGL2 guarantees 224 to
+/// a fragment shader.
 int gpu_vectors(const LightCounts& lights);
 constexpr int k_most_gpu_vectors = 200;
 
-/// The passes, in the order of the wavelengths. `environment`: there is one.
+/// The passes in order of wavelength. `environment`: the scene has one.
 std::vector<GpuPass> gpu_passes(const OpticalSetup& setup, const WavelengthSet& colours,
                                 const GpuLayout& layout, const ShadedLights& lights,
                                 bool environment);

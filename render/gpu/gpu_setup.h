@@ -1,5 +1,5 @@
 #pragma once
-// What a GPU program draws of a scene: wavelengths, and how far paths are followed.
+// The wavelengths and path limits with which the GPU draws a scene.
 
 #include "render/colour/colour.h"
 #include "render/scene/scene.h"
@@ -9,12 +9,12 @@ namespace culet {
 
 struct GpuSetup {
     OpticalSetup optics;
-    WavelengthSet colours;  ///< of its wavelengths
-    int depth = 0;          ///< faces of a path at most
-    double cut_weight = 0;  ///< a path of less weight is not followed
+    WavelengthSet colours;
+    int depth = 0;          ///< most faces of a path
+    double cut_weight = 0;  ///< paths of less weight end
 };
 
-/// As the scene's tolerance leaves them (reference/prepared_scene.h).
+/// From the scene's tolerance (reference/prepared_scene.h).
 GpuSetup gpu_setup(const Scene& scene);
 
 }  // namespace culet

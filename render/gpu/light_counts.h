@@ -1,15 +1,15 @@
 #pragma once
-// How many lights of each kind the kernel has, and the uniforms that they take.
+// Counts the kernel's lights of each kind and the uniforms that they take.
 
 #include "render/scene/lights.h"
 
 namespace culet {
 
 struct LightCounts {
-    int spheres = 0, planes = 0, lobes = 0, caps = 0;  ///< caps: hemispheres too
+    int spheres = 0, planes = 0, lobes = 0, caps = 0;  ///< caps include hemispheres
 
     int all() const { return spheres + planes + lobes + caps; }
-    /// Of vectors of four, wavelengths apart.
+    /// In vectors of four, without those per wavelength.
     int vectors() const { return spheres + 3 * planes + 2 * lobes + 2 * caps + 2 * all() + 2; }
 };
 

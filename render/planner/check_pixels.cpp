@@ -15,15 +15,14 @@ namespace culet {
 
 namespace {
 
-// That the stone fills by so much at least.
+// Coverage from which a pixel counts as the stone's.
 constexpr float k_filled = 0.5f;
 
-// A place from 0 to side - 1: fractions of a number's multiples, in 32 bits.
+// Maps the fractional part of number * multiple / 2^32 to 0 .. side - 1.
 int place_in(int side, std::uint32_t number, std::uint32_t multiple) {
     return static_cast<int>(static_cast<std::uint64_t>(side) * (number * multiple) >> 32);
 }
-// Of the golden ratio's like in two dimensions (Roberts 2018): no grid of facets falls in with
-// them.
+// R2, the golden ratio in two dimensions (Roberts 2018): no grid of facets resonates with it.
 constexpr std::uint32_t k_along = 0xC13FA9A9, k_down = 0x91E10DA6;
 
 double brightest_light(const Scene& scene) {
@@ -63,8 +62,8 @@ Contrast contrast_of(const Picture& picture, int windows, double filled) {
     return found;
 }
 
-// More often where the picture changes beside a pixel. With the root of that change: pixels of
-// little contrast are off as well, because a picture may lack what is there.
+// Uses the root of the local contrast: pixels of little contrast have errors, too, as a picture may
+// lack what is there.
 CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
                                 const Progress& progress, FrameRenderer* frames) {
     CheckPixels chosen;
@@ -76,7 +75,7 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
     const std::size_t size = pixels.size();
     const double count = static_cast<double>(size);
     if (size <= k_first_pixels) {
-        // A stone of few pixels, or of none that the picture tells of.
+        // A stone of few pixels, or a picture without coverage.
         for (const Contrast::Pixel& pixel : pixels) chosen.pixels.at.emplace_back(pixel.x, pixel.y);
         chosen.all = size > 0;
         if (!chosen.all) chosen.pixels.at = some.at;
@@ -85,7 +84,7 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
     }
     std::vector<double> edges;
     double sum_of_edges = 0;
-    // Without what few pixels have more than that.
+    // Mean radiance without the excess of the few brightest pixels.
     const double much = k_bright * contrast.radiance / count;
     double radiance = 0;
     for (const Contrast::Pixel& pixel : pixels) radiance += std::min(pixel.radiance, much);
@@ -99,12 +98,12 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
             edges.push_back(scan.near(pixel.x, pixel.y));
             sum_of_edges += edges.back();
         }
-        // Of those where a light may be seen, some see it; the rarer the finer the tolerance.
+        // Enough for some pixels to see a light that may be there; more for finer tolerances, where
+        // such pixels are rarer.
         chosen.first = static_cast<std::size_t>(
             2 * k_first_pixels * std::clamp(0.03 / scene.settings.tolerance, 1.0, 10.0));
     }
-    // Chances, 1 in the mean, and their sums; then the golden ratio's multiples, evenly spread over
-    // these.
+    // Cumulative probabilities (1 on average), sampled evenly by multiples of the golden ratio.
     const double of_edges = sum_of_edges > 0 ? (1 - k_even_share) / 2 : 0,
                  of_contrast = 1 - k_even_share - of_edges,
                  by_edge = sum_of_edges > 0 ? of_edges * count / sum_of_edges : 0,

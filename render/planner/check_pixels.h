@@ -1,5 +1,5 @@
 #pragma once
-// Of which pixels a picture is held against the truth.
+// Chooses the pixels at which a picture is compared with the reference.
 
 #include <utility>
 #include <vector>
@@ -11,44 +11,43 @@ namespace culet {
 
 class FrameRenderer;
 
-/// How much a picture changes beside the stone's pixels.
+/// Local contrast of a picture at the stone's pixels.
 struct Contrast {
     struct Pixel {
         int x = 0, y = 0;
-        double root = 0;  ///< of the largest difference to the four about it
+        double root = 0;  ///< of the largest difference from the four neighbours
         double radiance = 0;
     };
-    std::vector<Pixel> pixels;  ///< that the stone fills by half at least
+    std::vector<Pixel> pixels;  ///< pixels at least half filled by the stone
     double sum = 0;             ///< of the roots
     double radiance = 0;        ///< sum over the pixels
 };
 
-/// Of every pixel of the stone, or where it fills many (`filled`, about) of one in each square of
-/// so many that some tens of thousands are left: what is seen in a larger picture is larger, too.
-/// Differences are mean absolute ones of R, G and B (colour_error.h); those of no finite number
-/// count as none. `windows`: side by side that show the same, of which the first is taken. Empty
-/// where the picture does not tell what the stone fills.
+/// Takes every pixel of the stone. If it fills many (about `filled`), takes one in each square, so
+/// that about 65 000 remain: details in a larger picture are larger, too. Differences are mean
+/// absolute ones of R, G and B (colour_error.h); non-finite ones count as 0. `windows`: number of
+/// windows side by side that show the same; only the first is used. Empty if the picture has no
+/// coverage.
 Contrast contrast_of(const Picture& picture, int windows, double filled);
 
 struct CheckPixels {
-    StonePixels pixels;          ///< in the order in which they are drawn
-    std::vector<double> counts;  ///< of each, 1 in the mean (Hansen & Hurwitz 1943)
-    bool all = false;            ///< each pixel of the stone once
-    std::size_t first = 0;       ///< that are looked at first
-    bool bright = false;         ///< a light is many times as bright as the picture
-    bool sun = false;            ///< some thousand times
+    StonePixels pixels;          ///< in drawing order
+    std::vector<double> counts;  ///< weight of each, 1 on average (Hansen & Hurwitz 1943)
+    bool all = false;            ///< every pixel of the stone, once
+    std::size_t first = 0;       ///< number of pixels in the first look
+    bool bright = false;         ///< some light is k_bright times as bright as the picture
+    bool sun = false;            ///< some light is a hundred times brighter still
 };
 
-/// `scene`: one window, or two that see the same; `some`: pixels of the stone, taken where the
-/// picture tells of none. More often where the picture changes beside a pixel, and where a bright
-/// light may be seen at another wavelength. `frames`: that drew it, if any (light_edge_scan.h).
-/// Throws Interrupted.
+/// Prefers pixels next to which the picture changes, and pixels that may see a bright light at
+/// another wavelength. `scene`: one window, or two that show the same. `some`: stone pixels to use
+/// if the picture's coverage shows none. `frames`: the renderer that drew the picture, if any
+/// (light_edge_scan.h). Throws Interrupted.
 CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
                                 const Progress& progress, FrameRenderer* frames);
 
-/// Those that the stone fills by half at least and that have more than this share of the picture's
-/// light each, and many times as much as the mean; the brightest `most`, in the order of rows. Of
-/// windows side by side, the first.
+/// Pixels at least half filled by the stone that hold more than `share` of the picture's light and
+/// 30 times the mean. Returns the brightest `most` in row order, of the first window only.
 std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int windows,
                                                     double share, std::size_t most);
 

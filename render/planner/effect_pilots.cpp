@@ -11,7 +11,7 @@
 
 namespace culet {
 
-// The effects that are on, but for these.
+// The scene with the effects that are on, except `less`.
 Scene Planner::with_effects(std::initializer_list<Effects> less) const {
     Scene scene = scene_;
     RenderSettings& settings = scene.settings;
@@ -21,7 +21,7 @@ Scene Planner::with_effects(std::initializer_list<Effects> less) const {
     return scene;
 }
 
-// Without dispersion, three wavelengths show any colour.
+// Without dispersion; three wavelengths then represent any colour.
 Scene Planner::piloted(std::initializer_list<Effects> less) const {
     Scene scene = with_effects(less);
     scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
@@ -46,7 +46,7 @@ PilotDrawing Planner::draw(const Scene& scene) const {
     return draw_pilot(scene, pixels_, limits(), rays_, k_node_counts[1], progress_);
 }
 
-// Of a pixel, all bands.
+// Price of a pixel, all bands.
 double Planner::price_of(const Scene& scene, const PilotDrawing& drawing) const {
     PathWork work = work_along_paths(make_optical_setup(scene));
     work.rays = drawing.rays;
@@ -65,7 +65,7 @@ Planner::Pilot Planner::pilot(const Scene& with, const Scene& without,
     return pilot;
 }
 
-// Prices are relative until times are estimated.
+// Stores prices in the seconds fields until times are estimated.
 void Planner::write(const Pilot& pilot, PlanItem& line) const {
     line.matters = pilot.error.radiance;
     line.matters_delta_e = pilot.error.delta_e;
@@ -101,9 +101,9 @@ void Planner::try_without(Effects effect, double share) {
     if (!line.on) first_ = std::move(pilot.without);
 }
 
-// Colours of single rays are far stronger than those of a pixel: only what two drawings by other
-// rays, squares on a grid and others that are not, have in common counts. How colours spread, one
-// wave shows as well as two, whose trees are far dearer.
+// Dispersion: single rays have far stronger colours than a pixel. So two drawings with different
+// rays, one on a square grid and one not, are compared, and only their common part counts. One wave
+// shows the dispersion as well as two, whose trees are far more expensive.
 ColourError Planner::colours_apart() const {
     const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
     const auto spectral = [&](Scene scene) {
@@ -125,7 +125,7 @@ ColourError Planner::colours_apart() const {
                            spectral(with_effects({})));
 }
 
-// Errors of causes of their own add up as squares do.
+// Independent errors add in quadrature.
 void Planner::decide(PlanItem& line, const ColourError& error, double bound, double share) {
     line.matters = error.radiance;
     line.matters_delta_e = error.delta_e;
@@ -143,8 +143,8 @@ void Planner::decide(PlanItem& line, const ColourError& error, double bound, dou
     left_out_ = std::hypot(left_out_, std::min(bound, error.radiance));
 }
 
-// Beside the error of all else: powers that are added are what the scene says of its light, and
-// interfering waves are drawn from the mean of their places, so that neither is the other's truth.
+// Not part of the total error: the scene decides whether powers or amplitudes add, and interfering
+// waves are drawn at their mean position, so neither picture is the other's reference.
 void Planner::bound_coherence() {
     PlanItem& line = item(Effects::coherence);
     line.bound = line.bound_delta_e = 0;
@@ -155,7 +155,7 @@ void Planner::bound_coherence() {
         line.why = fmt::format("{}; {}", k_same_light, waves);
         return;
     }
-    // Every wavelength has a tree of its own where waves interfere: fewer pixels, evenly spread.
+    // With interference each wavelength has its own tree: use fewer pixels, evenly spread.
     const StonePixels all = pixels_;
     pixels_.at.clear();
     const std::size_t step = std::max<std::size_t>(1, all.at.size() / k_coherence_pixels);
@@ -169,7 +169,7 @@ void Planner::bound_coherence() {
                             waves, line.matters);
 }
 
-// A depth that the scene names may be shallower than the light goes.
+// The depth that the scene names may cut off light.
 void Planner::bound_depth() {
     if (user_.depth == 0) return;
     PathLimits deep = limits();
@@ -180,13 +180,13 @@ void Planner::bound_depth() {
     };
     const PilotDrawing cut_short = at(user_.depth), whole = at(k_deepest);
     plan_.bound_of_depth = colour_error(cut_short.rgb, whole.rgb).bound();
-    // Beforehand: what goes no further sees at most the brightest light.
+    // A-priori bound: light beyond that depth sees at most the brightest light.
     if (!branches_ && whole.mean > 0)
         plan_.bound_of_depth =
             std::min(plan_.bound_of_depth, cut_short.remainder * whole.brightest / whole.mean);
 }
 
-// What the scene switches off is left out all the same: the difference to the picture with it.
+// Measures effects that the scene switches off, against the picture with them.
 void Planner::measure_what_the_scene_forbids() {
     const Scene drawn = piloted();
     Scene everything = drawn;
@@ -206,7 +206,7 @@ void Planner::measure_what_the_scene_forbids() {
         Scene with = drawn;
         auto& effects = with.settings.effects;
         effects[static_cast<std::size_t>(e)] = true;
-        // Waves are absorbed unlike only where there are two of them and light is absorbed at all.
+        // Pleochroism needs two waves and absorption.
         if (effect == Effects::pleochroism)
             effects[static_cast<std::size_t>(Effects::birefringence)] =
                 effects[static_cast<std::size_t>(Effects::absorption)] = true;

@@ -24,9 +24,9 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
       progress_(&progress) {
     const OpticalSetup plan = make_optical_setup(scene_, nodes_);
     const bool branches = paths_branch(scene_, plan);
-    // Interference depends on how wide the wavelengths' bands are.
+    // Interference depends on the bandwidth of each wavelength.
     if (plan.on(Effects::coherence)) nodes_ = k_node_counts.back();
-    // Other random paths than the picture's.
+    // Random paths other than the picture's.
     limits_.seed = scene_.settings.seed + 1;
     limits_.depth = scene_.settings.depth > 0 ? scene_.settings.depth : k_deepest;
     limits_.cut_weight = branches ? tree_cut(tolerance) : std::max(k_truth_cut * tolerance, 1e-7);
@@ -37,7 +37,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
     levels_[0].samples = grid(0);
 }
 
-// No grid that the scene asks for, whose picture would share the truth's rays.
+// Avoids the scene's own grid: its picture would share the truth's rays.
 int ErrorEstimator::grid(std::size_t level) const {
     int side = k_truth_sides[level];
     if (side * side == scene_.settings.samples) side += level == 0 ? 2 : 1;
@@ -81,7 +81,7 @@ double ErrorEstimator::noise_of_16() {
     }
     noise_of_16_ = 0;
     if (!(drawing.few_rays > 0)) return 0;
-    // Few pixels easily miss the reflexes that are off most: one and a half standard errors more.
+    // Few pixels easily miss the reflexes with the largest errors: add 1.5 standard errors.
     const double count = static_cast<double>(drawing.halves_apart.size());
     const double spread = std::sqrt(std::max(0.0, squares * count - sum * sum) / count) / sum;
     noise_of_16_ = (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
@@ -99,7 +99,7 @@ void ErrorEstimator::draw_up_to(std::size_t count) {
             level.radiance += mean_of(drawing.rgb[i]) * chosen_.counts[first + i];
             level.halves += drawing.halves_apart[i] * chosen_.counts[first + i];
         }
-        // What a depth leaves out that the scene names, the plan has bounded.
+        // The plan already bounds the error of a depth that the scene names.
         const double lost = drawing.cut + (scene_.settings.depth > 0 ? 0 : drawing.remainder);
         level.cut += lost * static_cast<double>(more.at.size());
         level.rgb.insert(level.rgb.end(), drawing.rgb.begin(), drawing.rgb.end());
@@ -174,7 +174,7 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     std::vector<Rgb> seen, true_pixels;
     std::vector<double> errors_of;
     double errors = 0, squares = 0, sizes = 0;
-    // A pixel of no number is as wrong as can be.
+    // Non-finite pixels count as a huge error.
     const auto error_of = [](const Rgb& a, const Rgb& b) {
         const double error = apart(a, b);
         return std::isfinite(error) ? error : 1e100;
@@ -191,7 +191,7 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
         sizes += counts * mean_of(true_pixels.back());
     }
     const double pixels = static_cast<double>(count);
-    // Each of these is one of all.
+    // Each outlier represents one pixel of the picture.
     double surely = 0;
     for (const auto& [at, i] : of_picture_) {
         const Rgb there = truth(&Level::outliers, i);
@@ -221,7 +221,7 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
         cut += share * level.cut / static_cast<double>(level.rgb.size());
     }
     estimate.noise = std::sqrt(noise);
-    // What the truth itself has cut counts as light of the mean radiance.
+    // Light that the truth itself cut counts with the mean radiance.
     estimate.bound =
         estimate.difference + k_standard_errors * estimate.spread + estimate.skewness + cut;
     estimate.bound_delta_e = colour_error(seen, true_pixels).bound_delta_e();
@@ -230,8 +230,8 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
 
 void ErrorEstimator::choose(const Picture& picture, FrameRenderer* frames) {
     chosen_ = choose_check_pixels(scene_, picture, some_, *progress_, frames);
-    // A small light has an image at each wavelength. Where these part, few wavelengths bring too
-    // much or too little of it, and a truth of the picture's own would not tell.
+    // A sun has an image per wavelength. Where these separate, a picture of few wavelengths shows
+    // too much or too little of it, and a truth with the same wavelengths would agree.
     if (chosen_.sun) nodes_ = k_node_counts.back();
 }
 
@@ -246,18 +246,18 @@ void ErrorEstimator::look_elsewhere() {
 ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, double most_ns,
                                        FrameRenderer* frames) {
     if (chosen_.pixels.at.empty()) choose(picture, frames);
-    // What was drawn to judge other pictures judges this one.
+    // Pixels drawn for other pictures serve this one, too.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());
     find_outliers(picture);
     ErrorEstimate estimate = look(picture, std::max(chosen_.first, known));
     for (int more = 1; more < k_looks && estimate.bound > room; ++more) {
-        // As long as the noise is what is seen, the picture cannot be blamed.
+        // While noise dominates, the picture may be right.
         const bool noisy = estimate.noise > 0.5 * estimate.difference;
-        // Were the picture better than what was found by one standard error: where its error and
-        // the noise leave room, more pixels narrow the standard error; else more rays lessen the
-        // noise. On the way there it may be found out to be hopeless, or that a pixel that is off
-        // by much is rarer than it seemed: what counts is the price of the next step.
+        // Assume that the picture is better than found by one standard error. If error and noise
+        // leave room, more pixels narrow the standard error; else more rays lower the noise. The
+        // next step may show that the picture is hopeless, or that a large error is rarer than it
+        // seemed, so only that step's price counts.
         const double error = std::max(0.0, estimate.error() - estimate.spread),
                      rest = 0.95 * room - std::hypot(error, estimate.noise);
         if (!noisy && error > room) break;
@@ -276,7 +276,7 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
         try {
             estimate = look(picture, static_cast<std::size_t>(wanted));
         } catch (const OverBudget&) {
-            break;  // what was found before stands
+            break;  // keep the last estimate
         }
     }
     return estimate;
@@ -292,7 +292,7 @@ ErrorEstimate estimate_error(const Scene& scene, const Picture& picture, const P
         return none;
     }
     const double tolerance = scene.settings.tolerance;
-    // About two seconds of a processor.
+    // About two seconds of processor time.
     return ErrorEstimator(window, some, tolerance, progress).estimate(picture, tolerance, 2e9);
 }
 

@@ -1,20 +1,21 @@
 #pragma once
-// How far a finished picture is from the truth, and how sure that is: the reference with everything
-// on at a few of its pixels, and at more as long as these leave it open.
+// Estimates how far a finished picture is from the truth, and how certain that is. The truth is the
+// reference with everything on, drawn at a few pixels, and at more until they decide.
 //
-// The error of a picture p is the mean over the stone's pixels of |p - t| over the mean of t. A
-// true pixel t is drawn with few rays, which are off by some e of mean 0, whatever p: then
-// |p - t - e| is no smaller in the mean than |p - t| (Jensen's inequality). So the mean over pixels
-// chosen by chance with three of its standard errors is a bound, and the more is allowed the fewer
-// pixels and rays it takes. Pixels beside which the picture changes, and those where a bright light
-// may be seen at another wavelength (light_edge_scan.h), are chosen more often, and count less
-// (Hansen & Hurwitz 1943): that is where pictures are off. Few pixels are off by much, so that the
-// mean of some is not distributed normally: what their skewness adds to the limit is in the bound
-// (Johnson 1978, JASA 73, eq. 2.4). Where lights are bright, pixels that have more of the picture's
-// light than a small share are all looked at, and the chosen ones tell of the others: what a
-// picture shows where it is not there is not left to chance.
+// The error of a picture p is the mean of |p - t| over the stone's pixels, over the mean of t. A
+// true pixel t is drawn with few rays, whose error e has mean 0 independently of p; then the mean
+// of |p - t - e| is not below that of |p - t| (Jensen's inequality). So the mean over randomly
+// chosen pixels plus three standard errors is a bound; the larger the tolerance, the fewer pixels
+// and rays it takes.
 //
-// One picture is looked at `k_looks` times at most, with a bound each.
+// Errors concentrate where the picture changes and where a bright light may be seen at another
+// wavelength (light_edge_scan.h): such pixels are chosen more often and weigh less (Hansen &
+// Hurwitz 1943). As few pixels have large errors, means of some are not normally distributed; the
+// bound includes a skewness correction (Johnson 1978, JASA 73, eq. 2.4). With bright lights, all
+// pixels that hold more than a small share of the picture's light are checked, and the random ones
+// stand for the others: this way light that is in the picture by mistake is always found.
+//
+// Each picture is looked at up to `k_looks` times, with a bound each time.
 
 #include <algorithm>
 #include <array>
@@ -33,15 +34,15 @@ namespace culet {
 
 struct ErrorEstimate {
     int pixels = 0, samples = 0;
-    double difference = 0;  ///< mean over them, with the noise of the truth's rays
+    double difference = 0;  ///< mean over the pixels, including noise of the truth's rays
     double spread = 0;      ///< its standard error
-    double skewness = 0;    ///< what few pixels that are off by much add to three of these
-    double noise = 0;       ///< about what the truth's few rays are off by
+    double skewness = 0;    ///< skewness correction to three standard errors
+    double noise = 0;       ///< estimated error of the truth's few rays
     double bound = 0, bound_delta_e = 0;
 
-    /// The difference less the noise, as of independent quantities.
+    /// Difference less noise, subtracted in quadrature.
     double error() const;
-    /// The same, as far as it can be seen: noise that is all that is seen hides it.
+    /// error(), but at least half the difference: strong noise hides the error.
     double seen() const { return std::max(error(), 0.5 * difference); }
 };
 
@@ -49,38 +50,37 @@ class ErrorEstimator {
 public:
     static constexpr int k_looks = 5;
 
-    /// `scene`: one window, with the effects that pictures are held against; `tolerance`: that is
-    /// to be decided; `some`: pixels of the stone. Nothing is drawn yet. `progress` must outlive
-    /// it.
+    /// Draws nothing yet. `scene`: one window, with the effects of the truth. `tolerance`: to be
+    /// decided on. `some`: pixels of the stone. `progress` must outlive it.
     ErrorEstimator(const Scene& scene, StonePixels some, double tolerance,
                    const Progress& progress);
 
-    /// What 16 rays of the truth are off by, as some pixels show it, which are drawn for it.
+    /// Error of 16 rays per pixel of the truth, estimated by drawing some pixels.
     double noise_of_16();
     int samples() const;
-    /// Price (price.h) of one eye ray in one band, as what was drawn shows it.
+    /// Price (price.h) of one eye ray in one band, from what was drawn so far.
     double band_ns() const;
 
-    /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
-    /// picture is certainly too far off, or the next step would be worth more than `most_ns`.
-    /// `frames`: that drew it, if any (light_edge_scan.h).
+    /// Adds pixels or rays until the bound is below `room`, the picture is certainly too far off,
+    /// or the next step would cost more than `most_ns`. `frames`: the renderer that drew the
+    /// picture, if any (light_edge_scan.h).
     ErrorEstimate estimate(const Picture& picture, double room, double most_ns,
                            FrameRenderer* frames = nullptr);
 
-    /// What effects that a picture leaves out change at the first `pixels` of the last estimate, by
-    /// the truth's own rays, beyond their noise.
+    /// Change, beyond noise, when the truth is drawn without the effects that a picture leaves out,
+    /// at the first `pixels` of the last estimate.
     double without_effects(const std::array<bool, k_effect_count>& effects, int pixels);
-    /// Another picture has more to tell of where to look: pixels are chosen anew, and drawn.
+    /// Forgets the chosen pixels: the next picture is a better guide to where to look.
     void look_elsewhere();
-    /// A light is so bright that its image in a few pixels counts. After `estimate`.
+    /// Whether a light is so bright that its image in a few pixels counts. Valid after `estimate`.
     bool sees_sun() const { return chosen_.sun; }
 
 private:
-    // Rays of one grid in each of the first pixels, and in the outliers of some picture.
+    // The truth with one grid of rays: at the first pixels, and at all outliers so far.
     struct Level {
         int samples = 0;
         std::vector<Rgb> rgb, outliers;
-        double halves = 0, radiance = 0, cut = 0;  // sums over the first, as they count
+        double halves = 0, radiance = 0, cut = 0;  // weighted sums over the first pixels
     };
     int grid(std::size_t level) const;
     void choose(const Picture& picture, FrameRenderer* frames);
@@ -99,15 +99,16 @@ private:
     const Progress* progress_;
     CheckPixels chosen_;
     StonePixels outliers_;                                   // of all pictures so far
-    std::map<std::pair<int, int>, std::size_t> of_picture_;  // the picture's, and which of those
+    std::map<std::pair<int, int>, std::size_t> of_picture_;  // outliers of the picture: index into
+                                                             // outliers_
     std::vector<Level> levels_;
     PathWork work_;
     double rays_drawn_ = 0;              // pixels x samples
     std::optional<double> noise_of_16_;  // once it was drawn
 };
 
-/// Of one finished picture of a scene, held against the truth at the scene's tolerance. Without
-/// pixels on the stone: 0 of them, and a bound of NaN.
+/// Checks one finished picture at the scene's tolerance. Without pixels on the stone: `pixels` 0,
+/// bound NaN.
 ErrorEstimate estimate_error(const Scene& scene, const Picture& picture, const Progress& progress);
 
 }  // namespace culet

@@ -31,7 +31,7 @@ ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
 
 namespace {
 
-// How finely an effect that is on is simulated.
+// How finely each effect is simulated when it is on.
 const std::map<std::string, std::string> k_fidelities{
     {"dispersion", "each wavelength its own way"},
     {"birefringence", "both waves, each its own way"},
@@ -123,7 +123,7 @@ std::string explain(const ScenePlan& plan) {
         text += fmt::format("{:<19}{:<5}", line.name, line.on ? "on:" : "off:");
         if (!line.fidelity.empty()) text += line.fidelity + "; ";
         text += line.why;
-        // Of what was weighed; what a scene cannot have takes no time either way.
+        // Only weighed effects; those that a scene cannot have take no time either way.
         if (line.seconds_with != line.seconds_without || line.matters > 0) {
             text += fmt::format(" ({}, {} it {})",
                                 in_seconds(line.on ? line.seconds_with : line.seconds_without),

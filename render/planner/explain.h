@@ -1,5 +1,5 @@
 #pragma once
-// The plan of a scene, for people.
+// Explains the plan of a scene to people.
 
 #include <string>
 
@@ -11,17 +11,16 @@ namespace culet {
 
 /// Throws InputError as `render` does, and Interrupted.
 ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
-/// The same plan for people who want to know: what effects would bring that the scene switches off
-/// is measured too, and is part of the bound.
+/// The same, but effects that the scene switches off are measured too, and are part of the bound.
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
 
-/// Lines of the plan that are no effects: depth, wavelengths, samples, light_edges,
-/// environment_filter and objects, for its settings. `user`: as the scene has them.
+/// Adds the plan's lines that are not effects: depth, wavelengths, samples, light_edges,
+/// environment_filter and objects. `user`: the scene's own settings.
 void set_resolutions(ScenePlan& plan, const Scene& scene, const RenderSettings& user);
 
-/// One line an item.
+/// One line per item.
 std::string explain(const ScenePlan& plan);
-/// The same as JSON, one object.
+/// As one JSON object.
 std::string plan_json(const ScenePlan& plan);
 
 }  // namespace culet

@@ -9,7 +9,7 @@ namespace culet {
 
 namespace {
 
-// "Garnet (almandine), coloured" is "garnet" in a sentence.
+// Shortens "Garnet (almandine), coloured" to "garnet".
 std::string spoken(const Material& material) {
     std::string name = material.name.empty() ? material.id : material.name;
     name = name.substr(0, name.find_first_of("(,"));

@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-// The same view in pixels that are so many times as large; the last ones may reach beyond it.
+// The same view with pixels `times` as large; the last ones may extend beyond it.
 Camera coarser(const Camera& camera, int times) {
     Camera result = camera;
     result.width = (camera.width + times - 1) / times;
@@ -34,8 +34,8 @@ Camera coarser(const Camera& camera, int times) {
     return result;
 }
 
-// The brightest texel about each direction, where it has this radiance. Cells are wider than any
-// stone's colours leave apart.
+// The brightest texel of each cell, if it reaches this radiance. Cells are wider than any stone's
+// dispersion.
 std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map, double least) {
     auto found = std::make_shared<EnvironmentMap>();
     found->width = std::min(map.width, 64);
@@ -57,7 +57,7 @@ std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map, do
     return found;
 }
 
-// One ray in each pixel: mean over the wavelengths.
+// One ray per pixel, averaged over wavelengths.
 std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
                                  const Progress& progress) {
     PathLimits limits;
@@ -74,7 +74,7 @@ std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
     return seen;
 }
 
-// A map is left as it is.
+// Keeps the environment map.
 Lights bright_lights(const Lights& lights, double least) {
     const WavelengthSet colours(even_wavelengths(k_node_counts[0]));
     const auto dim = [&](const Light& light) {
@@ -101,7 +101,7 @@ Lights light_rims(const Lights& all, const Vec3& stone, double width, double lea
 
 namespace {
 
-// One way of unpolarised, unabsorbed light.
+// Simplifies the scene: one path through the stone, unpolarised and unabsorbed.
 Scene plainly(const Scene& whole, const Brightness& bright, bool disperses) {
     Scene scene = whole;
     RenderSettings& settings = scene.settings;
@@ -120,7 +120,7 @@ Scene plainly(const Scene& whole, const Brightness& bright, bool disperses) {
     return scene;
 }
 
-// Of each cell that shows any light the pixel that shows most.
+// The brightest pixel of each cell that shows any light.
 void find_brightest(const Picture& picture, int columns, int rows, StonePixels& at,
                     std::vector<double>& seen) {
     std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns * rows));
@@ -142,7 +142,7 @@ void find_brightest(const Picture& picture, int columns, int rows, StonePixels& 
     }
 }
 
-// Once more with the scene's wavelengths and lights, at those that show most.
+// Redraws the brightest cells with the scene's current wavelengths and lights.
 void look_closer(const Scene& scene, const StonePixels& at, std::size_t cells,
                  std::vector<double>& seen, const Progress& progress) {
     std::vector<std::size_t> order(seen.size());
@@ -153,7 +153,7 @@ void look_closer(const Scene& scene, const StonePixels& at, std::size_t cells,
     StonePixels some;
     for (const std::size_t i : order) some.at.push_back(at.at[i]);
     const std::vector<double> found = mean_spectra(scene, some, progress);
-    // Of what may be there, those of which nothing more is known have as much as these.
+    // Scales the other cells by the share that was confirmed in these.
     double possible = 0, actual = 0;
     for (std::size_t k = 0; k < order.size(); ++k) {
         possible += seen[order[k]];
@@ -174,13 +174,13 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     const Vec3 middle = centroid(scene.stone.solid);
     const IndexSpans spans = index_spans(scene);
     const double apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
-    // Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays
-    // leave apart by the index and twice, the inverse of the angle's cosine.
+    // At an exit angle of 60 degrees, refraction widens the angle between rays by the index times
+    // two, the inverse of that angle's cosine.
     const auto pixel = [&] {
         return 2 * spans.mean * pixel_on_stone(scene) /
                std::max(glm::length(scene.camera.position - middle), 1e-300);
     };
-    // A map's brightest texels are the same whatever the width.
+    // A map's brightest texels do not depend on the width.
     Lights lights = whole.lights;
     const auto map = lights.environment ? brightest_of(*lights.environment, bright.least) : nullptr;
     lights.environment.reset();
@@ -189,17 +189,17 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
         scene.lights.environment = map;
     };
 
-    // A pixel of each cell: by beams the one in which most is seen, else any.
+    // One pixel per cell: with beams the brightest, else any.
     StonePixels at;
     std::vector<double> seen;
     int times = 1, rows = 0;
-    double step = k_cell;  // of a cell, in these pixels
+    double step = k_cell;  // cell size in these pixels
     light(apart + pixel());
     if (refused_by_beams(scene).empty()) {
         const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
         times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
-        // Beams that fill little of a pixel are not split: of smaller pictures, as little of the
-        // stone.
+        // Beams that fill little of a pixel are not split. In smaller pictures, allow the same
+        // share of the stone.
         scene.settings.tolerance = 0.1 * std::pow(std::min(1.0, across / k_across), 2);
         if (times > 1) scene.camera = coarser(scene.camera, times);
         light(apart + pixel());
@@ -225,7 +225,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     }
     for (const auto& [cells, wavelengths] : k_closer) {
         if (!disperses) break;
-        // Rims that fill the steps between the wavelengths.
+        // Rims that bridge the gaps between the wavelengths.
         scene.settings.wavelengths_nm = even_wavelengths(wavelengths);
         light(2 * apart / wavelengths + step * pixel());
         look_closer(scene, at, cells, seen, progress);
@@ -234,7 +234,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     side_ = step * times;
 }
 
-// With what is in the cells beside it.
+// Each cell spreads to its eight neighbours.
 void LightEdgeScan::spread(const StonePixels& at, const std::vector<double>& seen, double step,
                            int rows) {
     cells_.assign(static_cast<std::size_t>(columns_ * rows), 0.0f);

@@ -1,12 +1,12 @@
 #pragma once
-// Where in the picture the edge of a bright light may be seen at some wavelength: what a check of
-// few pixels must not miss.
+// Finds where in a picture the edge of a bright light may be seen at some wavelength, which a check
+// of few pixels must not miss.
 //
-// A small bright light is seen in few pixels, and at each wavelength in others: a picture of few
-// wavelengths may lack one of its images altogether, and nothing in it tells. So every bright light
-// is widened to a rim about its edges, as wide as the colours of one path leave apart, and seen by
-// beams at two wavelengths, in which no region is too small to be met. Where it shows most, rims as
-// wide as a cell of few pixels at each of many wavelengths tell what is there.
+// A small bright light shows in few pixels, and in other ones at each wavelength. A picture with
+// few wavelengths may lack one of its images without any trace. So every bright light is replaced
+// by a rim along its edges, as wide as the dispersion of one path, and drawn by beams at two
+// wavelengths; beams miss no region, however small. Where most shows, the scan is refined with
+// narrower rims, as wide as a cell of a few pixels, at many wavelengths.
 
 #include <vector>
 
@@ -19,29 +19,28 @@ namespace culet {
 
 /// Radiance of lights that a picture may lack.
 struct Brightness {
-    double least = 0;  ///< from which on they count
+    double least = 0;  ///< threshold above which lights count
     double most = 0;   ///< the brightest light's
-    /// A path of a hundredth of the weight is enough to show it.
+    /// True if paths of a hundredth of the weight suffice to show the light.
     bool sun() const { return most > 100 * least; }
 };
 
-/// The rims of those lights that have the radiance `least` at some wavelength: radiance of each
-/// within `width` (radians, as seen from the stone) of its edge, on both sides; of a map, the
-/// brightest texel of cells some 6 degrees wide; of lobes, wider ones. What has no edge is left
+/// Rims of the lights whose radiance reaches `least` at some wavelength: their radiance within
+/// `width` of the edge on both sides (radians, seen from the stone). A map gives the brightest
+/// texel in cells about 6 degrees wide, lobes become wider lobes, lights without an edge are left
 /// out.
 Lights light_rims(const Lights& lights, const Vec3& stone, double width, double least);
 
 class LightEdgeScan {
 public:
-    /// Of bright lights alone: of others every pixel may see an edge. As light has one way through
-    /// the stone, unpolarised and not absorbed. `progress` is told 0, and may stop it: Interrupted.
-    /// `frames`: of this stone, to save making ready what beams need of it; shows other lights in
-    /// larger pixels then.
+    /// For bright lights only: edges of others may show in every pixel. Light is traced
+    /// unpolarised, unabsorbed and along one path through the stone. `frames`: a renderer of this
+    /// stone, used to save its preparation; it afterwards shows other lights in larger pixels.
+    /// `progress` receives 0 and may stop it: Interrupted.
     LightEdgeScan(const Scene& scene, const Brightness& bright, const Progress& progress,
                   FrameRenderer* frames = nullptr);
 
-    /// The radiance that a light's edge may bring in a pixel's cell or beside it; 0: none was
-    /// found.
+    /// Radiance that a light's edge may add in the cell of a pixel or in its neighbours; 0: none.
     double near(int x, int y) const;
 
 private:

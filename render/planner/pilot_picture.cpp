@@ -21,14 +21,13 @@ namespace culet {
 
 namespace {
 
-// Points along the longer side, to find the stone.
+// Grid points along the longer side, to find the stone.
 constexpr int k_looked_at = 64;
 
 struct Window {
     double x0, y0, x1, y1;
 };
 
-// Pixels of a jittered grid whose middle the stone covers.
 std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& body,
                                          const EyeRays& eyes, const Window& window, double step) {
     std::vector<std::pair<int, int>> found;
@@ -36,8 +35,8 @@ std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& bo
     int number = 0;
     for (double y = window.y0; y < window.y1; y += step) {
         for (double x = window.x0; x < window.x1; x += step, ++number) {
-            // The golden ratio and its like in two dimensions (Roberts 2018): no grid of facets
-            // falls in with them.
+            // The golden ratio and its analogue in two dimensions (Roberts 2018): no grid of facets
+            // resonates with them.
             const int px = static_cast<int>(x + step * std::fmod(number * 0.6180339887498949, 1.0)),
                       py = static_cast<int>(y + step * std::fmod(number * 0.7548776662466927, 1.0));
             if (px >= scene.camera.width || py >= scene.camera.height) continue;
@@ -49,13 +48,13 @@ std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& bo
     return found;
 }
 
-// Along the rows by the golden ratio: every stretch is spread over all of them.
+// Reorders rows of pixels by the golden ratio, so that every stretch covers all of them.
 std::vector<std::pair<int, int>> spread_evenly(const std::vector<std::pair<int, int>>& rows) {
     const std::size_t count = rows.size();
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < count; ++i)
         order.emplace_back(std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0), i);
-    // The inverse permutation of the ranks: the i-th is where a step of the golden ratio lands.
+    // Invert the permutation of ranks: the i-th pixel is where a step of the golden ratio lands.
     std::sort(order.begin(), order.end());
     std::vector<std::pair<int, int>> spread(count);
     for (std::size_t rank = 0; rank < count; ++rank) spread[order[rank].second] = rows[rank];
@@ -88,7 +87,7 @@ StonePixels stone_pixels(const Scene& scene, int wanted) {
     StonePixels pixels = look(whole, step);
     if (pixels.at.empty()) return pixels;
     if (static_cast<int>(pixels.at.size()) < wanted && step > 1) {
-        // A small stone: once more, where it is.
+        // A small stone: search again around it.
         Window window{width, height, 0, 0};
         for (const auto& [x, y] : pixels.at) {
             window.x0 = std::min(window.x0, std::max(0.0, x - step));

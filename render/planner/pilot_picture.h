@@ -1,5 +1,5 @@
 #pragma once
-// A few pixels of the very picture, drawn by the reference with this and that left out.
+// Draws a few pixels of a picture by the reference, with chosen effects left out.
 
 #include <utility>
 #include <vector>
@@ -11,18 +11,18 @@
 
 namespace culet {
 
-/// Pixels whose middle the stone covers, evenly spread over it, and so is every stretch of them
-/// from the first.
+/// Pixels whose middle the stone covers. They are spread evenly over the stone, and so is every
+/// stretch of them.
 struct StonePixels {
     std::vector<std::pair<int, int>> at;  ///< x, y
-    double in_picture = 0;                ///< estimate of how many there are
+    double in_picture = 0;                ///< estimated number of stone pixels
 
-    /// Those from the `first` on, at most `count`.
+    /// At most `count` pixels from `first` on.
     StonePixels stretch(std::size_t first, std::size_t count) const;
 };
-/// About `wanted`, fewer where there are not as many. Empty: the stone was not found.
+/// Returns about `wanted` pixels, or fewer if the stone has fewer; none if the stone was not found.
 StonePixels stone_pixels(const Scene& scene, int wanted);
-/// Every one.
+/// Returns all of them.
 StonePixels all_stone_pixels(const Scene& scene);
 
 struct PilotDrawing {
@@ -33,23 +33,23 @@ struct PilotDrawing {
     double events = 0;  ///< faces that light met
     /// Radiance at each wavelength, pixel by pixel: spectra[pixel * wavelengths + i].
     std::vector<double> spectra;
-    double remainder = 0;  ///< at the depth limit, mean weight
-    double cut = 0;        ///< for their small weight, likewise
+    double remainder = 0;  ///< mean weight left at the depth limit
+    double cut = 0;        ///< mean weight of paths cut for their small weight
     double absorbed = 0;
-    std::vector<double> halves_apart;  ///< of each pixel (pixel_shader.h)
-    double few_rays = 0;  ///< about what the pixels are off by for their few rays, over the mean
+    std::vector<double> halves_apart;  ///< per pixel (pixel_shader.h)
+    double few_rays = 0;  ///< estimated error of the pixels due to their few rays, over the mean
     double brightest = 0;
-    double surroundings_ns = 0;  ///< what objects around the stone took, at the prices of price.h
-    double seconds = 0;          ///< that it took, of all threads together
+    double surroundings_ns = 0;  ///< price of the objects around the stone (price.h)
+    double seconds = 0;          ///< summed over threads
 };
 
-/// Half the difference between every other ray of a grid and the rest is so many times what all of
-/// them are off by: 2^(3/4) / 2^(1/2), where that falls with the number of rays as N^-3/4.
+/// Ratio of half the difference between every other ray of a grid and the rest to the error of all
+/// rays: 2^(3/4) / 2^(1/2), as the error of a grid falls as N^-3/4.
 constexpr double k_halves_over_noise = 1.19;
 
-/// `nodes`: wavelengths where a spectrum is called for and the scene names none. `scene`: with the
-/// settings to draw with; their depth and tolerance are left aside for `limits`. `progress` is told
-/// 0, and may stop it: Interrupted.
+/// Draws with the scene's settings, but with the depth and cut-off of `limits`. `nodes`: number of
+/// wavelengths if a spectrum is needed and the scene names none. `progress` receives 0 and may stop
+/// it: Interrupted.
 PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
                         int samples, int nodes = k_node_counts[1], const Progress& progress = {});
 

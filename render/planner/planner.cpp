@@ -14,8 +14,8 @@ namespace culet {
 
 namespace {
 
-// Effects of which a pilot decides, the dearest first; and below which share of the tolerance each
-// goes: those that cost next to nothing stay sooner.
+// Effects decided by pilots, most expensive first, with the share of the tolerance below which each
+// is left out: smaller for those that cost next to nothing.
 struct PilotedEffect {
     Effects effect;
     double share;
@@ -36,7 +36,7 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool merged_waves
       tolerance_(whole.settings.tolerance),
       leave_(leave),
       rays_(whole.camera.aperture_radius > 0 ? k_lens_rays : k_pilot_rays) {
-    // The two windows of a dichroscope are one view, seen twice.
+    // The two windows of a dichroscope show one view twice.
     if (scene_.camera.optics.two_windows) scene_.camera.width /= 2;
     const OpticalSetup base = make_optical_setup(scene_);
     branches_ = paths_branch(scene_, base);
@@ -109,7 +109,7 @@ ScenePlan Planner::run(bool weigh) {
     }
     set_resolutions(plan_, scene_, user_);
     for (const PlanItem& line : plan_.items) {
-        // Whether waves interfere is a matter of the light, which the scene settles.
+        // Interference is a property of the light, which the scene decides.
         if (line.name != name_of(Effects::coherence)) plan_.bound_delta_e += line.bound_delta_e;
     }
     plan_.seconds_planning =
@@ -141,7 +141,7 @@ void Planner::drop_what_changes_nothing() {
     for (Effects effect : {Effects::dispersion, Effects::birefringence, Effects::polarization,
                            Effects::pleochroism, Effects::coherence}) {
         if (!on(effect)) continue;
-        // Some the scene cannot do without.
+        // The scene may need this effect.
         if (effect != Effects::dispersion && make_optical_setup(piloted({effect})).on(effect))
             continue;
         leave_out(effect, k_same_light);
@@ -164,11 +164,11 @@ bool Planner::costs_less_than_pilots() {
 void Planner::weigh_effects() {
     first_ = draw(piloted());
     whole_price_ = price_of(piloted(), first_);
-    // What this machine's nanosecond is worth.
+    // Calibrates prices to this machine.
     const double priced = whole_price_ * static_cast<double>(pixels_.at.size());
     if (priced > 0 && first_.seconds > 0) machine_ = 1e9 * first_.seconds / priced;
     for (const PilotedEffect& next : k_piloted) {
-        // Colours are looked at last, of one wave where there is but one.
+        // Dispersion comes last: it uses one wave if the waves are merged.
         if (next.effect == Effects::dispersion) {
             bound_coherence();
             if (!on(Effects::birefringence)) branches_ = !scene_.stone.convex;
@@ -196,14 +196,14 @@ void Planner::choose_first_picture() {
     plan_.bound_of_sampling = first.noise;
 }
 
-// By counts of faces met; of everything, by the reference with 16 rays or more.
+// From counts of faces met; "everything" by the reference with 16 rays or more.
 void Planner::estimate_times() {
     const double rays = std::max(plan_.settings.samples, 16);
     plan_.seconds_everything =
         std::max(plan_.seconds, 1e-9 * machine_ * plan_.pixels * whole_price_ * rays / rays_ *
                                     (on(Effects::dispersion) ? 4 : 1));
     for (PlanItem& line : plan_.items) {
-        // So far they hold prices of the pilot with and without.
+        // These fields still hold the pilot's prices.
         const double with = line.seconds_with, without = line.seconds_without;
         line.seconds_with = line.seconds_without = plan_.seconds;
         if (!(with > 0 && without > 0)) continue;

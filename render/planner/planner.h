@@ -1,15 +1,15 @@
 #pragma once
-// From a scene and a tolerance to a picture whose error is known, in this folder:
+// From a scene and a tolerance to a picture with a known error. In this folder:
 //
-// - `planner`: which effects a picture needs, by what is known beforehand (`known_effects`), then
-//   by one pilot an effect, the scene with and without it (`effect_pilots`, `pilot_picture`);
-//   `explain` tells it.
-// - `refinement`: pictures of these effects from coarse to fine (`refinement_levels`), each held
-//   against the truth until one is near enough.
-// - `error_estimate`: the truth is the reference with everything on, at few pixels that
-//   `check_pixels` and, for small bright lights, `light_edge_scan` choose; a mean with three
-//   standard errors is the bound.
-// - `time_budget`: where there is no tolerance, as fine as a given amount of counted work allows.
+// - `planner`: decides which effects a picture needs, first from what is known beforehand
+//   (`known_effects`), then by one pilot per effect, the scene with and without it
+//   (`effect_pilots`, `pilot_picture`). `explain` reports it.
+// - `refinement`: draws pictures from coarse to fine (`refinement_levels`) until the check says
+//   that one is close enough.
+// - `error_estimate`: compares a picture with the reference (everything on) at a few pixels, chosen
+//   by `check_pixels` and, for small bright lights, `light_edge_scan`. The bound is the mean plus
+//   three standard errors.
+// - `time_budget`: if there is no tolerance, draws as finely as a given amount of work allows.
 // - `policy.h`: the constants.
 
 #include <chrono>
@@ -29,37 +29,37 @@ constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* k_merged_waves = "the two waves are merged";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
-/// Whether `render` first draws a crystal's two waves merged: what that is off by, a pilot of few
-/// rays shows as far too much, because it shifts light within the pixel.
+/// Whether `render` first tries a crystal's two waves merged. A pilot of few rays overrates that
+/// error by far, because merging shifts light within the pixel.
 bool tried_with_merged_waves(const Scene& scene);
 
-/// Why effects are on or off, as far as that is known without drawing: the lines of `plan`.
+/// Fills in why effects are on or off, as far as that is known without drawing.
 void say_what_is_known(const Scene& scene, ScenePlan& plan);
 
 class Planner {
 public:
-    /// Likely: effects go that are likely to change little enough. Surely: only those that are sure
-    /// to change nothing; a picture has shown that few pixels misjudge the scene.
+    /// likely: leave out effects that probably change little enough. surely: leave out only those
+    /// that certainly change nothing, after a picture has shown that the pilot misjudged the scene.
     enum class Leave { likely, surely };
-    /// `merged_waves`: a crystal's two waves are merged, which only the finished picture can show
-    /// to be near enough. `progress` is told 0, and may stop it; it must outlive the planner.
+    /// `merged_waves`: merge a crystal's two waves; only the finished picture can show whether that
+    /// is close enough. `progress` receives 0 and may stop it; it must outlive the planner.
     Planner(const Scene& whole, const Progress& progress, bool merged_waves = false,
             Leave leave = Leave::likely);
-    /// For a picture: where the coarsest costs no more than weighing effects, none is weighed, and
-    /// none left out but what is sure to change nothing.
+    /// Plans a picture. If the coarsest picture costs no more than weighing effects, none is
+    /// weighed, and only effects that certainly change nothing are left out.
     ScenePlan run();
-    /// For people who want to know: all are weighed, those too that the scene switches off.
+    /// Plans with all effects weighed; with `everything` also those that the scene switches off.
     ScenePlan run_to_explain(bool everything);
 
-    /// Holds pictures against the truth; none where there was no pilot. After `run`.
+    /// The estimator for this scene's pictures; none if there was no pilot. Call after `run`.
     std::optional<ErrorEstimator> take_estimator() { return std::move(estimator_); }
-    /// Before all else: of the same scene, whose drawings count.
+    /// Reuses an estimator of the same scene, with what it has drawn. Call before `run`.
     void give_estimator(std::optional<ErrorEstimator> estimator) {
         estimator_ = std::move(estimator);
     }
 
 private:
-    // With an effect and without, at the pilot's pixels, and the price of a pixel of each.
+    // The pilot's pixels with and without an effect, and the price per pixel of each.
     struct Pilot {
         PilotDrawing with, without;
         ColourError error;
@@ -91,19 +91,19 @@ private:
     void measure_what_the_scene_forbids();
 
     Scene scene_;                // of one window
-    const RenderSettings user_;  // as the scene has them
+    const RenderSettings user_;  // as in the scene
     const Progress& progress_;
     const double tolerance_;
     const Leave leave_;
-    const int rays_;  // of a pilot's pixel
+    const int rays_;  // per pixel of a pilot
     ScenePlan plan_;
     StonePixels pixels_;                       // of the pilots
-    std::optional<ErrorEstimator> estimator_;  // of others
-    bool branches_ = false;                    // trees of light paths double
-    double left_out_ = 0;                      // what effects that are left out are likely off by
+    std::optional<ErrorEstimator> estimator_;  // uses pixels other than the pilots'
+    bool branches_ = false;                    // light paths branch into trees
+    double left_out_ = 0;                      // likely error of all effects left out
     PilotDrawing first_;                       // with the effects that are on, without dispersion
-    double whole_price_ = 0;                   // of its pixel, with everything on
-    double machine_ = 1;                       // nanoseconds of this one over those of price.h
+    double whole_price_ = 0;                   // of one of its pixels, with everything on
+    double machine_ = 1;                       // this machine's nanoseconds over those of price.h
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

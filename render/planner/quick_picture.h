@@ -1,5 +1,5 @@
 #pragma once
-// A first picture, at once.
+// A first picture within about a second.
 
 #include "render/engine/render_result.h"
 #include "render/scene/scene.h"
@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// A picture to be looked at while a better one is drawn: a crystal's two waves merged, few
-/// wavelengths, the coarsest beams where the scene can be drawn by them, else one ray a pixel. Its
-/// `error_bound` is NaN: nobody knows how near it is. Throws as `render`.
+/// Draws a picture to look at while a better one is drawn: with a crystal's two waves merged, few
+/// wavelengths, and the coarsest beams, or one reference ray per pixel if beams refuse the scene.
+/// Its `error_bound` is NaN, as it is not checked. Throws as `render` does.
 RenderResult draw_quickly(const Scene& scene, const Progress& progress = {});
 
 }  // namespace culet

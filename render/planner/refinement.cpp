@@ -33,7 +33,7 @@ double seconds_of(const RenderStats& stats) {
     return stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
 }
 
-// Beams are held against the truth by the estimator, not by their own check.
+// The estimator checks beams, not their own check.
 RenderResult Refinement::draw_with(const RenderSettings& settings) {
     drawn_.settings = settings;
     if (!drawn_by_beams(settings)) return engine_named(settings.engine).draw(drawn_, progress_);
@@ -47,7 +47,7 @@ RenderResult Refinement::draw_with(const RenderSettings& settings) {
     return frames_->take();
 }
 
-// What was left out is known once the truth's own rays have shown it at the pixels of the check.
+// Redraws the truth without the left-out effects, at the check's pixels.
 bool Refinement::misjudged(const ErrorEstimate& estimate, ErrorEstimator& estimator,
                            const RenderSettings& settings, SoFar& so_far) const {
     if (estimate.pixels > so_far.pixels_without) {
@@ -57,7 +57,7 @@ bool Refinement::misjudged(const ErrorEstimate& estimate, ErrorEstimator& estima
     return so_far.off_without > k_misjudged * std::min(scene_.settings.tolerance, estimate.seen());
 }
 
-// The nearest is kept; what may miss the sun is off by nobody knows how much.
+// Keeps the best picture; one that may miss the sun has an unknown error.
 void Refinement::SoFar::take(RenderResult result, const RefinementLevel& drawn,
                              const ErrorEstimate& estimate, bool may_be_blind) {
     result.stats.seconds_setup += seconds;
@@ -85,9 +85,9 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
     so_far.seconds = plan.seconds_planning;
     for (int drawing = 1; level; ++drawing) {
         const bool beams = drawn_by_beams(level->settings);
-        // What paths take is known well; what beams take they find out.
+        // Prices of paths are accurate; those of beams are measured while drawing.
         if (meter->limited() && !beams && level->price_ns > meter->left()) throw OverBudget();
-        meter->expect_more(2 * level->price_ns);  // with its check, about
+        meter->expect_more(2 * level->price_ns);  // roughly, with its check
         const long long spent = meter->spent();
         RenderResult result = draw_with(level->settings);
         RenderStats& stats = result.stats;
@@ -100,7 +100,7 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
         const bool blind = beams && levels.may_miss_the_sun(level->settings);
         so_far.near_enough = estimate.bound <= tolerance && !blind;
         std::optional<RefinementLevel> other;
-        // Once the work allowed is done, the picture counts as it is.
+        // When the work allowed is used up, the picture stands as it is.
         if (!so_far.near_enough && !meter->over()) {
             so_far.misjudged = misjudged(estimate, estimator, level->settings, so_far);
             if (!so_far.misjudged && drawing < most) other = levels.after(*level, estimate);
@@ -113,7 +113,7 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
         so_far.take(std::move(result), *level, estimate, blind);
         level = std::move(other);
     }
-    // Nothing else is left to blame.
+    // No other cause of the error is left.
     if (!so_far.near_enough && so_far.off_without > 0) so_far.misjudged = true;
     so_far.best->stats.seconds_setup += so_far.seconds - seconds_of(so_far.best->stats);
 }

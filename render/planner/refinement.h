@@ -1,6 +1,6 @@
 #pragma once
-// Pictures from coarse to fine, each held against the truth, until one is near enough: previews,
-// beams, the reference (refinement_levels.h).
+// Draws and checks pictures from coarse to fine until one is close enough: previews, beams, the
+// reference (refinement_levels.h).
 
 #include <optional>
 
@@ -15,18 +15,18 @@ namespace culet {
 struct RefinedPicture {
     RenderResult result;
     bool near_enough = false;
-    bool misjudged = false;  ///< not for its beams: the plan left out more than it saw
+    bool misjudged = false;  ///< the error comes from effects that the plan left out
 };
 
 class Refinement {
 public:
-    /// Both must outlive it; the scene has a meter.
+    /// Both must outlive it; the scene must have a meter.
     Refinement(const Scene& scene, const Progress& progress)
         : scene_(scene), drawn_(scene), progress_(progress) {}
 
-    /// The nearest of the pictures drawn, with the effects of the plan. Where the scene's meter has
-    /// a limit, the reference takes the rays that are left of it. Throws Interrupted, and
-    /// OverBudget where it allows none.
+    /// Returns the closest picture drawn with the plan's effects. If the meter has a limit, the
+    /// reference uses the rays that are left. Throws Interrupted, and OverBudget if there is no
+    /// work left for one picture.
     RefinedPicture draw(ScenePlan plan, ErrorEstimator& estimator);
 
 private:
@@ -34,9 +34,9 @@ private:
         std::optional<RenderResult> best;
         RefinementLevel level;  // of it
         double bound_delta_e = 0;
-        bool blind = false;  // it may miss the sun
+        bool blind = false;  // it may have missed the sun
         bool near_enough = false, misjudged = false;
-        int pixels_without = 0;  // at which the truth was drawn without what the plan left out
+        int pixels_without = 0;  // check pixels drawn without the effects left out
         double off_without = 0;
         double seconds = 0;
         void take(RenderResult result, const RefinementLevel& drawn, const ErrorEstimate& estimate,
@@ -54,7 +54,7 @@ private:
     std::optional<FrameRenderer> frames_;
 };
 
-/// Of all that a picture took.
+/// Total time that a picture took.
 double seconds_of(const RenderStats& stats);
 
 }  // namespace culet

@@ -51,7 +51,7 @@ RefinementLevel RefinementLevels::beams(int number) const {
     const RenderSettings& user = scene_.settings;
     RefinementLevel level{.number = number, .settings = with_effects().settings};
     RenderSettings& settings = level.settings;
-    // A preview has one colour a region: of a map that is seldom near enough.
+    // A preview has one colour per region, which is rarely close enough for a map.
     const bool preview =
         user.engine == k_preview_engine || (number == 0 && user.engine == k_auto_engine &&
                                             !setup_.splits && !scene_.lights.environment);
@@ -75,7 +75,7 @@ RefinementLevel RefinementLevels::beams(int number) const {
         nm = even_wavelengths(*count);
     }
     const bool lens = setup_.on(Effects::aperture);
-    // Points of the pupil fill the rest.
+    // Points of the pupil fill a pixel.
     if (lens && user.samples == 0)
         settings.samples = std::min(256, std::max(16, static_cast<int>(3 / user.tolerance))
                                              << std::min(number, 4));
@@ -93,7 +93,7 @@ RefinementLevel RefinementLevels::beams(int number) const {
     return level;
 }
 
-// `noise`: what so many rays are off by.
+// `noise`: the error of `rays` rays.
 RefinementLevel RefinementLevels::reference(int number, double noise, int rays) const {
     const RenderSettings& user = scene_.settings;
     const ReferenceLevel& of_series = k_reference_levels[static_cast<std::size_t>(number)];
@@ -111,8 +111,8 @@ RefinementLevel RefinementLevels::reference(int number, double noise, int rays) 
     std::vector<double>& nm = settings.wavelengths_nm;
     if (user.wavelengths_nm.empty()) nm = setup_.wavelengths_nm;
     if (wavelengths_are_open()) nm = even_wavelengths(wavelengths);
-    // Each ray carries some: with dispersion many of both are needed anyway, and each ray at one
-    // wavelength tells as much as another.
+    // Each ray carries some of the wavelengths: dispersion needs many rays and wavelengths anyway,
+    // and a ray at one wavelength tells as much as at another.
     double bands = 1;
     if ((setup_.on(Effects::dispersion) || setup_.on(Effects::coherence)) &&
         setup_.bands.size() > 1) {
@@ -126,7 +126,7 @@ RefinementLevel RefinementLevels::reference(int number, double noise, int rays) 
     return level;
 }
 
-// The coarsest from `least` on that is likely off by half the tolerance.
+// The coarsest level from `least` on with a likely error below half the tolerance.
 RefinementLevel RefinementLevels::reference_by_noise(int least, double noise, int rays) const {
     const int last = static_cast<int>(k_reference_levels.size()) - 1;
     RefinementLevel level = reference(least, noise, rays);
@@ -147,7 +147,7 @@ std::optional<RefinementLevel> RefinementLevels::within(const RefinementLevel& l
     return found;
 }
 
-// Images of a sun lie so far apart that so many wavelengths are known to be too few.
+// Whether so many wavelengths leave gaps between a sun's images.
 bool RefinementLevels::too_few(int wavelengths) const {
     if (!estimator_.sees_sun() || !wavelengths_are_open() || !setup_.on(Effects::dispersion))
         return false;
@@ -180,19 +180,19 @@ std::optional<RefinementLevel> RefinementLevels::after(const RefinementLevel& le
     const bool preview = level.number == 0 && level.settings.engine == k_preview_engine &&
                          user.engine != k_preview_engine;
     const double too_much = estimate.seen() / (k_aim * user.tolerance);
-    // What few pixels show may be chance.
+    // Few pixels may show too much by chance.
     const int steps = preview ? 1
                               : static_cast<int>(std::clamp(std::ceil(std::log2(too_much)), 1.0,
                                                             1.0 * k_most_levels_at_once));
     RefinementLevel finer = beams(level.number + steps);
-    // By what this one took.
+    // Scale by this level's actual price.
     finer.price_ns *= level.price_ns / beams(level.number).price_ns;
     finer.why = fmt::format("{} came to within {:.2g} only: drawn with finer beams",
                             level.settings.engine, estimate.bound);
-    // A sun's images are in few pixels, of which few rays miss what beams have: how noisy the
-    // reference would be, the check's few pixels do not tell (a garnet in daylight: 4 s for 2).
+    // A sun's images fill few pixels, and few rays miss them where beams do not. So the check's few
+    // pixels do not show the reference's noise (garnet in daylight: 4 s instead of 2 s).
     if (user.engine != k_auto_engine || (estimator_.sees_sun() && !doubles_)) return finer;
-    // The estimate has seen more than its first pixels of what few rays are off by.
+    // The estimate's noise comes from more pixels than the first look.
     RefinementLevel by_rays = reference_by_noise(1, estimate.noise, estimate.samples);
     if (finer.price_ns <= by_rays.price_ns) return finer;
     by_rays.why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",

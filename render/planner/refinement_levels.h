@@ -1,7 +1,7 @@
 #pragma once
-// The levels of refinement, a fixed series: preview, beams finer and finer, and the reference with
-// more and more rays (policy.h). An error halves from level to level of the beams, so that it tells
-// how many to skip; the truth's own rays show how noisy the reference is with how many.
+// The fixed series of refinement levels: preview, finer and finer beams, and the reference with
+// more and more rays (policy.h). From level to level the error of beams halves, so a measured error
+// tells how many levels to skip. The truth's own rays show the noise of the reference.
 
 #include <optional>
 #include <string>
@@ -12,30 +12,29 @@
 namespace culet {
 
 struct RefinementLevel {
-    int number = 0;  ///< among those of its engine
+    int number = 0;  ///< level within its engine
     RenderSettings settings;
-    double price_ns = 0;  ///< about (price.h)
-    double noise = 0;     ///< about what the reference's few rays are off by
+    double price_ns = 0;  ///< estimate (price.h)
+    double noise = 0;     ///< estimated error of the reference's few rays
     std::string why = {};
 };
 
 class RefinementLevels {
 public:
-    /// `scene`: one window, with the settings that its file has; `plan`: with the effects that are
-    /// to be drawn. All must outlive it.
+    /// `scene`: one window, with the settings of its file. `plan`: with the effects to draw. All
+    /// must outlive it.
     RefinementLevels(const Scene& scene, const ScenePlan& plan, ErrorEstimator& estimator);
 
-    /// The coarsest beams, where the scene can be drawn by them; else the reference.
+    /// The coarsest beams if they can draw the scene, else the reference.
     RefinementLevel first() const;
-    /// After `level`, whose picture was off by what the estimate says: finer beams, or the
-    /// reference where that costs less; the reference with more rays. Nothing: the scene forbids
-    /// it, or there is none.
+    /// The level after `level`, given its picture's error: finer beams, or the reference if
+    /// cheaper; after the reference, more rays. Empty if the scene forbids it or none is left.
     std::optional<RefinementLevel> after(const RefinementLevel& level,
                                          const ErrorEstimate& estimate) const;
-    /// The reference's finest level up to `level` that a price allows; nothing: not even one ray.
+    /// The reference's finest level up to `level` at that price; empty if one ray is too much.
     std::optional<RefinementLevel> within(const RefinementLevel& level, double allowed_ns) const;
-    /// A sun's images in a few pixels are so coarse in this picture that those looked at may all
-    /// miss them: a preview's regions lie beside those that show it, and few wavelengths lack some.
+    /// Whether a picture may miss a sun's images at all check pixels: a preview's regions lie
+    /// beside those that show it, and few wavelengths lack some of its images.
     bool may_miss_the_sun(const RenderSettings& settings) const;
 
 private:
@@ -49,8 +48,8 @@ private:
     const Scene& scene_;
     const ScenePlan& plan_;
     ErrorEstimator& estimator_;
-    OpticalSetup setup_;  // of the effects to be drawn
-    bool doubles_;        // trees of light paths do
+    OpticalSetup setup_;  // of the effects to draw
+    bool doubles_;        // light paths branch into trees
 };
 
 }  // namespace culet

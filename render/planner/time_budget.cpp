@@ -18,7 +18,7 @@ namespace culet {
 
 namespace {
 
-// Spread evenly (Roberts 2018, R2).
+// Evenly spread pixels (Roberts 2018, R2).
 StonePixels some_pixels(const Camera& camera) {
     StonePixels pixels;
     for (int i = 0; i < k_counted_pixels; ++i) {
@@ -30,7 +30,7 @@ StonePixels some_pixels(const Camera& camera) {
     return pixels;
 }
 
-// What a picture takes with so many rays a pixel, and how noisy it is.
+// Price and noise of a picture with so many rays per pixel.
 struct Pilot {
     double ns = 0, noise = 0;
 };
@@ -48,22 +48,22 @@ Pilot pilot_with(Scene scene, int samples, const Progress& progress) {
             drawing.few_rays / k_halves_over_noise};
 }
 
-// 0: not even one. Each guess from the one before: rays share the wavelengths, so that work is not
-// in proportion.
+// Returns 0 if not even one fits. Rays share the wavelengths, so work is not proportional to rays,
+// and each guess starts from the one before.
 int samples_within(const Scene& scene, double allowed_ns, const Progress& progress) {
     int samples = 16, within = 0;
     for (int guess = 0; guess < 4; ++guess) {
         const Pilot pilot = pilot_with(scene, samples, progress);
         if (pilot.ns <= allowed_ns) within = std::max(within, samples);
-        // The mean of random rays is off by one over the root of their number; a single one does
-        // not tell. Without noise there are edges still.
+        // The error of random rays falls as the root of their number; one ray gives no estimate.
+        // Edges need 16 rays even without noise.
         const double enough =
             samples > 1
                 ? std::max(samples * std::pow(pilot.noise / scene.settings.tolerance, 2), 16.0)
                 : k_most_samples;
         const double likely = std::min(
             {samples * allowed_ns / pilot.ns, enough, static_cast<double>(k_most_samples)});
-        // A square number is a regular grid.
+        // A square number makes a regular grid.
         const int side = std::max(1, static_cast<int>(std::sqrt(likely)));
         if (side * side == samples || side * side == within) break;
         samples = side * side;
@@ -98,7 +98,7 @@ RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
             }
         } catch (const OverBudget&) {
         }
-        // What was let go half done came to what chance had it: all that it might take counts.
+        // How far an abandoned picture got depends on chance: count all the work allowed.
         if (meter->over()) meter->use_up();
         const double took = static_cast<double>(meter->spent()) - spent;
         spent += took;
@@ -110,7 +110,7 @@ RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
         more = (tolerance == finest && reached > finest) || reached / tolerance >= 1.25;
     }
     if (!best) {
-        // Not even a coarse one: as coarse as it gets, and nobody knows how near.
+        // Not even a coarse picture fitted: draw the coarsest, with unknown error.
         best = draw_quickly(scene, progress);
         if (better) better(*best);
     }
@@ -127,7 +127,7 @@ Scene with_allowed_samples(const Scene& whole, const Progress& progress) {
     const double allowed = k_share_of_rest * whole.settings.allowed_ns;
     RenderSettings& settings = scene.settings;
     settings.allowed_ns = 0;
-    // The two windows of a dichroscope are one view, seen twice.
+    // The two windows of a dichroscope show one view twice.
     const auto samples = [&] {
         Scene window = scene;
         if (window.camera.optics.two_windows) window.camera.width /= 2;

@@ -1,7 +1,7 @@
 #pragma once
-// Pictures whose tolerance, or rays where light is sampled at random, are what a given amount of
-// work allows. Work is counted (work_meter.h) and not timed: the same scene has the same picture,
-// whatever the machine does beside it.
+// Pictures for a given amount of work, which decides the tolerance, or the rays if light is sampled
+// at random. Work is counted (work_meter.h), not timed, so a scene has the same picture however
+// busy the machine is.
 
 #include <functional>
 
@@ -14,21 +14,19 @@ namespace culet {
 /// Draws one picture to its tolerance; may throw OverBudget.
 using DrawToTolerance = std::function<RenderResult(const Scene&, const Progress&)>;
 
-/// Coarsely first, then as finely as what that took says the rest of `settings.allowed_ns` allows,
-/// and again while a next step is likely to fit in; the finest is `settings.tolerance`. `better` is
-/// told of each picture that is nearer than those before. The result's `allowed_tolerance` is set.
-/// Throws Interrupted.
+/// Draws coarsely first, then as finely as the rest of `settings.allowed_ns` allows by estimate,
+/// and again while another step is likely to fit; never finer than `settings.tolerance`. `better`
+/// receives each improved picture. Sets the result's `allowed_tolerance`. Throws Interrupted.
 RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
                                 const DrawToTolerance& draw, const PictureSink& better);
 
-/// Whether `render` chooses the rays of a pixel by `settings.allowed_ns`: where objects stand
-/// around the stone, light is sampled at random, and every ray makes the picture less noisy.
+/// Whether `render` chooses the rays per pixel from `settings.allowed_ns`: with objects around the
+/// stone, light is sampled at random, and every ray lowers the noise.
 bool leaves_samples_open(const Scene& scene);
 
-/// `scene` with as many rays a pixel as `settings.allowed_ns` allows, or fewer that bring the noise
-/// of a pixel to `settings.tolerance`. Where one ray at all wavelengths is more than is allowed,
-/// three wavelengths, and then a crystal's two waves merged. Work is counted at some pixels. Throws
-/// Interrupted.
+/// `scene` with as many rays per pixel as `settings.allowed_ns` allows, or fewer that reach
+/// `settings.tolerance`. If one ray at all wavelengths is too much, uses three wavelengths, and
+/// then merges a crystal's two waves. Work is counted at some pixels. Throws Interrupted.
 Scene with_allowed_samples(const Scene& scene, const Progress& progress);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Is a finished picture as near to the truth as it says?
+// Verifies that a finished picture is as close to the truth as it claims.
 
 #include "render/engine/render_result.h"
 #include "render/scene/scene.h"
@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// Draws some pixels anew with everything on: the time of so many pixels of 64 to 256 rays
-/// each. `progress` is told 0, and may stop it: Interrupted.
+/// Redraws some pixels with everything on, with 64 to 256 rays each. `progress` receives 0 and may
+/// stop it: Interrupted.
 Verification verify(const Scene& scene, const RenderResult& result, int pixels = 128,
                     const Progress& progress = {});
 

@@ -22,7 +22,7 @@ AirRayMaker::AirRayMaker(const Scene& scene, const TableRays& rays, const Vec3& 
       middle_(middle),
       plain_(!camera_.cone && !(camera_.aperture_radius > 0)) {
     if (!plain_) return;
-    // Divided by their part along the line of sight, directions are linear in x and y.
+    // Scaled to depth 1 along the line of sight, directions are linear in x and y.
     const Vec3 forward = glm::normalize(camera_.look_at - camera_.position);
     const double w = camera_.width, h = camera_.height;
     const EyeRay corner = eyes_.through(0, 0), right = eyes_.through(w, 0),

@@ -8,7 +8,7 @@ namespace culet {
 
 namespace {
 
-// Of an angle from the axis; beyond all directions where there is no rim.
+// Squared chord of an angle from the axis; beyond all directions if there is no rim.
 float chord_squared(double angle) {
     if (angle >= std::numbers::pi) return 5;
     const double half = 2 * std::sin(angle / 2);

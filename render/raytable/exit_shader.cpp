@@ -14,14 +14,14 @@ Vec3 vector_of(const std::array<double, 3>& v) {
     return {v[0], v[1], v[2]};
 }
 
-// Of the corners of the facets' frames.
+// Mean of the corners of the facets' frames.
 Vec3 middle_of(const RayTable& table) {
     Vec3 sum(0);
     for (const FacetFrame& frame : table.parts().frames) sum += vector_of(frame.corner);
     return sum / static_cast<double>(table.header().facets);
 }
 
-// Absorption of a step of each length, at the nodes of a band.
+// Absorption per step of each path length, at the nodes of a band.
 ExitAbsorption absorption_of(const Band& band, const RayTableHeader& header) {
     ExitAbsorption absorption;
     for (std::uint32_t k = 0; band.absorbs && k < header.lengths; ++k) {
@@ -33,7 +33,7 @@ ExitAbsorption absorption_of(const Band& band, const RayTableHeader& header) {
     return absorption;
 }
 
-// Without the lengths where nothing is absorbed.
+// Drops the path lengths if nothing is absorbed.
 ExitRun with_lengths_if(bool absorbs, ExitRun run) {
     if (!absorbs) run.length = {};
     return run;
@@ -149,7 +149,7 @@ std::unique_ptr<const ExitShader> exit_shader(const Scene& scene, const TableRay
                                               const WavelengthSet& colours,
                                               const Surroundings& surroundings,
                                               const RayTable& table, ExitPrecision precision) {
-    // Whatever else stands around the stone, these are the lights and nothing but lights.
+    // True if there are only lights around the stone.
     const bool lights_alone = dynamic_cast<const LightField*>(&surroundings) != nullptr;
     if (precision == ExitPrecision::fastest && lights_alone && !ExitLights::too_many(scene.lights))
         return std::make_unique<FastShader>(scene, rays, colours, table);

@@ -1,6 +1,6 @@
 #pragma once
-// The light that leaves of a ray table see in one scene, run by run: in single precision and many
-// at once where lights alone stand around the stone, else by asking the surroundings leaf by leaf.
+// The light that a ray table's exit events see in one scene. Vectorised in single precision if
+// there are only lights around the stone; else the surroundings are asked for each exit event.
 
 #include <memory>
 
@@ -21,16 +21,16 @@ public:
     virtual double leaves(std::size_t band, const ExitRun& run, float* radiance,
                           int stride) const = 0;
     virtual void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const = 0;
-    /// How far along rays the nearest thing is that hides what lies behind it.
+    /// Distance along the rays to the nearest thing that hides what lies behind it.
     virtual void nearest(const AirRays& rays, float* distance) const = 0;
-    /// Origins of AirRays are about this point.
+    /// Origins of AirRays are relative to this point.
     virtual Vec3 middle() const = 0;
 };
 
-/// Which of the two: tests compare them. Rays past the stone are single precision in both.
+/// Which shader to use; tests compare them. Rays past the stone are single precision in both.
 enum class ExitPrecision { fastest, double_precision };
 
-/// `surroundings` must outlive it, as `table`.
+/// `surroundings` and `table` must outlive it.
 std::unique_ptr<const ExitShader> exit_shader(const Scene& scene, const TableRays& rays,
                                               const WavelengthSet& colours,
                                               const Surroundings& surroundings,

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/raytable/exit_shading.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, each after the one before; clang-format must not sort them.
+// After foreach_target.h and in this order, each needing the one before.
 // clang-format off
 #include "render/beams/vectors-inl.h"
 #include "render/beams/lights-inl.h"
@@ -26,7 +26,7 @@ HWY_INLINE V number_at(const std::uint16_t* p) {
     return hn::ConvertTo(k_floats, whole_at(p));
 }
 
-// As octahedral_codes.h has it. Single precision leaves each coordinate off by 2^-24.
+// As in octahedral_codes.h. In single precision each coordinate is off by up to 2^-24.
 HWY_INLINE V3 direction_at(const std::int32_t* first, const std::int32_t* second) {
     const V step = number(1 / 2147483648.0f), zero = number(0.0f);
     V x = step * hn::ConvertTo(k_floats, hn::LoadU(k_ints, first)),
@@ -58,7 +58,7 @@ HWY_INLINE V3 point_at(const ExitFrames& frames, const ExitRun& run, int i) {
     return plus(plus(at, s, u), t, v);
 }
 
-// Adds light to the nodes' sums; `kNodes`: so many, or 0: as many as there are.
+// Adds light to the nodes' sums. `kNodes`: their number, or 0 for any.
 template <int kNodes>
 struct Sums {
     V* of;
@@ -86,8 +86,8 @@ HWY_INLINE void all_light(const ExitLights& lights, const Ray& ray, V* sum) {
     if (lights.environment) environment_light<kNodes>(lights, ray.direction, unhidden, sum);
 }
 
-// Shades the leaves i .. i + lanes - 1, to out[node * stride]. Adds what they weigh after
-// absorption, of all nodes.
+// Shades exit events i .. i + lanes - 1 into out[node * stride]. Adds their weights after
+// absorption, over all nodes, to `weighed`.
 template <int kNodes>
 HWY_INLINE void shade_vector(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
                              const ExitAbsorption& absorption, int i, float* out, int stride,
@@ -115,7 +115,7 @@ HWY_INLINE void shade_vector(const ExitLights& lights, const ExitFrames& frames,
     }
 }
 
-// What is left over when full vectors are done, filled up with leaves of no weight.
+// The events left after full vectors, padded with events of no weight.
 struct Tail {
     float weight[k_most_lanes] = {};
     std::int32_t direction[2][k_most_lanes] = {};
@@ -173,7 +173,7 @@ double ShadeLeaves(const ExitLights& lights, const ExitFrames& frames, const Exi
     return shade(lights, frames, run, absorption, radiance, stride);
 }
 
-// Calls of(ray, first, count) for so many rays at a time as there are lanes.
+// Calls visit(ray, first, count) for one vector of rays at a time.
 template <class Visit>
 HWY_INLINE void each_ray(const AirRays& rays, Visit&& visit) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));

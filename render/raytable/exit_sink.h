@@ -1,5 +1,5 @@
 #pragma once
-// Keeps the ends of light paths, for a ray table.
+// Collects exit events of light paths for a ray table.
 
 #include <algorithm>
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace culet {
 
-/// The end of a light path. Lengths in the stone's unit.
+/// The end of a light path outside the stone. Lengths in the stone's unit.
 struct ExitEvent {
-    float weight = 0;  ///< of a clear stone
+    float weight = 0;  ///< without absorption
     int facet = 0;
     DirectionCode direction{};
-    float s = 0, t = 0;             ///< the point, along the facet's axes
-    std::array<float, 3> length{};  ///< inside the stone, for each axis of a crystal
+    float s = 0, t = 0;             ///< coordinates of the point along the facet's axes
+    std::array<float, 3> length{};  ///< inside the stone, per axis of a crystal
 };
 
 /// In-plane axes of a facet, orthonormal.
@@ -29,16 +29,17 @@ struct PlaneAxes {
         : u(perpendicular_to(normal)), v(glm::cross(normal, u)) {}
 };
 
-/// What a row of pixels has, in one band.
+/// Exit events of a row of pixels in one band.
 struct RowLeaves {
     std::vector<ExitEvent> leaves;
-    std::vector<std::uint32_t> count;  ///< of each of the row's hits
+    std::vector<std::uint32_t> count;  ///< per hit of the row
     double remainder = 0, cut = 0;     ///< sums over hits
     int deepest = 0;
 };
 
-/// Path lengths are read off the transmissions of wavelengths that absorb along one axis each, by
-/// `absorption` per length; the first absorbs nothing, and has the weight of a clear stone.
+/// A band for measuring path lengths: one wavelength per length, which absorbs along one axis only,
+/// by `absorption` per unit of length. The first wavelength absorbs nothing: it has the weight of a
+/// clear stone.
 inline Band with_lengths(Band band, int lengths, double absorption) {
     band.absorbs = true;
     band.first = 0;
@@ -54,7 +55,7 @@ inline Band with_lengths(Band band, int lengths, double absorption) {
     return band;
 }
 
-// A sink of the tracers, see light_paths.h and crystal_paths.h.
+// A sink of the tracers (light_paths.h, crystal_paths.h).
 class ExitSink {
 public:
     ExitSink(const std::vector<PlaneAxes>& axes, int lengths, double absorption, double least,
@@ -76,7 +77,7 @@ public:
     void choice_ends(bool) {}
 
 private:
-    // `transmitted`: in the ratio of its wavelengths.
+    // `transmitted`: its wavelengths' ratios give the lengths.
     void keep(const Vec3& at, const Vec3& direction, double weight, const NodeWeights& transmitted,
               const PathTrace& trace) {
         row_.deepest = std::max(row_.deepest, trace.length);

@@ -30,7 +30,6 @@ constexpr std::size_t k_alignment = 64, k_unchecked = 16;  // magic, version and
 constexpr std::uint32_t k_most_bands = 1000, k_most_facets = 65535;
 constexpr std::uint64_t k_most = 0xffffffffu;
 
-// Calls visit(list, count) for every list of the file in its order.
 template <class Parts, class Visit>
 void each_list(const RayTableHeader& h, Parts& parts, Visit&& visit) {
     visit(parts.wavelengths_nm, h.wavelengths);
@@ -55,7 +54,7 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes) {
     return crc.checksum();
 }
 
-// Numbers of the header that the rest relies on; with these no size overflows.
+// Checks the header, after which no size can overflow.
 bool sane(const RayTableHeader& h) {
     const auto within = [](std::uint64_t v, std::uint64_t most) { return v >= 1 && v <= most; };
     return within(h.width, 65535) && within(h.height, 65535) && within(h.samples, 65535) &&
@@ -67,7 +66,7 @@ bool sane(const RayTableHeader& h) {
            h.length_step >= 0 && std::isfinite(h.remainder) && std::isfinite(h.cut);
 }
 
-// What is wrong with lists whose places are right; empty: nothing.
+// What is wrong with the lists' values; empty if nothing.
 std::string fault_in(const RayTableHeader& h, const RayTableParts<TableSpan>& parts) {
     for (const double nm : parts.wavelengths_nm) {
         if (!(nm >= 200 && nm <= 2500)) return "a wavelength";
@@ -106,7 +105,6 @@ std::string fault_in(const RayTableHeader& h, const RayTableParts<TableSpan>& pa
     return {};
 }
 
-// Mapped as a whole, for reading.
 struct Mapping {
     boost::interprocess::file_mapping file;
     boost::interprocess::mapped_region region;

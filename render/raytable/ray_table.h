@@ -1,11 +1,12 @@
 #pragma once
-// A ray table (Lee, Interactive refractive rendering for gemstones, 2004, chapter 5): of one view
-// of a stone, where the light paths behind each pixel leave the stone, in which direction, and with
+// A ray table (Lee, Interactive refractive rendering for gemstones, 2004, chapter 5): for one view
+// of a stone, where the light paths behind each pixel leave the stone, in which direction and with
 // which weight. Pictures in any light follow from it without tracing. docs/ray-tables.md describes
 // the file, which is this table byte by byte.
 //
-// A "hit" is an eye ray that meets the stone; a "leaf" is the end of one of its light paths. A
-// "band" is a set of wavelengths that go the same way; each has its own leaves.
+// A "hit" is an eye ray that meets the stone; a "leaf" is an exit event, the end of one of its
+// light paths. A "band" is a set of wavelengths that follow the same paths; each has its own exit
+// events.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +18,7 @@
 
 namespace culet {
 
-/// 32 hexadecimal digits, of Fingerprint.
+/// 32 hexadecimal digits of a Fingerprint.
 using TableKey = std::array<char, 32>;
 
 struct RayTableHeader {
@@ -26,39 +27,40 @@ struct RayTableHeader {
     std::uint32_t checksum = 0;  ///< CRC-32 of all bytes behind it
     std::uint64_t file_bytes = 0;
     std::uint32_t width = 0, height = 0;  ///< pixels
-    std::uint32_t samples = 1;            ///< rays of a pixel
+    std::uint32_t samples = 1;            ///< rays per pixel
     std::uint32_t bands = 1;
     std::uint32_t facets = 0;
-    std::uint32_t lengths = 1;      ///< of a leaf: 1, or one for each axis of a crystal
-    std::uint32_t wavelengths = 0;  ///< as many as bands; 0: any, they all go the same way
+    std::uint32_t lengths = 1;      ///< per exit event: 1, or one per axis of a crystal
+    std::uint32_t wavelengths = 0;  ///< as many as bands; 0: any, they share all paths
     std::uint32_t depth = 0;        ///< limit of the paths
     std::uint32_t deepest = 0;      ///< faces on the longest path
-    std::uint32_t branches = 0;     ///< 1: paths are trees; 0: leaf k of a ray has k reflections
+    std::uint32_t branches = 0;     ///< 1: paths are trees; 0: exit event k of a ray has k
+                                    ///< reflections
     std::uint64_t hits = 0, leaves = 0;
-    double length_step = 0;         ///< of the lengths, in the stone's unit
-    double remainder = 0, cut = 0;  ///< weight that no leaf has, mean over hits and bands
+    double length_step = 0;         ///< one step of path length, in the stone's unit
+    double remainder = 0, cut = 0;  ///< weight not in any exit event, mean over hits and bands
     TableKey stone{}, optics{}, view{}, rays{};
     std::array<char, 24> reserved{};
 };
 static_assert(sizeof(RayTableHeader) == 256);
 
-/// The plane coordinates of a facet's leaves: point = corner + s u + t v with s, t in 0..1.
+/// Coordinates of exit events on a facet: point = corner + s u + t v with s, t in 0..1.
 struct FacetFrame {
     std::array<double, 3> corner{}, u{}, v{};
 };
 static_assert(sizeof(FacetFrame) == 72);
 
-/// What a table consists of, in the order of the file. Of leaves: weight of a clear stone;
-/// direction as octahedral_codes.h has it; point in the facet's frame in steps of 1/65535; path
-/// length inside the stone in steps of `length_step`.
+/// Contents of a table, in the order of the file. Of each exit event: weight in a clear stone;
+/// direction (octahedral_codes.h); point in the facet's frame in steps of 1/65535; path length
+/// inside the stone in steps of `length_step`.
 template <template <class> class List>
 struct RayTableParts {
     List<double> wavelengths_nm;
-    List<FacetFrame> frames;        ///< of each facet
-    List<std::uint32_t> hit_ray;    ///< of each hit: pixel x samples + sample; increasing
+    List<FacetFrame> frames;        ///< per facet
+    List<std::uint32_t> hit_ray;    ///< per hit: pixel x samples + sample; increasing
     List<float> hit_distance;       ///< from the eye to the stone
-    List<std::uint32_t> exits_end;  ///< of band x hits + hit: the leaf after its last
-    List<float> weight;             ///< of each leaf
+    List<std::uint32_t> exits_end;  ///< at band x hits + hit: the index after its last exit event
+    List<float> weight;             ///< per exit event
     std::array<List<std::int32_t>, 2> direction;
     std::array<List<std::uint16_t>, 2> point;
     List<std::uint16_t> facet;
@@ -72,14 +74,14 @@ using TableVector = std::vector<T>;
 
 class RayTable {
 public:
-    /// Maps a file and checks all of it. Throws InputError in one line where it is missing, cut
-    /// off, damaged, of another version, or no ray table.
+    /// Maps a file and checks all of it. Throws InputError in one line if it is missing, truncated,
+    /// damaged, of another version, or no ray table.
     static RayTable open(const std::filesystem::path& file);
-    /// Of `header` the counts, bytes and checksum are filled in. Throws InternalError where the
-    /// parts do not fit together.
+    /// Fills in the counts, bytes and checksum of `header`. Throws InternalError if the parts do
+    /// not fit together.
     RayTable(RayTableHeader header, const RayTableParts<TableVector>& parts);
 
-    /// Whole or not at all. Throws InputError where it cannot be written.
+    /// Writes the whole file or nothing. Throws InputError if it cannot be written.
     void write(const std::filesystem::path& file) const;
 
     const RayTableHeader& header() const { return header_; }
@@ -89,13 +91,13 @@ public:
 private:
     explicit RayTable(std::span<const std::byte> bytes, std::shared_ptr<const void> kept);
 
-    std::shared_ptr<const void> kept_;  // the mapping, or the memory
+    std::shared_ptr<const void> kept_;  // the mapping or the memory
     std::span<const std::byte> bytes_;
     RayTableHeader header_;
     RayTableParts<TableSpan> parts_;
 };
 
-/// Bytes of one leaf in the file.
+/// Bytes of one exit event in the file.
 constexpr std::size_t exit_bytes(unsigned lengths) {
     return 4 + 2 * 4 + 2 * 2 + 2 + 2 * static_cast<std::size_t>(lengths);
 }

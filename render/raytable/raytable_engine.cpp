@@ -1,4 +1,4 @@
-// The engine "raytable": what the reference sees, by way of a ray table.
+// The engine "raytable": the reference's picture by way of a ray table.
 
 #include <fmt/format.h>
 
@@ -23,11 +23,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// A table, and the rays of the scene that fit it.
+// A table and the scene's rays that fit it.
 struct FittingTable {
     RayTable table;
     TableRays rays;
-    bool kept = false;  // it was there
+    bool kept = false;  // read from the file
 };
 
 FittingTable kept_table(const std::filesystem::path& file, const Scene& scene) {
@@ -42,7 +42,7 @@ FittingTable kept_table(const std::filesystem::path& file, const Scene& scene) {
     return {std::move(table), std::move(rays), true};
 }
 
-// Read where there is one, else made, and written where it has a file.
+// Reads the table if the file exists; else makes it, and writes it if a file is named.
 FittingTable table_in(const std::filesystem::path& file, const Scene& scene,
                       const Progress& progress) {
     std::error_code error;
@@ -60,11 +60,10 @@ public:
     std::string refuses(const Scene& scene, const OpticalSetup& setup) const override {
         return refused_by_table(scene, setup);
     }
-    // Its paths are the reference's.
     double cost_ns(const DrawingWork& work) const override {
         return engine_named(k_reference_engine).cost_ns(work);
     }
-    // Fresnel factors and lengths are the reference's; what is cut does not know the lights.
+    // Paths are the reference's, but cuts by weight do not take the lights into account.
     bool approaches_truth() const override { return false; }
 
     RenderResult draw(const Scene& scene, const Progress& progress) const override {

@@ -9,12 +9,12 @@
 
 namespace culet {
 
-/// The picture of a scene that a table fits (difference_to is empty) in the scene's lights, with
-/// the absorption of its stone. Nothing is traced. The same bytes whatever the number of threads;
-/// processors of another instruction set differ in last digits. Throws Interrupted.
+/// Draws a scene that fits the table (difference_to is empty), in the scene's lights and with its
+/// stone's absorption, without tracing. The bytes do not depend on the number of threads; other
+/// instruction sets differ in the last digits. Throws Interrupted.
 ///
-/// `stats.remainder` and `cut` are those of the table, of a clear stone, which one that absorbs
-/// does not exceed; `absorbed` is what leaves lose on the way to where they leave.
+/// `stats.remainder` and `cut` are the table's, for a clear stone; they bound those of one that
+/// absorbs. `absorbed` is what exit events lose on their way through the stone.
 RenderResult relit(const RayTable& table, const Scene& scene, const TableRays& rays,
                    const Progress& progress, ExitPrecision precision = ExitPrecision::fastest);
 

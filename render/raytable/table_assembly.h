@@ -1,5 +1,5 @@
 #pragma once
-// From the ends of light paths to a ray table.
+// Assembles a ray table from exit events.
 
 #include "render/geometry/stone_body.h"
 #include "render/raytable/exit_sink.h"
@@ -7,16 +7,16 @@
 
 namespace culet {
 
-/// What the table is made of; hits in the order of their rays, leaves by band and row of pixels.
+/// Hits in the order of their rays; exit events by band and row of pixels.
 struct TableContent {
-    RayTableHeader header;  ///< but for what follows from the rest
+    RayTableHeader header;  ///< except what follows from the rest
     std::vector<double> wavelengths_nm;
     std::vector<std::uint32_t> hit_ray;
     std::vector<float> hit_distance;
     std::vector<std::vector<RowLeaves>> bands;
 };
 
-/// In-plane axes of each facet, in which leaves have their coordinates.
+/// In-plane axes of each facet, in which exit events have their coordinates.
 std::vector<PlaneAxes> plane_axes(const StoneBody& body, std::size_t facets);
 
 RayTable assembled(TableContent content, const StoneBody& body, const std::vector<PlaneAxes>& axes);

@@ -1,5 +1,5 @@
 #pragma once
-// The eye rays of a ray table, and where they meet the stone.
+// The eye rays of a ray table and where they meet the stone.
 
 #include <cstdint>
 #include <vector>
@@ -30,7 +30,7 @@ public:
     EyeFrame frame(const Vec3& direction) const { return eyes_.frame(direction); }
     const std::vector<SamplePoint>& pattern() const { return pattern_; }
 
-    /// Of a row, in the order of their rays.
+    /// Hits of a row, in the order of their rays.
     std::vector<TableHit> hits(int row, const StoneBody& body) const {
         std::vector<TableHit> hits;
         EntryGuess last;

@@ -1,5 +1,5 @@
 #pragma once
-// Makes a ray table: the reference's light paths, kept instead of lit.
+// Makes a ray table from the reference's light paths.
 
 #include "render/raytable/ray_table.h"
 #include "render/raytable/table_key.h"
@@ -7,12 +7,12 @@
 
 namespace culet {
 
-/// A table is no larger, in bytes; a scene that asks for more is refused.
+/// Largest size of a table in bytes; scenes that need more are refused.
 constexpr double k_most_table_bytes = 1e9;
 
-/// Follows the paths behind every pixel of a scene that is renderable and not refused. The same
-/// table whatever the number of threads. Throws InputError where it would be too large, and
-/// Interrupted. Time: that of the reference, per ray.
+/// Follows the paths behind every pixel of a scene that is renderable and not refused, in the
+/// reference's time per ray. The table does not depend on the number of threads. Throws InputError
+/// if it would be too large, and Interrupted.
 RayTable make_ray_table(const Scene& scene, const TableRays& rays, const Progress& progress);
 
 }  // namespace culet

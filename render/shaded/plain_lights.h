@@ -1,6 +1,6 @@
 #pragma once
-// The lights of a scene as the plain shadings have them: an ambient light, and lights that shine
-// from one place or from one direction.
+// The lights of a scene as the local shadings see them: an ambient light, and lights that shine
+// from one point or one direction.
 
 #include <vector>
 
@@ -9,35 +9,36 @@
 
 namespace culet {
 
-/// Light from one place, or (distant) from one direction. Spheres shine from their centres, flat
-/// lights from their middles, caps and lobes from their directions.
+/// A light at one point, or at infinity (distant). Spheres shine from their centres, flat lights
+/// from their middles, caps and lobes from their directions.
 struct PlainLight {
     bool distant = false;
-    Vec3 at{0, 0, 0};      ///< or the unit direction towards it
-    Vec3 normal{0, 0, 0};  ///< of a flat light, which shines with the cosine; 0: alike to all sides
-    Rgb strength{0, 0, 0};       ///< what a white surface that faces it shows at the scene's middle
-    double middle_distance = 1;  ///< from there to the light
+    Vec3 at{0, 0, 0};  ///< position, or unit direction towards a distant light
+    /// of a flat light, which shines with the cosine; 0: isotropic
+    Vec3 normal{0, 0, 0};
+    Rgb strength{0, 0, 0};       ///< radiance of a white surface facing it, at the scene's middle
+    double middle_distance = 1;  ///< from the scene's middle
 };
 
-/// What a light sends to a point.
+/// The light that reaches a point.
 struct Incoming {
-    Vec3 direction{0, 0, 1};  ///< unit, towards the light
-    double distance = 0;      ///< infinite from distant lights
-    Rgb strength{0, 0, 0};    ///< attenuated
+    Vec3 direction{0, 0, 1};
+    double distance = 0;    ///< infinite for distant lights
+    Rgb strength{0, 0, 0};  ///< attenuated
 };
 
 class PlainLights {
 public:
-    /// `middle`: of the scene, from which attenuation counts.
+    /// `middle`: of the scene, where attenuation is 1.
     PlainLights(const Scene& scene, const Vec3& middle);
 
-    /// Mean over all directions of the light that has no place: constant, environment, hemispheres,
-    /// endless planes.
+    /// Mean over all directions of light without a position: constant, environment, hemispheres,
+    /// infinite planes.
     const Rgb& ambient() const { return ambient_; }
     const std::vector<PlainLight>& lights() const { return lights_; }
     Incoming incoming(const PlainLight& light, const Vec3& point) const;
 
-    /// The lights themselves as they are seen along a ray that meets nothing else.
+    /// Radiance of the lights along a ray that meets nothing else.
     Rgb seen(const Vec3& origin, const Vec3& direction) const;
     double nearest_distance(const Vec3& origin, const Vec3& direction) const {
         return field_.nearest_distance(origin, direction);

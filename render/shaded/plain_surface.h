@@ -1,28 +1,28 @@
 #pragma once
-// Colours of surfaces for the plain shadings.
+// Colours of surfaces for the local shadings.
 
 #include "render/scene/scene.h"
 #include "render/scene/surface_colour.h"
 
 namespace culet {
 
-/// As an illumination model has it.
+/// Parameters of an illumination model.
 struct PlainSurface {
-    Rgb colour{0.5, 0.5, 0.5};  ///< of ambient and diffuse reflection
-    Rgb highlight{1, 1, 1};     ///< of specular reflection
-    bool glows = false;         ///< an emitter: `colour` is its radiance, and nothing is reflected
+    Rgb colour{0.5, 0.5, 0.5};  ///< ambient and diffuse reflectance
+    Rgb highlight{1, 1, 1};     ///< specular reflectance
+    bool glows = false;         ///< an emitter with radiance `colour`, which reflects nothing
 };
 
-/// An object's albedo, a metal's reflectance at normal incidence (its highlights too), the colour
+/// An object's albedo; a metal's reflectance at normal incidence, also for highlights; the colour
 /// of `thickness` of glass.
 PlainSurface plain_surface(const SurfaceMaterial& material, double thickness);
 /// A stone's body colour, 0..1.
 PlainSurface plain_surface(const Stone& stone);
 
-/// The two parts of `body_colour` as one absorption for each primary, Napierian, per length.
+/// Napierian absorption per length and primary, both parts of `body_colour` added.
 Rgb stone_absorption(const Stone& stone);
 
-/// n and k of a metal for each primary; k is infinite where all is reflected.
+/// n and k of a metal per primary; k is infinite for total reflectance.
 struct MetalIndex {
     Rgb n, k;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of an engine that knows no wavelengths: ray by ray, in three primaries.
+// Draws pictures for engines without wavelengths: ray by ray, in three primaries.
 
 #include <functional>
 #include <string>
@@ -10,23 +10,24 @@
 
 namespace culet {
 
-/// What a ray sees. `number` is its own in the picture, for what is chosen at random.
+/// What a ray sees. `number` is the ray's index in the picture, for random choices.
 struct SeenColour {
     Rgb colour{0, 0, 0};
-    bool met = false;  ///< a stone or an object
+    bool met = false;  ///< met a stone or an object
 };
 using SeeRay = std::function<SeenColour(const EyeRay& ray, std::uint64_t number)>;
 
-/// Rays a pixel where the scene does not say.
+/// Rays per pixel if the scene names none.
 constexpr int k_shaded_samples = 16;
 
-/// Every pixel is the mean of its rays. The same bytes whatever the threads. Throws Interrupted.
+/// Each pixel is the mean of its rays. The bytes do not depend on the number of threads. Throws
+/// Interrupted.
 RenderResult shaded_picture(const Scene& scene, const std::string& engine, const SeeRay& see,
                             const Progress& progress);
 
-/// What engines without polarisation and spectra refuse.
+/// Why engines without polarisation and spectra cannot draw the scene; empty if they can.
 std::string refused_by_shading(const Scene& scene);
-/// Throws InputError for that, and for scenes that no engine draws (scene_checks.h).
+/// Throws InputError for those, and for scenes that no engine draws (scene_checks.h).
 void require_shadable(const Scene& scene);
 
 }  // namespace culet

@@ -1,7 +1,6 @@
 #pragma once
-// Rays that are reflected and refracted as mirrors and glass do it, and lights of one place with
-// shadows (Whitted, An improved illumination model for shaded display, CACM 23(6), 1980), in three
-// primaries.
+// Whitted ray tracing: mirror reflection, refraction and point lights with shadows, in three
+// primaries (Whitted, An improved illumination model for shaded display, CACM 23(6), 1980).
 
 #include <cstdint>
 #include <memory>
@@ -14,38 +13,38 @@
 namespace culet {
 
 /// - Diffuse: ambient light, and each light that nothing opaque hides, by Lambert's law. Stones and
-///   glass hide nothing.
-/// - Metal: the mirror direction with Fresnel's equations for its index; rough ones turn it by a
-///   point of a ball of radius roughness^2, chosen at random (Cook et al. 1984 made such reflexes
-///   with many rays). Mirror: its albedo.
-/// - Glass and stones: both reflected and refracted rays, with Fresnel's equations for unpolarised
-///   light, absorbed along the way; of a stone the mean index of its rays at 589.3 nm, no
-///   dispersion, no double refraction.
-/// - What a ray meets last is the lights themselves, as they are seen.
+///   glass cast no shadows.
+/// - Metal: mirror reflection by Fresnel's equations for its index. Rough metal shifts the
+///   direction by a random point of a ball of radius roughness^2 (Cook et al. 1984 used many rays).
+///   Mirror: its albedo.
+/// - Glass and stones: reflected and refracted rays by Fresnel's equations for unpolarised light,
+///   absorbed along the way. A stone has its mean index at 589.3 nm, without dispersion and double
+///   refraction.
+/// - A ray that leaves the scene sees the lights themselves.
 class WhittedTracer {
 public:
-    /// `depth`: faces that a ray may meet one after the other.
+    /// `depth`: most faces that a ray meets in a row.
     WhittedTracer(const Scene& scene, int depth);
 
     struct Seen {
         Rgb colour{0, 0, 0};
         bool met = false;
     };
-    /// `number`: of the ray in the picture.
+    /// `number`: index of the ray in the picture.
     Seen trace(const EyeRay& ray, std::uint64_t number) const;
 
 private:
     struct Ray {
         Vec3 origin, direction;
         RayStart start;
-        int glass = -1;      ///< object that it runs inside
-        int faces = 0;       ///< met before
-        double weight = 1;   ///< at most, of what it brings
-        std::uint64_t seed;  ///< of what is chosen at random along it
+        int glass = -1;      ///< index of the object that it is inside
+        int faces = 0;       ///< faces met before
+        double weight = 1;   ///< upper bound on the ray's share of the pixel
+        std::uint64_t seed;  ///< of random choices along it
     };
     struct Surface {
         PlainSurface plain;
-        MetalIndex metal;  ///< of a metal
+        MetalIndex metal;
         double fuzz = 0, index = 1;
         Rgb absorption{0, 0, 0};
     };

@@ -1,5 +1,5 @@
 #pragma once
-// Threads that draw ask one Progress whether to go on.
+// Lets many drawing threads ask one Progress whether to go on.
 
 #include <atomic>
 #include <chrono>
@@ -11,12 +11,13 @@ namespace culet {
 
 class Listener {
 public:
-    /// `progress` must outlive it; `parts`: of the work, for the fraction that is done; 0: it is
-    /// not told.
+    /// `progress` must outlive it. `parts`: number of parts of the work, for the reported fraction;
+    /// 0: always reports 0.
     explicit Listener(const Progress& progress, double parts = 0)
         : progress_(progress), parts_(parts) {}
 
-    /// Before each part; from any thread. Once told to stop, nobody asks again, whoever waited.
+    /// Call before each part, from any thread. After a stop Progress is not asked again, not even
+    /// by waiting threads.
     bool goes_on() {
         if (!progress_) return true;
         if (stopped()) return false;
@@ -26,8 +27,8 @@ public:
         if (!progress_(parts_ > 0 ? done / parts_ : 0)) stop_ = true;
         return !stopped();
     }
-    /// Within a part that may take long, as often as every few microseconds: Progress is asked some
-    /// fifty times a second.
+    /// Call within a long part, as often as every few microseconds: Progress is asked about fifty
+    /// times a second.
     bool still_goes_on() {
         if (!progress_) return true;
         if (stopped()) return false;
@@ -45,7 +46,7 @@ private:
     double parts_, done_ = 0;
     std::mutex mutex_;
     std::atomic<bool> stop_{false};
-    std::atomic<long long> next_{0};  // when Progress is asked again, ns of the steady clock
+    std::atomic<long long> next_{0};  // time of the next question, ns of the steady clock
 };
 
 }  // namespace culet

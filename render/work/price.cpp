@@ -7,25 +7,24 @@ namespace culet {
 
 namespace {
 
-// Measured (bench_plan --prices): nanoseconds.
+// Nanoseconds, measured by bench_plan --prices.
 constexpr double k_ray = 60, k_event = 150, k_plain_event = 135, k_exit_node = 1.5;
 constexpr double k_general_ray = 1500, k_general_event = 450;
-// An edge at each face met: a heart in `jeweller` and in `idealscope` took so much, which counts
-// the rays that leave it and are looked for again, beside a zircon's reference at the same time.
-// Brilliants of 73 and 145 facets, drawn as not convex, took half of it.
+// Per edge and face met. Fits a heart in `jeweller` and `idealscope` (including the rays that leave
+// it and meet it again), relative to a zircon by the reference. Brilliants of 73 and 145 facets,
+// drawn as not convex, took half.
 constexpr double k_edge = 9;
-// Roughly: a brilliant of 145 facets by a ball on a plane took 16.4 s of the 16 s that were
-// allowed.
+// Rough: a brilliant of 145 facets next to a ball on a plane took 16.4 s of an allowed 16 s.
 constexpr double k_met = 600;
-// Beams of a picture of 1600 pixels of the stone at tolerance 0.03, on round brilliants and steps
-// of quartz, garnet, sapphire, zircon and diamond: within a factor of 1.6. Dependence on the cut,
-// in pictures of 64 to 400 pixels across: a factor of 1.3 to 2.4 from 0.1 to 0.01. Of fine borders
-// in pictures of diamonds 200 pixels across: 1.9 to 2 from 0.03 to 0.01, 4.4 from there to 0.001.
-// Crystals' split beams: of corundum and tanzanite 100 pixels across 2 to 2.2 where the cut fell
-// to 0.44, and 3.5 where it fell to 0.22 and the tolerance to 0.16.
+// Fitted to pictures with 1600 pixels of stone at tolerance 0.03: round brilliants and step cuts of
+// quartz, garnet, sapphire, zircon and diamond, within a factor of 1.6. of_cut: from a cut of 0.1
+// to 0.01 the time rose by 1.3 to 2.4 (64 to 400 pixels across). of_fine: for diamonds 200 pixels
+// across by 1.9 to 2 from tolerance 0.03 to 0.01, and by 4.4 from there to 0.001. Split beams of
+// corundum and tanzanite 100 pixels across: by 2 to 2.2 for 0.44 times the cut, and by 3.5 for 0.22
+// times the cut and 0.16 times the tolerance.
 constexpr double k_stone = 8e6, k_beam = 1300, k_pixels = 1600, k_tolerance = 0.03;
 struct BeamCount {
-    double at_one_event, of_events, of_pixels, of_tolerance, of_fine, of_cut;  // and powers
+    double at_one_event, of_events, of_pixels, of_tolerance, of_fine, of_cut;  // factor; powers
     double at(const BeamWork& work) const {
         const double cut = work.cut > 0 ? work.cut : work.tolerance;
         return at_one_event * std::pow(std::max(work.events_per_ray, 1.0), of_events) *
@@ -38,9 +37,9 @@ struct BeamCount {
 constexpr BeamCount k_single{330, 1.1, 0.5, 0.25, 0.6, 0.2},
     k_split{11500, 0.45, 0.4, 0.1, 0.1, 0.85};
 constexpr double k_grown_beam = 300, k_split_beam = 1500, k_fragment = 60;
-// Faces that beams meet which are followed alone, and that up to eight fragments meet at once.
+// Per face met by beams that follow their middle ray alone, and by up to eight fragments at once.
 constexpr double k_walked = 45, k_shaded_face = 100;
-// Of a beam's price, another wavelength along the same way.
+// Price of each further wavelength along the same path, as a share of the beam's.
 constexpr double k_node = 0.1;
 
 }  // namespace

@@ -1,5 +1,4 @@
 #pragma once
-// Parallel work on as many threads as were asked for.
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -9,8 +8,8 @@
 
 namespace culet {
 
-/// Runs `work` so that the parallel loops in it use `threads` threads; 0: one a processor. More
-/// threads than processors are allowed when asked for, and without TBB's warning on stderr.
+/// Runs `work` so that its parallel loops use `threads` threads (0: one per processor). More
+/// threads than processors are allowed, without TBB's warning on stderr.
 template <class Work>
 void on_threads(int threads, Work&& work) {
     const int most = static_cast<int>(

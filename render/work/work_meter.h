@@ -1,6 +1,6 @@
 #pragma once
-// How much work a picture has taken, counted (price.h) and not timed: where it runs over what
-// is allowed depends on the picture alone, whatever else the machine does.
+// Counts a picture's work at the prices of price.h. Work is counted, not timed, so that where it
+// exceeds the budget depends on the picture alone.
 
 #include <algorithm>
 #include <atomic>
@@ -13,39 +13,40 @@
 
 namespace culet {
 
-/// Thrown by drawing that runs over its meter's limit; caught where that was set.
+/// Thrown when drawing exceeds its meter's limit; caught where the limit was set.
 class OverBudget : public std::exception {
 public:
     const char* what() const noexcept override { return "the work allowed is done"; }
 };
 
-/// Whole nanoseconds of price.h, so that their sum does not hang on the order of threads.
+/// Counts in whole nanoseconds, so that the sum does not depend on the order of threads.
 class WorkMeter {
 public:
-    /// From any thread.
+    /// Thread-safe.
     void spend(double ns) { spent_ += static_cast<long long>(ns); }
-    /// No more of a piece of work is of use: together it is more than is allowed. Where one thread
-    /// sees this before a piece is done, the others would have brought it there.
+    /// Whether the total exceeds the limit; the current piece of work is then useless. This is
+    /// deterministic: spending only grows, so if one thread sees it early, the finished piece would
+    /// exceed the limit too.
     bool over() const { return spent_ > limit_; }
     void require_not_over() const {
         if (over()) throw OverBudget();
     }
     long long spent() const { return spent_; }
-    /// All of it, as far as is known: for who waits.
+    /// Sets the expected total, for progress reports.
     void expect(double ns) { expected_ = static_cast<long long>(ns); }
-    /// The same of what is still to be done; where there is a limit, that is all.
+    /// Sets the expected rest. Ignored if there is a limit: that is the total then.
     void expect_more(double ns) {
         if (!limited()) expect(static_cast<double>(spent_) + ns);
     }
-    /// Of all of it, what is done; 0: nobody knows.
+    /// Done over expected work, at most 0.99; 0 if unknown.
     double fraction() const {
         const double expected = static_cast<double>(expected_);
         const double done = static_cast<double>(spent_);
         return expected > 0 ? std::min(0.99, done / expected) : 0;
     }
     void allow(double ns) { limit_ = static_cast<long long>(ns); }
-    /// After a piece of work that was let go: what it had come to hangs on chance, so that all that
-    /// was allowed counts as spent.
+    /// Counts the whole limit as spent. Call after abandoning a piece of work: how far it got
+    /// depends on thread timing.
     void use_up() { spent_ = limit_; }
     double left() const { return static_cast<double>(limit_ - spent_); }
     bool limited() const { return limit_ != std::numeric_limits<long long>::max(); }
@@ -55,8 +56,8 @@ private:
     long long limit_ = std::numeric_limits<long long>::max();
 };
 
-/// `progress`, told how much of the expected work is done, whatever piece of it asks; it must
-/// outlive what is returned.
+/// Wraps `progress`, which must outlive the result, to report the meter's fraction whatever part of
+/// the work calls it.
 inline Progress counted_by(const Progress& progress, std::shared_ptr<const WorkMeter> meter) {
     if (!progress) return progress;
     return [&progress, meter = std::move(meter)](double) { return progress(meter->fraction()); };
