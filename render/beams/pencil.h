@@ -8,7 +8,7 @@
 // A ray enters at x0 at the angle ti to the facet's normal N and goes on at the angle tt; the eye
 // is at the distance D. A point at the depth z = -N.(X - x0) below the facet, beside the ray by aT
 // along the facet's tangential direction T and by aS along its sagittal direction S, appears where
-//     x0 (1 + z k) + aT fT T + aS fS S, w = 1 + z k
+//     x0 (1 + z k) + aT fT T + aS fS S,   w = 1 + z k
 // would appear without refraction. Here kS = 1/(n D cos tt), kT = kS cos^2 ti / cos^2 tt, k is
 // their mean, fT = (1 + z* k)/(1 + z* kT), and fS likewise. At the depth z* the map is exact to
 // first order, including astigmatism (a refracted narrow pencil has two image points, whose

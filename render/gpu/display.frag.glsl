@@ -1,11 +1,11 @@
-// The sum of samples as it is shown: exposure, tone map, sRGB, as the PNGs of image/film_look.cpp
-// have them. `#version 300 es` is put before it.
+// Shows the sum of samples with exposure, tone map and sRGB, like the PNGs of image/film_look.cpp.
+// Compiled after a line `#version 300 es`.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 
 uniform sampler2D u_sum;
-uniform float u_exposure;  // over the number of samples
+uniform float u_exposure;  // exposure over the number of samples
 uniform int u_tone_map;    // ToneMap of image/film_look.h: none, reinhard, filmic, gamma2
 
 out vec4 out_colour;
@@ -17,11 +17,11 @@ vec3 srgb_encoded(vec3 v) {
 
 void main() {
     vec3 v = u_exposure * texelFetch(u_sum, ivec2(gl_FragCoord.xy), 0).rgb;
-    // Brighter than this nothing differs from it, and squares stay finite. What is no number is 0.
+    // Clamp: brighter values look alike, and squares stay finite. NaN becomes 0.
     v = vec3(v.r > 0.0 ? min(v.r, 1e15) : 0.0, v.g > 0.0 ? min(v.g, 1e15) : 0.0,
              v.b > 0.0 ? min(v.b, 1e15) : 0.0);
     if (u_tone_map == 3) {
-        // A display of gamma 2: the file holds the root.
+        // For a display of gamma 2, store the square root.
         out_colour = vec4(sqrt(min(v, 1.0)), 1.0);
         return;
     }

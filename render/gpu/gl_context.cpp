@@ -23,7 +23,7 @@ constexpr std::size_t k_longest_name = 100;
                     why));
 }
 
-// The library stays loaded: drivers do not like to be taken away, and none is loaded twice.
+// The library stays loaded: drivers may not survive unloading.
 struct Egl {
     Egl() {
         void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
@@ -61,7 +61,7 @@ const Egl& egl() {
     return loaded;
 }
 
-// Displays without a window, hardware first.
+// Windowless displays, hardware first.
 std::vector<EGLDisplay> displays_of(const Egl& e) {
     std::vector<EGLDisplay> hardware, software;
     const auto open = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
@@ -93,7 +93,7 @@ std::vector<EGLDisplay> displays_of(const Egl& e) {
     return hardware;
 }
 
-// A context of OpenGL ES 3, current; none where this display cannot.
+// Makes an OpenGL ES 3 context current; EGL_NO_CONTEXT if the display cannot.
 EGLContext context_of(const Egl& e, EGLDisplay display) {
     if (display == EGL_NO_DISPLAY || e.Initialize(display, nullptr, nullptr) != EGL_TRUE ||
         e.BindAPI(EGL_OPENGL_ES_API) != EGL_TRUE)
@@ -114,7 +114,7 @@ EGLContext context_of(const Egl& e, EGLDisplay display) {
     return EGL_NO_CONTEXT;
 }
 
-// A driver's text goes to terminals and files.
+// The name is printed to terminals and files.
 std::string printable(const char* text) {
     std::string clean;
     for (; text != nullptr && *text != 0 && clean.size() < k_longest_name; ++text)
@@ -142,7 +142,7 @@ GlContext::GlContext() {
     renderer_ = printable(reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)));
 }
 
-// The display is not closed: whoever else in this process uses EGL has the same one.
+// Keeps the display open: other users of EGL in this process share it.
 GlContext::~GlContext() {
     egl().MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     egl().DestroyContext(display_, context_);

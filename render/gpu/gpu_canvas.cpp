@@ -11,8 +11,7 @@ namespace culet {
 
 namespace {
 
-// So many pixels are drawn before the program looks up: a driver that draws for long without a
-// pause is taken for dead by some systems, and nobody could interrupt it.
+// Pixels drawn between interrupts. Some systems kill drivers that draw for long without a pause.
 constexpr int k_pixels_at_once = 1 << 18;
 constexpr int k_targets = 3;
 constexpr std::array k_sum_samplers{"u_sum", "u_balance", "u_length"};
@@ -65,7 +64,7 @@ struct GpuCanvas::Objects {
     Objects(const Objects&) = delete;
     Objects& operator=(const Objects&) = delete;
 
-    // Bound to `unit` from now on.
+    // Binds it to `unit`.
     GLuint texture(int unit, GLint format, int width, int height, const float* values) {
         GLuint name = 0;
         gl.GenTextures(1, &name);
@@ -93,7 +92,7 @@ struct GpuCanvas::Objects {
     std::array<GLuint, 2> framebuffers{};
     std::array<std::array<GLuint, k_targets>, 2> targets{};
     int target_count = 1;
-    std::size_t now = 0;  ///< which of the two is drawn to
+    std::size_t now = 0;  ///< index of the framebuffer drawn to
 };
 
 GpuCanvas::GpuCanvas(const GlContext& context, const GpuProgram& program, int width, int height,
@@ -151,7 +150,7 @@ GpuCanvas::~GpuCanvas() = default;
 void GpuCanvas::set(const std::vector<GpuUniform>& uniforms) {
     const GlFunctions& gl = objects_->gl;
     for (const GpuUniform& uniform : uniforms) {
-        // What the stone has no use for, the compiler drops: -1, which GL ignores.
+        // Unused uniforms are optimised away: their location is -1, which GL ignores.
         const GLint place = gl.GetUniformLocation(objects_->program, uniform.name.c_str());
         const float* values = uniform.values.data();
         const auto count = static_cast<GLsizei>(uniform.values.size() /
@@ -198,7 +197,7 @@ std::vector<float> GpuCanvas::read(int target) const {
     const std::size_t row = 4 * static_cast<std::size_t>(width_);
     std::vector<float> upside_down(row * static_cast<std::size_t>(height_)),
         rgba(upside_down.size());
-    // What was drawn last.
+    // The framebuffer drawn last.
     o.gl.BindFramebuffer(GL_FRAMEBUFFER, o.framebuffers[1 - o.now]);
     o.gl.ReadBuffer(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + target));
     o.gl.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, upside_down.data());

@@ -1,4 +1,4 @@
-// The engine "gpu": the kernel on a GL driver without a window.
+// The engine "gpu": runs the kernel on a windowless GL driver.
 
 #include <fmt/format.h>
 
@@ -20,9 +20,9 @@ namespace culet {
 namespace {
 
 constexpr int k_samples = 16, k_pupil_samples = 64;
-// A pass of so many wavelengths shows each in a channel of its own.
+// Wavelengths per pass if each is to have its own channel.
 constexpr int k_channels = 3;
-// Measured on Mesa's llvmpipe (docs/gpu.md); a graphics card takes less.
+// Nanoseconds, measured on Mesa's llvmpipe (docs/gpu.md); a graphics card takes less.
 constexpr double k_ns_per_face = 76, k_ns_polarised = 7, k_ns_merged = 36, k_ns_to_compile = 8e8;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -62,7 +62,7 @@ struct Drawing {
         return gpu_program(scene, prepared.setup, prepared.colours, options);
     }
 
-    // All samples, with the uniforms of each of `passes`.
+    // Draws all samples, with the uniforms of each pass.
     void draw(const GpuProgram& program, GpuCanvas& canvas,
               const std::vector<std::vector<GpuUniform>>& passes, Listener& listener) const {
         canvas.start_anew();
@@ -122,7 +122,7 @@ Picture Drawing::picture() {
     return picture;
 }
 
-// Wavelength by wavelength, and with all four Stokes parameters where they are needed.
+// Draws wavelength by wavelength, with all four Stokes parameters if needed.
 Picture Drawing::spectral_picture() {
     const GpuProgram made = program();
     GpuCanvas canvas(context, made, scene.camera.width, scene.camera.height, true);
@@ -140,7 +140,7 @@ Picture Drawing::spectral_picture() {
     for (int k = 0; k < planes; ++k) {
         for (const GpuPass& pass : made.passes) {
             std::vector<GpuUniform> uniforms = pass.uniforms;
-            // Each wavelength is a colour.
+            // Show each wavelength in its own channel.
             for (GpuUniform& uniform : uniforms) {
                 if (uniform.name != "u_colour") continue;
                 std::fill(uniform.values.begin(), uniform.values.end(), 0.0f);
@@ -179,7 +179,7 @@ Picture Drawing::spectral_picture() {
                  estimates.data());
     }
     Picture picture = film.take(false);
-    // Of pixels that show the stone and nothing else.
+    // From pixels that the stone fills completely.
     double whole = 0;
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
         if (covered[pixel] < 1) continue;
@@ -232,7 +232,7 @@ public:
         return k_ns_to_compile +
                a_face * work.pixels * work.views * work.bands * work.faces_per_ray;
     }
-    // A crystal's waves stay merged; drawn as it is named.
+    // A crystal's waves stay merged.
     bool approaches_truth() const override { return false; }
 
     RenderResult draw(const Scene& scene, const Progress& progress) const override {

@@ -8,15 +8,14 @@ namespace culet {
 
 namespace {
 
-constexpr int k_fixed_vectors = 24;  // view, limits, turn of the lights, crystal's axes, textures
-constexpr int k_most_nodes = 4;      // of one path: a vec4
+constexpr int k_fixed_vectors = 24;  // view, limits, light turn, crystal axes, textures
+constexpr int k_most_nodes = 4;      // per path: a vec4
 
-// Vectors of uniforms of one path.
+// Uniform vectors per path.
 int vectors_of_path(int nodes, const LightCounts& lights) {
     return 12 + nodes + lights.all();
 }
 
-// Adds a uniform's elements one after another.
 class Filler {
 public:
     Filler(GpuPass& pass, const char* name, int components)
@@ -29,7 +28,6 @@ private:
     GpuUniform uniform_;
 };
 
-// What the passes of a scene are made of.
 struct PassMaker {
     const OpticalSetup& setup;
     const WavelengthSet& colours;
@@ -37,7 +35,7 @@ struct PassMaker {
     const ShadedLights& lights;
     const bool environment;
 
-    // Fills an element for each path, `per_node` a number for each node; absent ones are 0.
+    // Fills an element per path with a number per node; padding is 0.
     template <class Value>
     void per_node(GpuPass& pass, std::size_t first, std::size_t count, const char* name,
                   Value&& value) const {
@@ -176,7 +174,7 @@ GpuLayout gpu_layout(const OpticalSetup& setup, const LightCounts& lights, int p
         layout.crystal = layout.crystal || band.two_waves;
         layout.absorbs = layout.absorbs || band.absorbs;
     }
-    // What is carried of polarised light is of one wavelength.
+    // Polarised light is carried for one wavelength at a time.
     layout.nodes =
         layout.crystal || setup.stokes ? 1 : std::min({most, k_most_nodes, pass_wavelengths});
     for (std::size_t b = 0; b < setup.bands.size(); ++b) {

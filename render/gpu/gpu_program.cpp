@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* k_version = "#version 300 es\n";
 
-// A number that reads back as the same float.
+// Formats a number that reads back as the same float.
 std::string literal(double v) {
     return fmt::format("{:#.9g}", static_cast<float>(v));
 }
@@ -61,7 +61,7 @@ std::string kernel_source(const Scene& scene, const OpticalSetup& setup, const G
     define("ENVIRONMENT", int{scene.lights.environment != nullptr});
     define("POLARISED_LIGHTS", int{polarised(scene.lights)});
     define("BALANCE", int{balance});
-    // Line numbers of a driver's errors are those of the file, up to the first plane.
+    // Makes line numbers in a driver's errors match the file, up to the first plane.
     text += "#line 1\n";
     constexpr std::string_view k_mark = "    //! planes\n";
     const std::string planes = planes_of(scene.stone.solid, middle);

@@ -1,4 +1,4 @@
-// What changes live: view, places of the lights, the eye's optics.
+// Uniforms that change interactively: view, lights, the eye's optics.
 
 #include <glm/geometric.hpp>
 
@@ -40,11 +40,11 @@ void each_polarisation(const ShadedLights& lights, Visit&& visit) {
 std::vector<GpuUniform> gpu_view(const Camera& camera, const SamplePoint& sample,
                                  const Vec3& middle) {
     const ScreenView view = screen_view(camera, sample.pupil_x, sample.pupil_y);
-    // Rays are taken where they are next to the stone, in the plane across the line of sight, so
-    // that single precision loses nothing to the way from the eye.
+    // Ray origins are moved next to the stone, into the plane across the line of sight through its
+    // middle, so that single precision loses no digits to the distance from the eye.
     const double way = glm::dot(middle - view.o, view.forward) / glm::dot(view.v, view.forward);
-    // A fragment's middle is at half integers, y upwards: x - 0.5 + sample.x to the right, and
-    // height - y - 0.5 + sample.y down.
+    // Fragments have half-integer coordinates with y upwards: a sample lies at x - 0.5 + sample.x
+    // to the right and height - y - 0.5 + sample.y down.
     const ScreenPoint corner{sample.x - 0.5, camera.height - 0.5 + sample.y};
     const Vec3 towards = view.towards(corner), at = view.origin(corner) + way * towards - middle;
     return {vector("u_at", at),

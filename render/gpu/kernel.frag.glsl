@@ -1,38 +1,39 @@
-// Light paths through a convex stone, one eye ray a pixel. gpu_program.h says how it is driven;
-// gpu_program.cpp puts `#version 300 es` and the definitions of one stone before it:
-//   NODES             wavelengths of one path, 1..4, and Weights: float, vec2, vec3 or vec4 of them
-//   PATHS             paths of one pass at most
-//   POLARISED         faces polarise; RESPONSE: the eye answers to polarised light, so that what is
-//                     carried are Stokes parameters of its response; else of its unpolarised ray
+// Light paths through a convex stone, one eye ray per pixel. gpu_program.h says how to drive it.
+// gpu_program.cpp prepends `#version 300 es` and the definitions for one stone:
+//   NODES             wavelengths per path, 1..4; Weights: float, vec2, vec3 or vec4 of them
+//   PATHS             most paths per pass
+//   POLARISED         faces polarise; RESPONSE: the eye responds to polarised light, and Stokes
+//                     parameters of that response are carried, else those of an unpolarised ray
 //   CRYSTAL           the stone has two waves, merged; ABSORBS: it is isotropic and not clear
 //   SPHERES, PLANE_LIGHTS, LOBES, CAPS, LIGHTS (their sum); ENVIRONMENT; POLARISED_LIGHTS
-//   BALANCE           a second target keeps account of the light
-// and, for each line `//! planes`, a line PLANE(unit outward normal, offset) a facet: as constants
-// they are several times faster than in a block of uniforms.
+//   BALANCE           a second target records the energy balance
+// It replaces each line `//! planes` by a line PLANE(unit outward normal, offset) per facet:
+// constants are several times faster here than a block of uniforms.
 //
-// Frames: the stone's, about its middle. A path is traced backwards from the eye, as in
-// reference/light_paths.h: what leaves through a face sees the lights there, what is reflected goes
-// on. Carried along is (I, Q, U, V): powers of s and p together, their difference, twice the real
-// and imaginary part of E_s E_p*, with the frame (s, ray x s), s along ray x outward normal.
+// Coordinates are the stone's, relative to its middle. A path is traced backwards from the eye, as
+// in reference/light_paths.h: light that leaves through a face sees the lights there, and reflected
+// light goes on. Carried along is (I, Q, U, V): sum and difference of the powers of s and p, and
+// twice the real and imaginary part of E_s E_p*, in the frame (s, ray x s), with s along ray x
+// outward normal.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 
-// One view: a ray starts at `u_at` + x `u_at_x` + y `u_at_y`, next to the stone, and likewise runs
-// along `u_towards`; the eye is `u_eye` lengths of that before it.
+// The view: a ray starts at `u_at` + x `u_at_x` + y `u_at_y`, next to the stone, and its direction
+// is likewise from `u_towards`. The eye lies `u_eye` times that direction before the start.
 uniform vec3 u_at, u_at_x, u_at_y, u_towards, u_towards_x, u_towards_y;
 uniform float u_eye;
-uniform vec3 u_forward, u_right;  // unit: the picture's axes
+uniform vec3 u_forward, u_right;  // unit axes of the picture
 
-uniform int u_depth;  // faces of a path at most
-uniform float u_cut;  // a path of less weight is not followed
+uniform int u_depth;  // most faces of a path
+uniform float u_cut;  // paths of less weight end
 
 uniform int u_paths;
-uniform vec3 u_optics[PATHS];  // n over the outside's, n^2 - 1, n^2
+uniform vec3 u_optics[PATHS];  // relative index n, n^2 - 1, n^2
 uniform Weights u_absorption[PATHS];
 uniform vec3 u_colour[PATHS * NODES];  // linear sRGB of a radiance of 1
-uniform Weights u_share[PATHS];        // of all wavelengths; 0: not there
-uniform vec4 u_response[PATHS];        // Stokes parameters, of y downwards
+uniform Weights u_share[PATHS];        // over all wavelengths; 0: padding
+uniform vec4 u_response[PATHS];        // Stokes parameters, y downwards
 
 // MergedCrystal of optics/merged_crystal.h.
 uniform vec3 u_optic_axis[2 * PATHS];
@@ -46,20 +47,20 @@ uniform float u_constant;
 uniform Weights u_radiance[PATHS * LIGHTS];
 #endif
 #if SPHERES > 0
-uniform vec4 u_spheres[SPHERES];  // middle, radius
+uniform vec4 u_spheres[SPHERES];  // centre, radius
 #endif
 #if PLANE_LIGHTS > 0
 uniform vec4 u_planes[3 * PLANE_LIGHTS];  // normal, offset; two rows: lit where both are in -1..1
 #endif
 #if LOBES > 0
 uniform vec4 u_lobes[LOBES];      // direction, exponent
-uniform int u_lobe_whole[LOBES];  // the exponent where it is a small whole number, else -1
+uniform int u_lobe_whole[LOBES];  // the exponent if it is a small integer, else -1
 #endif
 #if CAPS > 0
 uniform vec4 u_caps[2 * CAPS];  // direction, outer cosine; outer sine, inner cosine, inner sine
 #endif
 #if POLARISED_LIGHTS
-uniform vec4 u_vibration[2 * LIGHTS + 2];  // vibration, degree; sheet's normal, 1 where there is one
+uniform vec4 u_vibration[2 * LIGHTS + 2];  // vibration, degree; sheet normal, 1 if any
 #endif
 #if ENVIRONMENT
 uniform sampler2D u_environment;        // lat-long: scene/environment_layout.h
@@ -67,17 +68,17 @@ uniform Weights u_red[PATHS], u_blue[PATHS];  // what red and blue add to green 
 #endif
 
 uniform sampler2D u_sum;
-uniform float u_keep;  // 0: this is the first draw
+uniform float u_keep;  // 0 in the first draw
 layout(location = 0) out vec4 out_sum;
 #if BALANCE
 uniform sampler2D u_balance, u_length;
 uniform vec3 u_luminance;                   // of linear sRGB
-layout(location = 1) out vec4 out_balance;  // remainder, absorbed, cut, luminance: of the stone
-layout(location = 2) out float out_length;  // faces of the longest path that brought light
+layout(location = 1) out vec4 out_balance;  // of the stone: remainder, absorbed, cut, luminance
+layout(location = 2) out float out_length;  // faces of the longest path that carried light
 #endif
 
 const float k_infinite = 3e38;
-// Of sine squared: where a ray runs along a normal, single precision knows no plane of incidence.
+// Least squared sine of incidence for which single precision defines a plane of incidence.
 const float k_straight = 1e-12;
 
 // ------------------------------------------------------------------------------------- the stone
@@ -88,7 +89,7 @@ struct Hit {
     float offset;
 };
 
-// Where a ray from outside enters; of `distance` k_infinite where it does not.
+// Where a ray enters from outside; `distance` k_infinite if it misses.
 Hit entry(vec3 p, vec3 d) {
     Hit hit = Hit(-k_infinite, vec3(0.0), 0.0);
     float leave = k_infinite;
@@ -105,9 +106,8 @@ Hit entry(vec3 p, vec3 d) {
     return hit;
 }
 
-// Where a ray from inside leaves: of the planes that it runs towards, the nearest, which has the
-// largest t / below. The facet just left drops out by the sign of t. A start that rounding put
-// outside a plane is taken as next to nothing inside it.
+// Where a ray leaves: at the nearest plane ahead, which has the largest t / below. The sign of t
+// excludes the facet just left. A start outside a plane by rounding counts as just inside.
 Hit way_out(vec3 p, vec3 d) {
     float most = 0.0, offset = 0.0;
     vec3 normal = vec3(0.0);
@@ -130,7 +130,7 @@ Hit way_out(vec3 p, vec3 d) {
 struct Face {
     float Rs, Rp;  // reflected powers
     float re, im;  // r_s r_p*
-    float q2;      // n cos of what passes
+    float q2;      // n cos of the transmitted ray
     bool total;
 };
 
@@ -140,8 +140,8 @@ Face face_of(float e1, float e2, float step, float q1) {
     float squared = q1 * q1 + step;
     if (squared > 0.0) {
         float q2 = sqrt(squared);
-        // q1 - q2 is -step / (q1 + q2), which keeps its digits where the two media are alike; for p
-        // likewise where the plain difference is small.
+        // q1 - q2 = -step / (q1 + q2) keeps its digits for similar media; likewise for p if the
+        // plain difference is small.
         float s = q1 + q2, p = e2 * q1 + e1 * q2, apart = e2 * q1 - e1 * q2;
         float rs = -step / (s * s),
               rp = abs(apart) > 0.1 * p
@@ -149,14 +149,14 @@ Face face_of(float e1, float e2, float step, float q1) {
                        : step * (e1 * e2 - (e1 - q1 * q1) * (e1 + e2)) / (p * p);
         return Face(rs * rs, rp * rp, rs * rp, 0.0, q2, false);
     }
-    // Total: r_s r_p* turns by twice the angle of A + i B.
+    // Total reflection: r_s r_p* has twice the phase of A + i B.
     float kappa = sqrt(-squared);
     float A = e2 * q1 * q1 + e1 * kappa * kappa, B = (e1 - e2) * kappa * q1;
     float scale = 1.0 / max(A * A + B * B, 1e-30);
     return Face(1.0, 1.0, (A * A - B * B) * scale, 2.0 * A * B * scale, 0.0, true);
 }
 
-// To a frame turned by the angle of (along, across), of any length.
+// Rotates the frame by the angle of (along, across), of any length.
 vec4 turned(vec4 c, float along, float across) {
     float scale = 1.0 / max(along * along + across * across, 1e-30);
     float cosine = (along * along - across * across) * scale, sine = 2.0 * along * across * scale;
@@ -177,19 +177,20 @@ vec4 transmitted(vec4 c, Face f) {
 
 vec3 mirrored(vec3 d, vec3 n) {
     vec3 v = d - 2.0 * dot(d, n) * n;
-    // Newton's step to unit length.
+    // One Newton step towards unit length.
     return (1.5 - 0.5 * dot(v, v)) * v;
 }
 
 // ------------------------------------------------------------------------------------ the lights
 
-// The end of a path: what of light along `ray` reaches the eye. Q and U count from the unit `u`.
+// The end of a path: the eye's response to light along `ray`, with Q and U relative to the unit
+// vector `u`.
 struct End {
     float I, Q, U;
     vec3 u;
 };
 
-// Of light `number` that comes along a ray; LIGHTS: of the environment and the constant light.
+// Weight of light `number` along a ray; number LIGHTS: the environment and the constant light.
 float weight_of(int number, vec3 ray, End end) {
 #if POLARISED_LIGHTS
     vec4 vibration = u_vibration[2 * number], sheet = u_vibration[2 * number + 1];
@@ -209,7 +210,7 @@ float weight_of(int number, vec3 ray, End end) {
 #endif
 }
 
-// The nearest near light along a ray, from `start` on: its number, -1 for none.
+// The nearest near light beyond `start` on a ray: its number, or -1.
 int near_light(vec3 p, vec3 d, float start, out float distance) {
     int met = -1;
     distance = k_infinite;
@@ -229,7 +230,7 @@ int near_light(vec3 p, vec3 d, float start, out float distance) {
 #endif
 #if PLANE_LIGHTS > 0
     for (int i = 0; i < PLANE_LIGHTS; ++i) {
-        // The lit side only: from behind, a plane is not there.
+        // Only from the lit side.
         vec4 plane = u_planes[3 * i];
         float towards = dot(plane.xyz, d);
         if (!(towards < 0.0)) continue;
@@ -258,8 +259,8 @@ float lobe_share(int i, vec3 d) {
         }
         return power;
     }
-    // About the axis the cosine is 1 but for rounding; the sine keeps its digits:
-    // log(1 - x) as the atanh series of -x / (2 - x), x <= 0.02.
+    // Near the axis the cosine is 1 up to rounding, but the sine keeps its digits: use log(1 - x)
+    // as the atanh series of -x / (2 - x) for x <= 0.02.
     vec3 across = cross(u_lobes[i].xyz, d);
     float x = dot(across, across), z = -x / (2.0 - x), zz = z * z;
     float logarithm = x < 0.02 ? z * (1.0 + zz * (1.0 / 3.0 + zz * 0.2)) : log(cosine);
@@ -267,8 +268,8 @@ float lobe_share(int i, vec3 d) {
 }
 #endif
 
-// Within a disc of the sky of this cosine and sine about the axis. About a small one the cosine is
-// no measure of distance in single precision; the sine is.
+// Whether d is in a disc of the sky, given by the cosine and sine of its radius. For small discs
+// only the sine resolves the distance in single precision.
 bool in_disc(vec3 axis, vec3 d, float cosine, float sine) {
     float along = dot(axis, d);
     if (cosine < 0.7071 || cosine > 1.0) return along > cosine;
@@ -277,7 +278,7 @@ bool in_disc(vec3 axis, vec3 d, float cosine, float sine) {
 }
 
 #if ENVIRONMENT
-// Moshier's atanf (Cephes): 2e-7 in any quadrant.
+// Moshier's atanf (Cephes): error 2e-7 in any quadrant.
 float angle_of(float y, float x) {
     float big = max(abs(x), abs(y)), small = min(abs(x), abs(y));
     float t = big > 0.0 ? small / big : 0.0, more = 0.0;
@@ -294,7 +295,7 @@ float angle_of(float y, float x) {
     return y < 0.0 ? -a : a;
 }
 
-// EnvironmentMap::at: bilinear, wraps in azimuth, clamps at the poles.
+// EnvironmentMap::at: bilinear, wrapping in azimuth, clamped at the poles.
 vec3 environment_at(vec3 d) {
     ivec2 size = textureSize(u_environment, 0);
     float column =
@@ -312,8 +313,8 @@ vec3 environment_at(vec3 d) {
 }
 #endif
 
-// What the eye sees of the light along a ray from `start` on, through the end of a path. Near
-// lights hide the distant ones; the nearest wins. Distant ones add up.
+// The eye's view of the light along a ray beyond `start`, through the end of a path. The nearest
+// near light hides all others; distant lights add up.
 Weights light_along(vec3 point, vec3 ray, float start, End end, int path) {
     vec3 p = u_light_turn * point, d = u_light_turn * ray;
 #if POLARISED_LIGHTS
@@ -368,12 +369,12 @@ struct Account {
 };
 
 #if CRYSTAL
-// A segment of a crystal whose waves are merged: absorption of each, and what is left of their
-// coherence (beams/crystal-inl.h, with the frame's tangent known). `s`: unit.
+// A segment of a crystal with merged waves: absorbs each wave, and reduces their coherence (as
+// beams/crystal-inl.h, but with a known tangent of the frame). `s`: unit.
 vec4 through_crystal(vec4 c, vec3 d, vec3 s, float way, int path) {
     vec3 t = cross(d, s), one = u_optic_axis[2 * path], two = u_optic_axis[2 * path + 1];
     float x1 = dot(one, s), y1 = dot(one, t), x2 = dot(two, s), y2 = dot(two, t);
-    // The first wave vibrates across the bisector of the planes through ray and optic axes.
+    // The first wave vibrates across the bisector of the planes through the ray and the optic axes.
     float cosine = y1 * y2 - x1 * x2, sine = -(x1 * y2 + y1 * x2);
     float size = sqrt(cosine * cosine + sine * sine);
     cosine = size > 1e-20 ? cosine / size : 1.0;
@@ -392,8 +393,8 @@ vec4 through_crystal(vec4 c, vec3 d, vec3 s, float way, int path) {
     vec4 waves = u_waves[path];
     float U = 0.0, V = 0.0;
     if (waves.z > 0.0) {
-        // 1/n^2 of the two waves from the angles to the optic axes; n_slow - n_fast without a
-        // difference of near equals.
+        // 1/n^2 of both waves from the angles to the optic axes; n_slow - n_fast without
+        // cancellation.
         float along1 = dot(one, d), along2 = dot(two, d);
         float sines = sqrt(max((1.0 - along1 * along1) * (1.0 - along2 * along2), 0.0));
         float fast = waves.x + waves.y * (along1 * along2 + sines),
@@ -405,7 +406,7 @@ vec4 through_crystal(vec4 c, vec3 d, vec3 s, float way, int path) {
         float over = 3.14159265359 * behind * waves.w;
         float sinc = over > 1e-3 ? sin(over) / over : 1.0;
         float left = over < 3.14159265 ? sinc * sinc * kept1 * kept2 : 0.0;
-        // E_first E_second*: the second wave, the slow one, is ahead in phase.
+        // E_first E_second*: the second, slow wave is ahead in phase.
         U = left * (cos(phase) * c.z + sin(phase) * c.w);
         V = left * (cos(phase) * c.w - sin(phase) * c.z);
     }
@@ -415,14 +416,14 @@ vec4 through_crystal(vec4 c, vec3 d, vec3 s, float way, int path) {
 #endif
 
 #if RESPONSE
-// The picture's right, turned with the view's axis into a ray.
+// The picture's right axis, turned with the view's axis into a ray.
 vec3 eye_right(vec3 ray) {
     return u_right - dot(u_right, ray) / (1.0 + dot(u_forward, ray)) * (u_forward + ray);
 }
 #endif
 
-// A tangent of a face for a ray, unit; `before` where the ray runs along the normal: the face
-// treats all directions alike then.
+// Unit tangent of a face for a ray; `before` if the ray runs along the normal, where any direction
+// will do.
 vec3 tangent(vec3 d, vec3 n, vec3 before) {
     vec3 s = cross(d, n);
     float squared = dot(s, s);
@@ -437,7 +438,6 @@ vec3 any_across(vec3 d) {
     return normalize(cross(d, other));
 }
 
-// Light that the eye sees beside the stone.
 Weights straight(vec3 at, vec3 ray, float eye, int path) {
     End end = End(1.0, 0.0, 0.0, vec3(0.0));
 #if RESPONSE
@@ -447,8 +447,8 @@ Weights straight(vec3 at, vec3 ray, float eye, int path) {
     return light_along(at, ray, eye, end, path);
 }
 
-// What is left of the eye's light, for limits: of a Stokes parameter that is a difference, the
-// first may be nothing.
+// Magnitude of the carried light, for limits. With a response, the first Stokes parameter may be
+// zero.
 float size_of(vec4 c) {
 #if RESPONSE
     return max(max(abs(c.x), abs(c.y)), max(abs(c.z), abs(c.w)));
@@ -468,7 +468,7 @@ Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out Account accoun
     vec3 s = any_across(ray);
     vec4 c = vec4(1.0, 0.0, 0.0, 0.0);
 #if RESPONSE
-    // The picture's y is the other way round: right x ray, not ray x right.
+    // The picture's y points the other way: right x ray instead of ray x right.
     vec4 row = u_response[path];
     c = vec4(row.x, row.y, -row.z, row.w);
     unit = row.x > 0.0 ? 1.0 / row.x : 0.0;
@@ -537,7 +537,7 @@ void main() {
     float scale = length(ray), eye = -u_eye * scale;
     ray /= scale;
     Hit first = entry(at, ray);
-    // What stands before the stone hides it.
+    // Near lights in front of the stone hide it.
     float before;
     near_light(u_light_turn * at, u_light_turn * ray, eye, before);
     bool meets = first.distance < k_infinite && first.distance >= eye && !(before < first.distance);

@@ -1,5 +1,5 @@
-// A triangle that covers the viewport, of three vertices without attributes. `#version 300 es` is
-// put before it.
+// A triangle that covers the viewport, from three vertices without attributes. Compiled after a
+// line `#version 300 es`.
 void main() {
     gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }

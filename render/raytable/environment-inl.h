@@ -1,6 +1,5 @@
-// A lat-long environment, many directions at once: EnvironmentMap::at in single precision.
-// For one instruction set; Highway includes this once for each, which a guard of the usual kind
-// would not let it.
+// EnvironmentMap::at for a lat-long map, vectorised in single precision. No include guard: Highway
+// includes this once per instruction set.
 
 HWY_BEFORE_NAMESPACE();
 namespace culet {
@@ -9,7 +8,7 @@ namespace HWY_NAMESPACE {
 using Ints = hn::Rebind<std::int32_t, Floats>;
 constexpr Ints k_ints;
 
-// Angle of the vector (along, across), across >= 0: 0 .. pi.
+// Angle of the vector (along, across) with across >= 0, in 0 .. pi.
 HWY_INLINE V angle_of(const V& along, const V& across) {
     const V size = hn::Abs(along);
     const V low = hn::Min(size, across), high = hn::Max(size, across);
@@ -18,7 +17,7 @@ HWY_INLINE V angle_of(const V& along, const V& across) {
     return hn::IfThenElse(along < number(0.0f), number(3.14159265f) - acute, acute);
 }
 
-// EnvironmentMap::at, to the sums of so many nodes; `kNodes` 0: of all.
+// Adds EnvironmentMap::at to the sums of kNodes nodes; `kNodes` 0: all.
 template <int kNodes>
 HWY_INLINE void environment_light(const ExitLights& lights, const V3& d, const V& unhidden,
                                   V* sum) {

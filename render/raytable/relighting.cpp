@@ -18,11 +18,11 @@ namespace culet {
 
 namespace {
 
-// What rows of the picture add up to.
+// Sums over rows of the picture.
 struct RowSums {
     double hit = 0;      // rays
     Rgb stone{};         // over rays
-    double weighed = 0;  // weight of leaves after absorption, over bands
+    double weighed = 0;  // weight of exit events after absorption, over bands
 };
 
 class Relighting {
@@ -41,7 +41,7 @@ public:
           something_near_(any_near()),
           light_(table, scene, rays, *shader_, something_near_),
           listener_(progress, scene.camera.height) {
-        // Colour of a radiance of 1 at each node.
+        // Colour of radiance 1 at each node.
         std::vector<double> one(static_cast<std::size_t>(nodes_), 0.0);
         for (double& node : one) {
             node = 1;
@@ -64,7 +64,7 @@ public:
             });
         });
         if (listener_.stopped()) throw Interrupted();
-        // In the order of the rows: the same bytes whatever the threads did.
+        // In row order, so that the bytes do not depend on the threads.
         RowSums whole;
         for (const RowSums& row : rows) {
             whole.hit += row.hit;
@@ -80,7 +80,7 @@ private:
         float r, g, b;
     };
 
-    // Whether anything may stand before the stone.
+    // Whether anything may stand in front of the stone.
     bool any_near() const {
         return std::any_of(scene_.lights.sources.begin(), scene_.lights.sources.end(),
                            [](const Light& light) { return is_near(light); }) ||
@@ -124,7 +124,7 @@ private:
         return sums;
     }
 
-    // Which rays of a row see the stone, and which see past it.
+    // Sorts a row's rays into those that see the stone and those that see past it.
     void sort_rays(std::size_t first, std::size_t last, int y, RowMemory& memory) const {
         memory.stone_rays.assign(static_cast<std::size_t>(width_), 0);
         memory.hit_pixel.assign(last - first, -1);
@@ -151,7 +151,7 @@ private:
         if (something_near_) hide(first, y, memory);
     }
 
-    // What stands before the stone hides it: such rays see past it, so to say.
+    // Rays blocked by something in front of the stone count as rays past it.
     void hide(std::size_t first, int y, RowMemory& memory) const {
         std::vector<RaySample>& samples = memory.hit_samples;
         light_.air().make(y, samples, true, memory.bare);
@@ -165,7 +165,7 @@ private:
         }
     }
 
-    // Both lights of a row, as colours in the picture.
+    // Adds the stone's and the air's light of a row to the picture.
     void put_row(int y, RowMemory& memory, RowSums& sums) {
         Picture& picture = result_.picture;
         const float share = 1.0f / static_cast<float>(samples_);
@@ -215,7 +215,7 @@ private:
         stats.wavelengths_nm = rays_.setup.wavelengths_nm;
         const double hits = static_cast<double>(header.hits);
         if (rays_.setup.bands.front().absorbs && hits > 0) {
-            // What a clear stone's leaves weigh is all that the table did not leave out.
+            // A clear stone's exit events carry all that the table did not leave out.
             stats.absorbed = 1 - header.remainder - header.cut - whole.weighed / hits / nodes_;
         }
         if (whole.hit > 0) stats.mean_radiance = luminance(whole.stone) / whole.hit;

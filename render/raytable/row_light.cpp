@@ -14,8 +14,8 @@ RowLight::RowLight(const RayTable& table, const Scene& scene, const TableRays& r
       width_(scene.camera.width),
       origins_(origins) {}
 
-// Constant factors instead of Fresnel's. The first leaf was reflected once; the one behind it
-// was let in and out, and each later one reflected once more in between.
+// Replaces Fresnel's factors by constants. The first exit event was reflected once; the next was
+// transmitted twice, and each later one reflected once more in between.
 void RowLight::use_factors(const std::uint32_t* end, std::size_t hits, std::uint32_t begin,
                            RowMemory& memory) const {
     const RenderSettings& settings = settings_;
@@ -32,7 +32,7 @@ void RowLight::use_factors(const std::uint32_t* end, std::size_t hits, std::uint
     }
 }
 
-// The leaves from .. to - 1 of the table.
+// Exit events from .. to - 1 of the table.
 ExitRun RowLight::run_of(std::uint32_t from, std::uint32_t to) const {
     const auto& parts = table_.parts();
     ExitRun run;
@@ -48,7 +48,6 @@ ExitRun RowLight::run_of(std::uint32_t from, std::uint32_t to) const {
     return run;
 }
 
-// Adds what the leaves of a row's hits bring at the nodes of a band; returns their weight.
 double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t last,
                             RowMemory& memory) const {
     constexpr std::uint32_t k_block = 512;
@@ -62,7 +61,7 @@ double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t l
     if (factors) use_factors(end + first, last - first, begin, memory);
     double weighed = 0;
     std::uint32_t from = begin;
-    // As many whole hits as make a block.
+    // Take as many whole hits as fit into a block.
     for (std::size_t hit = first; hit < last;) {
         std::size_t behind = hit + 1;
         while (behind < last && end[behind] - from <= k_block) ++behind;

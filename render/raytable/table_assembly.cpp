@@ -7,7 +7,7 @@ namespace culet {
 
 namespace {
 
-// The rectangle of a facet's leaves in its plane.
+// Bounding rectangle of a facet's exit events in its plane.
 struct Box {
     static constexpr float k_none = std::numeric_limits<float>::infinity();
     float s0 = k_none, t0 = k_none, s1 = -k_none, t1 = -k_none;
@@ -21,7 +21,7 @@ struct Box {
     bool empty() const { return !(s0 <= s1); }
 };
 
-// In 65535 steps from `low` to `high`.
+// Quantises to 65535 steps from `low` to `high`.
 std::uint16_t step(float value, double low, double high) {
     const double part = high > low ? (static_cast<double>(value) - low) / (high - low) : 0;
     return static_cast<std::uint16_t>(std::lround(part * 65535));
@@ -41,7 +41,7 @@ public:
                 for (const std::uint32_t count : row.count)
                     parts_.exits_end.push_back(end += count);
                 for (const ExitEvent& exit_event : row.leaves) put(exit_event);
-                row = {};  // its room is needed
+                row = {};  // frees its memory
             }
         }
         parts_.wavelengths_nm = std::move(content_.wavelengths_nm);

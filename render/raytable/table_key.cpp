@@ -17,7 +17,7 @@ TableKey key_of(const Fingerprint& print) {
     return key;
 }
 
-// Its shape: names do not matter.
+// The shape only; names do not matter.
 TableKey stone_key(const Stone& stone) {
     Fingerprint print;
     print.add(stone.convex ? 1 : 0);
@@ -66,7 +66,7 @@ TableKey rays_key(const Scene& scene, const TableRays& rays) {
     print.add(rays.setup.on(Effects::aperture) ? 1 : 0);
     print.add(rays.limits.cut_weight);
     print.add(rays.limits.split_weight);
-    // Branches are chosen at random in trees that are larger than all.
+    // In branching trees the seed chooses branches.
     print.add(paths_branch(scene, rays.setup) ? static_cast<double>(rays.limits.seed) : 0.0);
     return key_of(print);
 }
@@ -85,7 +85,7 @@ TableRays table_rays(const Scene& scene, std::span<const double> wavelengths_nm)
     rays.setup = make_optical_setup(as_table ? named : scene);
     const OpticalSetup& setup = rays.setup;
     rays.bands = setup.bands;
-    // Bands of many wavelengths are no longer than the tracer's lists, and alike.
+    // Without dispersion, several bands only reflect the tracer's list length and are alike.
     if (!setup.on(Effects::dispersion)) rays.bands.resize(1);
     rays.samples = settings.samples > 0 ? settings.samples : k_table_samples;
     PathLimits& limits = rays.limits;
@@ -93,8 +93,8 @@ TableRays table_rays(const Scene& scene, std::span<const double> wavelengths_nm)
     limits.polarised = setup.polarised;
     limits.seed = settings.seed;
     if (settings.tolerance > 0) {
-        // The lights, which the reference looks at here, are not known. One path in a convex stone
-        // may well be followed far.
+        // Unlike the reference, this does not know the lights. The single path in a convex stone
+        // can be followed far.
         const double usual = paths_branch(scene, setup)
                                  ? k_table_cut
                                  : std::min(k_table_cut, 0.05 * settings.tolerance);

@@ -30,7 +30,7 @@ public:
           eyes_(scene, rays),
           lengths_(rays.setup.splits ? 3 : 1),
           branches_(paths_branch(scene, rays.setup)),
-          // Deep paths keep a transmission that is no denormal number.
+          // Keeps the transmission of deep paths above the denormal range.
           absorption_(1 / (diameter(scene.stone.solid) * std::min(rays.limits.depth, 500))),
           listener_(progress, static_cast<double>(scene.camera.height) *
                                   static_cast<double>(rays.bands.size() + 1)) {
@@ -46,7 +46,6 @@ public:
     }
 
 private:
-    // Calls visit(y) for all rows of the picture, on many threads.
     template <class Visit>
     void each_row(Visit&& visit) {
         on_threads(scene_.settings.threads, [&] {
@@ -71,7 +70,7 @@ private:
 
     void find_hits() {
         hits_.resize(static_cast<std::size_t>(scene_.camera.height));
-        // Each hit has a leaf in each band.
+        // Each hit has at least one exit event per band.
         std::atomic<long long> count{0};
         each_row([&](std::size_t y) {
             hits_[y] = eyes_.hits(static_cast<int>(y), body_);
@@ -90,8 +89,8 @@ private:
         std::vector<RowLeaves> rows(hits_.size());
         const Band band = with_lengths(of, lengths_, absorption_);
         const bool general = rays_.setup.splits || !scene_.stone.convex || scene_.immersion != 1;
-        // Where paths branch, small leaves are many; a single path keeps all, whose order tells
-        // how often they were reflected.
+        // Branching paths have many small exit events. A single path keeps all of them, as their
+        // order gives the number of reflections.
         const double least = branches_ ? rays_.limits.cut_weight : 0;
         each_row([&](std::size_t y) {
             RowLeaves& row = rows[y];
@@ -102,7 +101,6 @@ private:
                 row.count.push_back(0);
                 const EyeRay eye = eyes_.ray(hit.ray);
                 PathLimits limits = rays_.limits;
-                // As the reference has it.
                 limits.seed += 0x9e3779b97f4a7c15ull * (static_cast<std::uint64_t>(hit.ray) + 1) +
                                static_cast<std::uint64_t>(of.first);
                 if (general) {
@@ -129,7 +127,7 @@ private:
     bool branches_;
     double absorption_;
     Listener listener_;
-    std::vector<std::vector<TableHit>> hits_;  // of each row
+    std::vector<std::vector<TableHit>> hits_;  // per row
     std::atomic<long long> leaves_{0};
     std::atomic<bool> too_large_{false};
     TableContent content_;

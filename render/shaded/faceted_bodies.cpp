@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_sphere_rows = 24;  // from pole to pole; twice as many round
+constexpr int k_sphere_rows = 24;  // from pole to pole; twice as many around
 
 using Faces = std::vector<std::vector<int>>;
 
@@ -32,7 +32,7 @@ Vec3 unit_or(const Vec3& v, const Vec3& other) {
     return length > 0 ? v / length : other;
 }
 
-// Of each vertex the same number as of every other at its place.
+// Gives vertices at the same place the same number.
 std::vector<int> places_of(const std::vector<Vec3>& vertices) {
     std::map<std::tuple<double, double, double>, int> known;
     std::vector<int> places;
@@ -42,7 +42,7 @@ std::vector<int> places_of(const std::vector<Vec3>& vertices) {
     return places;
 }
 
-// `triangles`: of each face its own.
+// `triangles`: per face.
 FacetedBody body_of(std::vector<Vec3> vertices, const Faces& faces,
                     const std::vector<std::vector<std::array<int, 3>>>& triangles) {
     FacetedBody body;
@@ -105,7 +105,6 @@ FacetedBody body_of(const BoxShape& box) {
             corner += ((i >> axis) % 2 == 1 ? 1.0 : -1.0) * box.half[axis] * box.axes[axis];
         corners.push_back(corner);
     }
-    // Counter-clockwise from outside for right-handed axes.
     const Faces faces{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     std::vector<std::vector<std::array<int, 3>>> triangles;

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-// Enough for a light's colour to come back as it was given, and for illuminants.
+// Enough to reproduce a light's colour, and for illuminants.
 std::vector<double> usual_wavelengths() {
     std::vector<double> nm;
     for (int i = 0; i <= 12; ++i) nm.push_back(390 + 27.5 * i);
     return nm;
 }
 
-// Mean over all directions: rows of a lat-long map count by the sine of their angle to +z.
+// Mean over all directions: rows of a lat-long map are weighted by the sine of their polar angle.
 Rgb mean_of(const EnvironmentMap& map) {
     Rgb sum{0, 0, 0};
     double weights = 0;
@@ -54,12 +54,12 @@ Rgb PlainLights::rgb_of(const LightColour& colour) const {
 void PlainLights::add(const Light& light, const Vec3& middle) {
     const Rgb radiance = rgb_of(colour_of(light));
     PlainLight plain;
-    // The irradiance of a surface that faces the light, over pi.
+    // Irradiance of a surface that faces the light, over pi and radiance.
     double share = 0;
     if (const auto* sphere = std::get_if<SphereLight>(&light)) {
         plain.at = sphere->center;
         plain.middle_distance = glm::length(sphere->center - middle);
-        // A dome about the scene has no place.
+        // A dome around the scene is ambient light.
         if (plain.middle_distance <= sphere->radius) {
             ambient_ += radiance;
             return;
@@ -70,7 +70,7 @@ void PlainLights::add(const Light& light, const Vec3& middle) {
         plain.at = lobe->direction;
         share = 2 / (lobe->exponent + 2);
     } else if (const auto* cap = std::get_if<DiscLight>(&light)) {
-        // Beyond 90 degrees nothing more falls on a surface that faces the cap.
+        // Light from beyond 90 degrees does not reach a surface that faces the cap.
         const double to = std::min(cap->to, k_pi / 2), from = std::min(cap->from, k_pi / 2);
         plain.distant = true;
         plain.at = cap->direction;
@@ -82,10 +82,10 @@ void PlainLights::add(const Light& light, const Vec3& middle) {
         plain.middle_distance = glm::length(way);
         const double area = 4 * glm::length(glm::cross(*plane->u, *plane->v));
         if (!(plain.middle_distance > 0)) return;
-        // `incoming` has the cosine at the light.
+        // `incoming` adds the cosine at the light.
         share = area / (k_pi * plain.middle_distance * plain.middle_distance);
     } else {
-        // Half of all directions.
+        // A hemisphere.
         ambient_ += 0.5 * radiance;
         return;
     }

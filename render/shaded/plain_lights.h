@@ -29,7 +29,7 @@ struct Incoming {
 
 class PlainLights {
 public:
-    /// `middle`: of the scene, where attenuation is 1.
+    /// `middle`: of the scene. Attenuation uses distances over that from the light to here.
     PlainLights(const Scene& scene, const Vec3& middle);
 
     /// Mean over all directions of light without a position: constant, environment, hemispheres,

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_darkest = 1e-4;  // of a body colour; deeper ones are as black
+constexpr double k_darkest = 1e-4;  // least body colour; darker ones look equally black
 
 Rgb white() {
     return {1, 1, 1};

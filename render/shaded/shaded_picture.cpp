@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// Of one row; rows are added in their order.
+// Sums of one row; added in row order.
 struct RowSums {
     double met = 0, luminance = 0;
     long long rays = 0;

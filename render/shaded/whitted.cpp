@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_least_weight = 1.0 / 2048;  // below what 8 bits of a picture show
+constexpr double k_least_weight = 1.0 / 2048;  // not visible in 8 bits
 
 double mean_index(const Material& material) {
     const int rays = ray_count(material.optic);
@@ -23,7 +23,6 @@ double mean_index(const Material& material) {
     return sum / rays;
 }
 
-// What is left of light after a way.
 Rgb left_after(const Rgb& absorption, double distance) {
     Rgb left;
     for (std::size_t c = 0; c < 3; ++c) left[c] = std::exp(-absorption[c] * distance);
@@ -34,7 +33,7 @@ std::uint64_t first_random(std::uint64_t seed) {
     return Random(seed).next();
 }
 
-// Evenly in the unit ball.
+// Uniformly distributed in the unit ball.
 Vec3 point_in_ball(std::uint64_t seed) {
     Random random(seed);
     while (true) {
@@ -43,10 +42,10 @@ Vec3 point_in_ball(std::uint64_t seed) {
     }
 }
 
-// What becomes of a ray at a polished face; `normal` on the side that it comes from.
+// Reflection and refraction at a polished face; `normal` faces the incoming ray.
 struct Face {
     double reflected = 1;  ///< share, mean of s and p
-    Vec3 mirror, onward;   ///< unit; `onward` only where less than all is reflected
+    Vec3 mirror, onward;   ///< unit; `onward` is not set for total reflection
 };
 
 Face face_met(const Vec3& direction, const Vec3& normal, double n1, double n2) {
@@ -137,12 +136,12 @@ bool WhittedTracer::hidden(const Vec3& from, const Incoming& light, const RaySta
     Vec3 origin = from;
     RayStart at = start;
     double way = light.distance;
-    // Through whatever is clear.
+    // Stones and glass are transparent.
     for (int i = 0; i < depth_; ++i) {
         const WorldHit hit = world_.nearest(origin, light.direction, at);
         if (!hit.met() || !(hit.distance < way)) return false;
         if (hit.stone >= 0) {
-            // A notched stone may be met again: it is as clear as before.
+            // A stone that is not convex may be met again.
             at = {-1, -1, hit.stone};
         } else {
             const auto& material = world_.objects()[static_cast<std::size_t>(hit.object)].material;
@@ -183,7 +182,7 @@ Rgb WhittedTracer::reflected(const Ray& ray, const WorldHit& hit, const Vec3& at
     if (on.weight < k_least_weight) return {0, 0, 0};
     if (surface.fuzz > 0) {
         const Vec3 turned = mirror + surface.fuzz * point_in_ball(on.seed);
-        // Below the surface there is nothing to see.
+        // Ignore directions below the surface.
         if (glm::dot(turned, normal) > 0 &&
             glm::dot(turned, hit.normal) * glm::dot(normal, hit.normal) > 0)
             on.direction = glm::normalize(turned);

@@ -9,7 +9,7 @@ namespace culet {
 namespace {
 
 constexpr double k_ns_per_face = 600;
-// Faces along a ray where the scene leaves it open: what is left after that is dim.
+// Depth if the scene leaves it open: later light is dim.
 constexpr int k_usual_depth = 10;
 
 class WhittedEngine : public Engine {
