@@ -10,8 +10,8 @@ namespace culet {
 
 namespace {
 
-// Regions up to so many square pixels, times a pixel's angle, need not be looked at: a map is off
-// by about the square of the angle that a region fills.
+// Regions of at most this area in square pixels over a pixel's angle (radians) need no check: the
+// map's error is about the square of a region's angular size.
 constexpr double k_surely_small = 0.046;
 constexpr double k_surely_right = 0.25;  // pixels
 
@@ -98,7 +98,7 @@ void BeamGrower::leaf(const BeamTrunk& trunk) {
     out_->exit_area += 0.5 * trunk.part.doubled_area;
 }
 
-// `folding`: to the stone before the trunk's facet mirrors it.
+// `folding` leads to the stone before the trunk's facet mirrors it.
 void BeamGrower::grow(const BeamTrunk& trunk, const Folding& folding) {
     ++out_->beams;
     if (too_many()) return;
@@ -136,7 +136,7 @@ void BeamGrower::go_on(const BeamTrunk& trunk, const Folding& before) {
     }
     const std::size_t first_child = children_.size(), pool_before = pool_.size();
     split(next, pencil, folding, middle);
-    // Growing a child appends to `children_` and takes away what it appended.
+    // Growing a child appends to `children_` and restores its size.
     const std::size_t end = children_.size();
     for (std::size_t i = first_child; i < end; ++i) {
         const BeamTrunk child = children_[i];
@@ -146,7 +146,7 @@ void BeamGrower::go_on(const BeamTrunk& trunk, const Folding& before) {
     pool_.resize(pool_before);
 }
 
-// Asks now and then only: the branches share one count.
+// Asks only now and then, as the branches share one count.
 bool BeamGrower::too_many() {
     constexpr long long k_now_and_then = 1024;
     if (out_->beams - counted_ >= k_now_and_then) {
@@ -157,7 +157,7 @@ bool BeamGrower::too_many() {
     return stopped_ || *grown_ > limits_->most_beams;
 }
 
-// Adds to the path what the ray along `d` through `point` meets behind the trunk's facet.
+// Appends the facets that the ray along `d` through `point` meets behind the trunk's facet.
 void BeamGrower::follow_alone(const BeamTrunk& trunk, Vec3 d, const Vec3& point) {
     const Plane& left = net_->plane(trunk.part.facet);
     Vec3 x = point - height_above(left, point) / glm::dot(left.normal, d) * d;
@@ -216,7 +216,7 @@ void BeamGrower::split(const BeamTrunk& trunk, const Pencil& pencil, const Foldi
     for (const FacetRegion& part : parts_) children_.push_back({part, trunk.weight, sure});
 }
 
-// How far the map is off, in pixels, at the region's corners.
+// Largest error of the map at the region's corners, in pixels.
 double BeamGrower::map_error(const PencilMap& map, const Region& region, const Folding& folding,
                              int exit) const {
     const Plane &hit = net_->plane(exit), &front = net_->plane(path_.front());
@@ -235,11 +235,11 @@ double BeamGrower::map_error(const PencilMap& map, const Region& region, const F
     return most;
 }
 
-// Splits the beams behind two halves of a region, each with a map of its own.
+// Halves a region and splits both halves, each with its own map.
 void BeamGrower::halve(const BeamTrunk& trunk, const Folding& folding, int halvings) {
     const Region whole = trunk.part.region;
     const ScreenPoint middle = middle_of(pool_.data() + whole.first, whole.count);
-    // Across the direction of the corner farthest from the middle.
+    // Cut across the direction of the corner farthest from the middle.
     double farthest = 0, dx = 1, dy = 0;
     for (std::size_t i = 0; i < whole.count; ++i) {
         const ScreenPoint& p = pool_[whole.first + i];

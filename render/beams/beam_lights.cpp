@@ -9,7 +9,7 @@ namespace culet {
 
 namespace {
 
-// Exponents up to this are multiplied out.
+// Integer exponents up to this are multiplied out.
 constexpr double k_multiplied_out = 64;
 
 std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colours, int first,
@@ -18,7 +18,7 @@ std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colo
     return {all.begin() + first, all.begin() + first + count};
 }
 
-// Cosines beyond 1 or -1 stand for nothing and for all directions.
+// A cosine above 1 means no direction, below -1 all directions.
 ShadedLights::Disc disc(double cosine) {
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
     return {static_cast<float>(cosine), static_cast<float>(sine)};
@@ -29,7 +29,7 @@ ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& li
     if (!light) return result;
     result.degree = static_cast<float>(light->degree);
     result.sheet = light->normal.has_value();
-    // A sheet's direction lies in it.
+    // Project the direction into the sheet.
     const Vec3 normal = light->normal.value_or(Vec3(0, 0, 1));
     const Vec3 along =
         result.sheet
@@ -44,7 +44,7 @@ ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& li
 
 }  // namespace
 
-// Adds a source of each type to the lights that are shaded.
+// Converts sources of each type.
 struct ShadedLights::Adder {
     ShadedLights& to;
     const WavelengthSet& colours;
@@ -117,7 +117,6 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
         any_edge = any_edge || has_edge(light);
     }
     any_edge = any_edge || environment;
-    // Of the map's texels.
     for (int i = first; environment && i < first + count; ++i) {
         red.push_back(static_cast<float>(colours.primaries()[0][static_cast<std::size_t>(i)]));
         blue.push_back(static_cast<float>(colours.primaries()[2][static_cast<std::size_t>(i)]));

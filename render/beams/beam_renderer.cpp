@@ -26,7 +26,7 @@ double seconds_from(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Points of the unit disc, each for the same area: Vogel's sunflower (1979).
+// Points of the unit disc with equal areas: Vogel's sunflower (1979).
 std::vector<ScreenPoint> pupil_points(int count) {
     constexpr double k_golden_angle = 2.39996322972865332;
     std::vector<ScreenPoint> points;
@@ -52,12 +52,12 @@ std::vector<ScreenView> views_of(const Scene& scene, const OpticalSetup& setup) 
     return views;
 }
 
-// Bands that share beams, by the band whose index these are of: the borders of two wavelengths'
-// beams lie apart by the angle |dn| / (n sqrt(n^2 - 1)) at most (Snell's law), over the way through
-// the stone; as long as that is less than a map may be off, one set of beams serves.
+// For each band the band whose beams it shares. By Snell's law the borders of two wavelengths'
+// beams differ by an angle of at most |dn| / (n sqrt(n^2 - 1)), over the path through the stone.
+// Bands share beams while that is below the allowed map error.
 std::vector<std::size_t> shared_beams(const OpticalSetup& setup, const ScreenView& view,
                                       const Vec3& middle, double size, const BeamLimits& limits) {
-    // Segments are some two thirds of the stone's size; few ways longer than this bring light.
+    // Segments measure about 2/3 of the stone; few longer paths carry light.
     constexpr double k_segment = 2.0 / 3;
     constexpr int k_longest = 16;
     const ScreenImage here = view.of_point(middle),
@@ -75,7 +75,7 @@ std::vector<std::size_t> shared_beams(const OpticalSetup& setup, const ScreenVie
             return way * std::abs(index(a) - index(b)) / (n * std::sqrt((n - 1) * (n + 1)));
         };
         std::size_t middle_band = first, end = first + 1;
-        // From both ends to the middle one.
+        // Extend from both ends to the middle band.
         while (end < leader.size() && apart(first, end) <= 2 * limits.map_error) {
             ++end;
             while (middle_band + 1 < end && apart(first, middle_band + 1) <= limits.map_error)
@@ -96,12 +96,12 @@ struct BeamRenderer::Work {
     std::vector<SortedBeams> beams;  // view * bands + band
     std::shared_ptr<const EnvironmentPyramid> pyramid;
     Canvas canvas;
-    // One a thread, with the room that it has needed so far.
+    // One painter per thread, which keeps its memory.
     tbb::enumerable_thread_specific<StripPainter> painters{
         [this] { return StripPainter(stone, canvas); }};
     BeamReport report;
 
-    // From radiance (or Stokes parameters) at the nodes to colour, in one strip.
+    // Colour of each plane: radiance or a Stokes parameter at a node.
     std::vector<std::array<float, 3>> rgb_of_plane;
     void clear(int strip);
     void develop(int strip, Picture& picture) const;
@@ -133,7 +133,7 @@ void BeamRenderer::Work::prepare(const Scene& scene, const OpticalSetup& setup,
         one[node] = 1;
         const Rgb rgb = colours.rgb_of(one.data());
         one[node] = 0;
-        // Stokes planes are seen through the eye's optics; else those are in the passes already.
+        // Applies the eye's optics to Stokes planes; otherwise the passes contain them.
         const double seen =
             planes > nodes ? response(scene.camera.optics, setup.wavelengths_nm[node])[i / nodes]
                            : 1.0;
@@ -265,7 +265,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                 [&](int strip) {
                     if (!listener.goes_on() || (meter != nullptr && meter->over())) return;
                     if (v == 0) work.clear(strip);
-                    // What is painted is counted while it is: a strip may take seconds.
+                    // Count work while painting, as a strip may take seconds.
                     double spent = 0;
                     PaintOptions asking = options;
                     asking.goes_on = [&](const StripSums& sum) {

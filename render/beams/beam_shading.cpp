@@ -9,7 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/beams/beam_shading.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, each after the one before; clang-format must not sort them.
+// After foreach_target.h and in this order, each needing the one before.
 // clang-format off
 #include "render/beams/vectors-inl.h"
 #include "render/beams/lights-inl.h"
@@ -21,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-// What rounding leaves of a whole pixel.
+// A whole pixel up to rounding.
 constexpr float k_filled = 1 - 1e-5f;
 
 template <bool kSoft>
@@ -195,7 +195,7 @@ void shade_leaving(const ShadedLights& lights, const ShadedLeaving& beam,
 }
 
 std::vector<std::string> shading_targets() {
-    // As found before any was chosen.
+    // Listed before any target is chosen.
     static const std::vector<std::string> names = [] {
         std::vector<std::string> found;
         for (std::int64_t target : hwy::SupportedAndGeneratedTargets())

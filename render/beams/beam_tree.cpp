@@ -15,12 +15,13 @@ namespace culet {
 
 namespace {
 
-// What the picture shows of a facet, positively oriented; empty when nothing.
+// The visible outline of a facet, positively oriented; empty if none.
 std::vector<ScreenPoint> seen_outline(const FacetNet& net, int facet, const ScreenView& view) {
     std::vector<Vec3> images;
     for (const NetEdge& edge : net.edges(facet))
         images.push_back(view.of_point(net.corners()[static_cast<std::size_t>(edge.from)]));
-    // The picture's four borders, before division by w: what is behind the eye goes with them.
+    // Clip at the picture's four borders before dividing by w; this also removes what lies behind
+    // the eye.
     const double width = view.width, height = view.height;
     for (const Vec3& border :
          {Vec3{1, 0, 0}, Vec3{-1, 0, width}, Vec3{0, 1, 0}, Vec3{0, -1, height}}) {
@@ -39,7 +40,7 @@ std::vector<ScreenPoint> seen_outline(const FacetNet& net, int facet, const Scre
         if (!(image.z > 0)) return {};  // a single point on the eye's plane
         outline.push_back({image.x / image.z, image.y / image.z});
     }
-    // Counter-clockwise from outside is from y to x in a picture whose y runs down.
+    // Counter-clockwise from outside is from y to x in a picture whose y points down.
     std::reverse(outline.begin(), outline.end());
     return outline;
 }
@@ -93,7 +94,7 @@ double BeamTree::exit_area() const {
 
 namespace {
 
-// Until there are too many, or `goes_on` says so.
+// Stops early if there are too many beams or `goes_on` says no.
 void grow_all(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
               BeamTree& tree, const std::function<bool(long long)>& goes_on) {
     struct Front : FrontFacet {
@@ -160,7 +161,7 @@ bool build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
     for (;;) {
         std::atomic<bool> stopped{false};
         const std::function<bool(long long)> ask = [&](long long grown) {
-            // More than `most_beams` count as so many: how many there are then hangs on chance.
+            // Clamp the count: beyond `most_beams` it depends on thread timing.
             if (goes_on && !goes_on(tree.discarded + std::min(grown, limits.most_beams)))
                 stopped = true;
             return !stopped;
@@ -168,7 +169,8 @@ bool build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
         grow_all(net, view, n, fewer, tree, ask);
         if (stopped) return false;
         if (tree.beams() <= limits.most_beams) return true;
-        // Whether there are too many does not depend on who grew which first, so neither does this.
+        // Whether there are too many does not depend on thread timing, so the result does not
+        // either.
         fewer.cut_share = std::max(k_fewer * fewer.cut_share, k_least_share);
         tree.discarded += limits.most_beams;
         for (std::size_t i = 0; i < tree.branch_count; ++i) tree.branches[i] = {};

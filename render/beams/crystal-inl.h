@@ -1,17 +1,16 @@
-// What is carried along a path, and what a crystal does to it.
-// For one instruction set; Highway includes this once for each, which a guard of the usual kind
-// would not let it.
+// State carried along a path, and the effect of a crystal on it. No include guard: Highway includes
+// this once per instruction set.
 
 HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-// What is carried from face to face: powers of s and p together, their difference, and twice the
-// real and imaginary part of E_s E_p* (light_paths.h).
+// Sum and difference of the powers of s and p, and twice the real and imaginary part of E_s E_p*
+// (light_paths.h).
 struct Carried {
     V I, Q, U, V_;
 
-    // To a frame turned by half the angle of (cosine, sine).
+    // Rotates the frame by half the angle of (cosine, sine).
     HWY_INLINE void turn(const V& cosine, const V& sine) {
         const V before = Q;
         Q = hn::MulAdd(cosine, before, sine * U);
@@ -20,7 +19,7 @@ struct Carried {
 };
 
 HWY_INLINE V3 any_tangent(const V3& tangent, const V3& d, const M& oblique) {
-    // Across the ray and the axis that it is least along.
+    // Across the ray and the axis most nearly perpendicular to it.
     const V ax = hn::Abs(d.x), ay = hn::Abs(d.y), az = hn::Abs(d.z), zero = number(0.0f);
     const M x = hn::And(ax <= ay, ax <= az), y = hn::And(hn::Not(x), ay <= az);
     const V3 other{hn::IfThenElse(x, zero, hn::IfThenElse(y, d.z, hn::Neg(d.y))),
@@ -31,8 +30,7 @@ HWY_INLINE V3 any_tangent(const V3& tangent, const V3& d, const M& oblique) {
             hn::IfThenElse(oblique, tangent.z, other.z)};
 }
 
-// A segment of a crystal whose waves are merged: absorption of each, and what is left of their
-// coherence.
+// A segment of a crystal with merged waves: absorbs each wave, and reduces their coherence.
 HWY_INLINE V go_through(const MergedCrystal& crystal, const V3& d, const V3& b, const V& length,
                         Carried& carried) {
     const V one = number(1.0f), half = number(0.5f), zero = number(0.0f);
@@ -53,11 +51,11 @@ HWY_INLINE V go_through(const MergedCrystal& crystal, const V3& d, const V3& b, 
     s = hn::IfThenElseZero(any, s * scale);
     carried.turn(c, s);
 
-    // The waves' directions of vibration: the bisector, and across it.
+    // Vibration directions of the waves: along and across the bisector.
     V3 tangent = cross(d, b);
     const V squared = dot(tangent, tangent);
     const M oblique = squared > number(1e-20f);
-    // Normal incidence: the tangent is that which the angles above are from, any.
+    // At normal incidence use any tangent; the angles above assume the same one.
     tangent = hn::AllTrue(k_floats, oblique) ? tangent : any_tangent(tangent, d, oblique);
     tangent = (one / length_of(tangent)) * tangent;
     const V3 beside = cross(d, tangent);
@@ -83,7 +81,7 @@ HWY_INLINE V go_through(const MergedCrystal& crystal, const V3& d, const V3& b, 
     if (crystal.waves_per_length == 0) {
         carried.U = carried.V_ = zero;
     } else {
-        // 1/n^2 of the two waves; psi are the angles to the optic axes.
+        // 1/n^2 of the two waves, from the angles to the optic axes.
         const V sines =
             hn::Sqrt(hn::Max((one - cosine[0] * cosine[0]) * (one - cosine[1] * cosine[1]), zero));
         const V cosines = cosine[0] * cosine[1];
@@ -91,7 +89,7 @@ HWY_INLINE V go_through(const MergedCrystal& crystal, const V3& d, const V3& b, 
                 spread = number(crystal.inverse_square[1]);
         const V fast = hn::MulAdd(spread, cosines + sines, mean),
                 slow = hn::MulAdd(spread, cosines - sines, mean);
-        // n_slow - n_fast without a difference of near equals.
+        // n_slow - n_fast without cancellation.
         const V root_fast = hn::Sqrt(fast), root_slow = hn::Sqrt(slow);
         const V split =
             number(2.0f) * spread * sines / (root_fast * root_slow * (root_fast + root_slow));
@@ -104,7 +102,7 @@ HWY_INLINE V go_through(const MergedCrystal& crystal, const V3& d, const V3& b, 
         const V left = hn::IfThenElseZero(over < number(3.14159265f), sinc * sinc) * kept1 * kept2;
         const V cos_phase = hn::Cos(k_floats, phase), sin_phase = hn::Sin(k_floats, phase);
         const V U = carried.U * left, W = carried.V_ * left;
-        // E_first E_second*: the second wave, the slow one, is ahead in phase.
+        // E_first E_second*: the second, slow wave is ahead in phase.
         carried.U = hn::MulAdd(cos_phase, U, sin_phase * W);
         carried.V_ = hn::NegMulAdd(sin_phase, U, cos_phase * W);
     }

@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// Of the pixel: what is narrower is known by its width alone.
+// In pixels: for narrower parts only the width is used.
 constexpr float k_least_width = 1e-3f;
 
 double cross(const ScreenPoint& a, const ScreenPoint& b) {
@@ -20,7 +20,7 @@ double dot(const ScreenPoint& a, const ScreenPoint& b) {
     return a.x * b.x + a.y * b.y;
 }
 
-// Twice the area of the circle within the triangle of its middle and an edge, with its sign.
+// Twice the signed area of the circle within the triangle of its centre and an edge.
 double doubled_area_in_circle(const ScreenPoint& p, const ScreenPoint& q, double radius) {
     const ScreenPoint d{q.x - p.x, q.y - p.y};
     const double a = dot(d, d), b = dot(p, d), c = dot(p, p) - radius * radius;
@@ -54,7 +54,7 @@ double share_in_disc(const Fragments& fragments, int fragment, const PartBesideD
     if (!(std::min(xx, yy) > k_least_width)) return -1;
     const ScreenPoint middle{fragments.reference.x + static_cast<double>(fragments.x[fragment]),
                              fragments.reference.y + static_cast<double>(fragments.y[fragment])};
-    // The pixel, and what the region leaves of it.
+    // Clip the region to the pixel.
     const double left = std::floor(middle.x), top = std::floor(middle.y);
     thread_local RegionCutter cutter;
     cutter.take(fragments.corners, fragments.corner_count, 4);
@@ -64,7 +64,7 @@ double share_in_disc(const Fragments& fragments, int fragment, const PartBesideD
         cutter.cut();
         if (cutter.count() < 3) return -1;
     }
-    // How a pixel's own sides change it, and where the part's corners are beside the disc.
+    // Derivatives per pixel; then the part's corners relative to the disc.
     const Vec3 y = seen.down / static_cast<double>(yy),
                x = (seen.along - static_cast<double>(yx) * y) / static_cast<double>(xx);
     const double length = glm::length(x);

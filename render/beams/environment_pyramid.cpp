@@ -14,11 +14,11 @@ namespace culet {
 
 namespace {
 
-// Texels as large as the map's would blur it: where memory allows, the finest level has half their
-// size.
+// Texels as large as the map's would blur it, so the finest level has texels of half that size, up
+// to this side.
 constexpr int k_finest = 2048;
 
-// Unit direction at (u, v) in -1..1, and the solid angle there of a unit of the square.
+// Unit direction at (u, v) in -1..1, and the solid angle per area of the square there.
 Vec3 direction_at(double u, double v, double& solid_angle) {
     Vec3 p{u, v, 1 - std::abs(u) - std::abs(v)};
     if (p.z < 0) {
@@ -34,14 +34,14 @@ Vec3 direction_at(double u, double v, double& solid_angle) {
 
 EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map,
                                        const std::function<bool()>& goes_on) {
-    // The square is as wide as a circle of directions, twice the map's height.
+    // The square is as wide as a great circle of directions: twice the map's height.
     const int wanted = static_cast<int>(std::bit_ceil(4 * static_cast<unsigned>(map.height)));
     const int finest = std::min(k_finest, wanted);
-    // Averages where texels are not as fine, so that a single texel of the map keeps its light.
+    // Average subsamples if texels are coarser, so that no texel of the map is lost.
     const int subsamples = wanted > finest ? 2 * wanted / finest : 1;
     std::size_t start = 0;
     for (int side = finest; side >= 1; side /= 2) {
-        // Next to the horizon's corners a texel is sqrt(3) times as long as at the zenith.
+        // At the horizon's corners a texel is sqrt(3) times as long as at the zenith.
         levels_.push_back({side, start, static_cast<float>(2 * std::numbers::sqrt3 / side)});
         start += static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2);
     }
@@ -92,7 +92,7 @@ EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map,
             }
         });
         finer_weights = std::move(weights);
-        // The border goes on over the square's edges, which are folded in their middles.
+        // The border continues over the square's edges, which are folded at their middles.
         for (auto& plane : planes_) {
             for (int i = 0; i < side; ++i) {
                 plane[at(level, i, -1)] = plane[at(level, side - 1 - i, 0)];

@@ -51,7 +51,7 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
             if (edge.from > edge.to) continue;
             const Vec3& low = corners_[static_cast<std::size_t>(edge.from)];
             const double length = glm::distance(low, corners_[static_cast<std::size_t>(edge.to)]);
-            // Round a facet seen from outside its edges run along n x n of the facet beyond.
+            // Seen from outside, a facet's edges run along its normal x the neighbour's normal.
             const Vec3 along = glm::cross(plane(f).normal, plane(edge.beyond).normal);
             const double across = glm::length(along);
             const double turned_by_corners = too_short / length,

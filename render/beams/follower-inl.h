@@ -1,26 +1,25 @@
-// Rays along the facets of a beam, many at once.
-// For one instruction set; Highway includes this once for each, which a guard of the usual kind
-// would not let it.
+// Follows rays along the facets of a beam, many at once. No include guard: Highway includes this
+// once per instruction set.
 
 HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-// The picture's right, turned with the view's axis into a ray.
+// The picture's right axis, turned with the view's axis into a ray.
 HWY_INLINE V3 eye_right(const ShadedEye& eye, const V3& direction) {
     const V3 forward = vector(eye.forward), right = vector(eye.right);
     return plus(right, hn::Neg(dot(right, direction)) / (number(1.0f) + dot(forward, direction)),
                 forward + direction);
 }
 
-// The parts of pixels whose light is wanted.
+// The parts of pixels to shade.
 HWY_INLINE PixelPart part_of(const Fragments& fragments, int first) {
     if (fragments.xx == nullptr) return {number(1.0f), number(0.0f), number(1.0f)};
     return {hn::LoadU(k_floats, fragments.xx + first), hn::LoadU(k_floats, fragments.yx + first),
             hn::LoadU(k_floats, fragments.yy + first)};
 }
 
-// kGeneral: polarised lights, what the eye responds to, merged crystals.
+// kGeneral: polarised lights, the eye's response, merged crystals.
 template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
 class Follower {
 public:
@@ -53,8 +52,8 @@ public:
             const V3 a{number(face.x), number(face.y), number(face.z)};
             const V cosine = dot(a, ray_.direction);
             if (located) {
-                // Rays beside the beam need not meet its facets: they go no farther than a ray in
-                // the stone can.
+                // Rays beside the beam may miss its facets: limit them to the longest way in the
+                // stone.
                 const V towards = hn::Max(cosine, number(1e-4f));
                 const V farthest = number(stone_.size);
                 const V length =
@@ -81,11 +80,10 @@ public:
             }
             if constexpr (kPolarised) turn(a, cosine, k);
             meet(a, cosine);
-            // Rays beside the beam may lose all along its facets; what is left of it would be
-            // numbers too small for the processor's fast ways.
+            // Rays beside the beam may lose all light along its facets: avoid slow denormals.
             V most = hn::Abs(carried_.I);
             if constexpr (kGeneral) {
-                // Of a Stokes parameter that is a difference, the first may be nothing.
+                // The first Stokes parameter of a response may be zero.
                 most = hn::Max(hn::Max(most, hn::Abs(carried_.Q)),
                                hn::Max(hn::Abs(carried_.U), hn::Abs(carried_.V_)));
             }
@@ -135,19 +133,17 @@ private:
             const V3 across{number(side->x), number(side->y), number(side->z)};
             most = hn::Max(most, dot(across, ray_.point) - number(side->offset));
         }
-        // By more than single precision's rounding over a long path: nearer ones are looked at
-        // again.
+        // Inside by more than rounding errors over a long path; rays closer to a side are retraced.
         return most <= number(-1e-6f * stone_.size);
     }
 
-    // How far a neighbouring ray's point moves along its ray to be in the plane. Of rays beside the
-    // beam, which hardly meet its facets, more than this says nothing, and would grow from facet to
-    // facet until it is no number.
+    // How far a neighbouring ray's point moves along its ray into the plane. Rays beside the beam
+    // hardly meet its facets; the clamp keeps their shifts from growing into NaN.
     HWY_INLINE V into_plane(const V3& moved, const V3& a, const V& towards) const {
         const V farthest = number(1e6f * stone_.size);
         return hn::Clamp(hn::Neg(dot(a, moved)) / towards, hn::Neg(farthest), farthest);
     }
-    // The next point's change: it stays in the plane.
+    // Change of the next point, within the plane.
     HWY_INLINE void move(V3& point, const V3& direction_change, const V& length, const V3& a,
                          const V& towards) {
         const V3 moved = plus(point, length, direction_change);
@@ -168,7 +164,7 @@ private:
             hn::MulAdd(carried_.I / number(static_cast<float>(lights_.nodes)), lost, absorbed);
     }
 
-    // Light at the end of a path of weight `weight`; `end` has what else is known of it.
+    // Adds the light at the end of a path of weight `weight`; `end` holds its polarisation.
     HWY_INLINE void leaf(const V& weight, const Ray& out, PathWeight& end) {
         if constexpr (kMany) {
             V weights[k_band_nodes];
@@ -187,7 +183,7 @@ private:
         }
     }
 
-    // Q and U of what leaves through a face, with the tangent `s` of any length.
+    // Sets Q and U of light that leaves through a face, for the tangent `s` of any length.
     HWY_INLINE void polarise(PathWeight& end, const V& Q, const V& U, const V3& direction,
                              const V3& s) const {
         end.polarised = true;
@@ -201,7 +197,7 @@ private:
         end.v = cross(direction, end.u);
     }
 
-    // The eye ray through a pixel, to the first face and through it.
+    // Brings the eye ray through a pixel to the first face and through it.
     HWY_INLINE void enter(const V& dx, const V& dy, const PixelPart& part) {
         const ShadedStone::Face& face = stone_.faces[facets_[0]];
         const V3 N{number(face.x), number(face.y), number(face.z)};
@@ -241,7 +237,7 @@ private:
             mirrored.point_y = ray_.point_y;
         }
 
-        // What stands before the stone.
+        // Near lights in front of the stone.
         uncovered_ = number(1.0f);
         const int nodes = kMany ? lights_.nodes : 1;
         for (int i = 0; i < nodes; ++i) before_[i] = number(0.0f);
@@ -282,12 +278,12 @@ private:
         const V R = half * (R_s + R_p), D = half * (R_s - R_p);
         PathWeight end{};
         if constexpr (kGeneral) {
-            // Stokes parameters of what the eye responds to, in the face's frame.
+            // Stokes parameters of the eye's response, in the face's frame.
             carried_ = {one, number(0.0f), number(0.0f), number(0.0f)};
             const V3 s = cross(along, N);
             if (optics_.response) {
                 const auto& row = *optics_.response;
-                // The picture's y is the other way round: right x ray, not ray x right.
+                // The picture's y points the other way: right x ray instead of ray x right.
                 carried_ = {number(row[0]), number(row[1]), number(-row[2]), number(row[3])};
                 const V3 right = eye_right(eye_, along);
                 const DoubleAngle turned(dot(right, s), dot(cross(along, right), s));
@@ -297,7 +293,7 @@ private:
             polarise(end, hn::MulAdd(D, was.I, R * was.Q), r_s * r_p * was.U, mirrored.direction,
                      tangent_or_any(s, along));
             leaf(hn::MulAdd(R, was.I, D * was.Q), mirrored, end);
-            // t_s t_p, from the powers.
+            // t_s t_p from the powers.
             const V both = hn::Sqrt(hn::Max((one - R_s) * (one - R_p), number(0.0f)));
             carried_ = {hn::NegMulAdd(D, was.Q, (one - R) * was.I),
                         hn::NegMulAdd(D, was.I, (one - R) * was.Q), both * was.U, both * was.V_};
@@ -308,7 +304,7 @@ private:
             carried_.U = number(0.0f);
             carried_.V_ = number(0.0f);
         }
-        // Cosine of the ray with the face before, as `turn` wants it.
+        // Cosine with the face before, for `turn`.
         cosine_before_ = hn::Neg(q2) * over_n;
     }
 
@@ -316,8 +312,7 @@ private:
         const M oblique = dot(s, s) > number(1e-20f);
         return hn::AllTrue(k_floats, oblique) ? s : any_tangent(s, d, oblique);
     }
-    // Into the tangent of the face with normal a, from that of the face before with normal b: the
-    // tangents are d x b and d x a.
+    // Rotates from the tangent d x b of the face before to the tangent d x a of this one.
     HWY_INLINE void turn(const V3& a, const V& cosine, int k) {
         const ShadedStone::Face &now = stone_.faces[facets_[k]],
                                 &was = stone_.faces[facets_[k - 1]];
@@ -334,8 +329,7 @@ private:
     HWY_INLINE void meet(const V3& a, const V& cosine) {
         const float n = optics_.n;
         const V e = number(n * n), one = number(1.0f), half = number(0.5f), zero = number(0.0f);
-        // Never quite 0: of rays that do not meet this facet no amplitude is used, but 0 over 0
-        // would be an invalid operation.
+        // Never 0, as 0 / 0 is an invalid operation. Rays that miss the facet do not use it.
         const V q1 = number(n) * hn::Max(cosine, number(1e-20f));
         const V q2_squared = hn::MulAdd(q1, q1, number(-(n - 1) * (n + 1)));
         const M out = q2_squared > zero;
@@ -375,7 +369,7 @@ private:
         }
         if constexpr (kPolarised) {
             if (!hn::AllTrue(k_floats, out)) {
-                // r_s r_p* of total reflection: twice the angle of A + i B.
+                // r_s r_p* of total reflection: twice the phase of A + i B.
                 const V kappa = hn::Sqrt(hn::Max(hn::Neg(q2_squared), zero));
                 const V A = hn::MulAdd(e * kappa, kappa, q1 * q1),
                         B = number((n - 1) * (n + 1)) * kappa * q1;
@@ -432,7 +426,7 @@ void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
     for (int i = 0; i < fragments.count; i += lanes) follower.follow(i);
 }
 
-// By the shortest form that holds all that the scene's optics do.
+// Uses the simplest variant that covers the scene's optics.
 template <bool kPolarised, bool kSoft>
 void follow_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                  int facet_count, const Fragments& fragments) {

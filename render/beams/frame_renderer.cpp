@@ -22,22 +22,23 @@ namespace culet {
 
 namespace {
 
-// Beams that are cut for their share of the picture may be this many before they bring as much as
-// those cut for their weight.
+// It takes 4e5 beams cut for their share of the picture to lose as much light as those cut for
+// their weight.
 constexpr double k_cut_share = 1 / 4e5;
-// Beams alone in their pixel, as a multiple of the tolerance: what they bring to it is some ten
-// times as much, and as often too bright as too dark.
+// Beams that follow their middle ray alone, in square pixels over the tolerance. They bring a pixel
+// about ten times that much light, and err to either side equally often.
 constexpr double k_alone = 10;
-// A border that is off by a pixel brings its contrast to that pixel: borders may be off by this
-// multiple of the tolerance, in pixels, within bounds between which accuracy is cheap (docs: "How
-// fast, and how right"). Rays that are looked at again need less.
+// Border error in pixels over the tolerance: a border off by a pixel brings its contrast to that
+// pixel. Bounded to a range where accuracy is cheap (docs/engines.md, "What accuracy costs in
+// time"). Verified rays may have larger errors.
 constexpr double k_map_error = 10, k_least_map_error = 0.02, k_least_verified = 0.1,
                  k_most_map_error = 0.25;
-// Previews have one colour a beam, which is off by far more than a beam's borders, and by more than
-// beams that bring less than that much to a pixel.
+// Previews have one colour per beam, an error far larger than that of these borders and of weaker
+// beams.
 constexpr double k_preview_map_error = 1;  // pixels
 constexpr double k_preview_alone = 4;      // square pixels
-// Merged images that lie this far apart are off by as much: a tenth of a pixel at edges.
+// Distance of a crystal's two images up to which they are merged: the error is a tenth of a pixel
+// at edges.
 constexpr double k_seen_apart = 0.1;  // pixels
 
 using Clock = std::chrono::steady_clock;
@@ -70,7 +71,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
         std::clamp(k_map_error * scene.settings.tolerance,
                    settings.shading == BeamShading::single ? k_least_verified : k_least_map_error,
                    k_most_map_error);
-    // Borders of many views are off this way and that.
+    // Errors of the borders average out over many views.
     if (scene.camera.aperture_radius > 0) settings.limits.map_error = k_most_map_error;
     if (settings.shading == BeamShading::flat) {
         settings.limits.map_error = k_preview_map_error;
@@ -79,7 +80,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     return settings;
 }
 
-// Of the wavelength at which they lie farthest apart; pixels.
+// Largest distance of a crystal's two images over the wavelengths, in pixels.
 double images_apart(const Scene& scene, const OpticalSetup& setup) {
     double widest = 0;
     for (const Band& band : setup.bands) {
@@ -91,7 +92,7 @@ double images_apart(const Scene& scene, const OpticalSetup& setup) {
     return widest;
 }
 
-// How a crystal's two waves go, and why; the latter where it matters.
+// Whether a crystal's two waves are merged or split, and why.
 struct CrystalChoice {
     CrystalBeams beams = CrystalBeams::merged;
     std::string why;
@@ -133,15 +134,15 @@ struct FrameRenderer::State {
     PreparedScene prepared;
     BeamRenderer renderer;
     RenderResult result;
-    std::optional<double> checked_bound;  // of an earlier frame of this light and these settings
-    double limit_ms = 0, cut = 0;         // of a beam's share, to keep within the limit
+    std::optional<double> checked_bound;  // of an earlier frame with this light and these settings
+    double limit_ms = 0, cut = 0;         // cut: a beam's share, for the time limit
     Progress progress;
 
     void show(Scene changed);
     void draw(bool check);
 };
 
-// Nothing changes where it cannot be drawn.
+// Changes nothing if beams cannot draw the scene.
 void FrameRenderer::State::show(Scene changed) {
     PreparedScene anew(changed);
     require_beams(changed, anew.setup);
@@ -193,7 +194,7 @@ void FrameRenderer::State::draw(bool with_check) {
         stats.notes.emplace_back("the error bound is that of an earlier view");
     }
     if (limit_ms > 0) {
-        // The number of beams falls about with the root of the cut: steps towards the limit.
+        // The number of beams falls roughly as the root of the cut.
         const double ratio = took_ms / limit_ms;
         const double least = 1e-9;
         if (ratio > 1 || cut > 0) cut = std::max(cut, least) * ratio * ratio;

@@ -1,6 +1,4 @@
-// What rays see of the lights.
-// For one instruction set; Highway includes this once for each, which a guard of the usual kind
-// would not let it.
+// What rays see of the lights. No include guard: Highway includes this once per instruction set.
 
 #include <hwy/contrib/math/math-inl.h>
 
@@ -10,8 +8,8 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-// Share of parts of pixels within a circle in the plane across `normal` (share_in_disc), where
-// `some` are near enough to see it: by their corners, as far as these are known.
+// Share of pixels' parts within a circle in the plane across `normal` (share_in_disc). For the rays
+// of `some`, near enough to see the circle, uses the parts' corners if known.
 HWY_INLINE V share_in_circle_by_parts(const Ray& ray, const M& some, const V3& offset,
                                       const V3& right, const V3& down, const V3& normal,
                                       const V& radius) {
@@ -44,7 +42,7 @@ HWY_INLINE V share_in_circle_by_parts(const Ray& ray, const M& some, const V3& o
     return hn::Load(k_floats, shares);
 }
 
-// How much of a pixel sees a distant disc about `axis`.
+// Share of a pixel that sees a distant disc around `axis`.
 template <bool kSoft>
 HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ray& ray) {
     const V3& d = ray.direction;
@@ -54,10 +52,9 @@ HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ra
     const Gradient wide{dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
     const V share = share_above(cosine - number(disc.cosine), wide);
     if (disc.cosine < 0.70710678f) return share;
-    // About a small one the cosine is no measure of distance, and single precision knows little of
-    // it. The angle to its rim, as 2 tan of its half, is: 2 (sin b - sin a) / (cos a + cos b).
-    // Where a pixel sees so much that its share is no parallelogram (next to total reflection),
-    // that tells nothing.
+    // For small discs the cosine does not resolve the distance in single precision. Use the angle
+    // to the rim, as 2 tan of its half: 2 (sin b - sin a) / (cos a + cos b). This fails where a
+    // pixel sees so much that its part is no parallelogram (near total reflection).
     const M near_axis =
         hn::And(cosine > number(0.5f), narrow(ray.direction_x, ray.direction_y, number(1.0f)));
     if (hn::AllFalse(k_floats, near_axis)) return share;
@@ -68,7 +65,7 @@ HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ra
     const V inside = number(2.0f) * (number(disc.sine) - sine) / (cosine + number(disc.cosine));
     const Gradient near{dot(beside, right) * over, dot(beside, down) * over};
     V found = hn::IfThenElse(near_axis, share_above(inside, near), share);
-    // Of one whose rim is curved where a pixel sees it.
+    // Discs whose rim is visibly curved within a pixel.
     const V radius = number(2 * disc.sine / (1 + disc.cosine));
     const M small = hn::And(near_axis, exceeds(right, down, radius));
     if (hn::AllFalse(k_floats, small)) return found;
@@ -82,7 +79,7 @@ HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ra
                           found);
 }
 
-// Light that comes along a ray: calls take(factor, radiance of each node, polarisation).
+// Calls take(factor, radiance of each node, polarisation) for each distant light along a ray.
 template <bool kSoft, class Take>
 HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const V& unhidden,
                               Take& take) {
@@ -98,13 +95,13 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
             for (int e = lobe.whole; e > 0; e >>= 1, square = square * square) {
                 if (e & 1) power = power * square;
             }
-            // The power 0 is 1 on the lobe's side alone.
+            // Power 0 is 1 on the lobe's side only.
             if (lobe.whole == 0) power = hn::IfThenElseZero(cosine > number(0.0f), power);
         } else {
-            // The smallest normal number stands for 0, whose logarithm is no number.
+            // The smallest normal number replaces 0, whose logarithm is not finite.
             const V some = hn::Max(cosine, number(1.2e-38f));
-            // About the axis the cosine is 1 but for rounding, which a sharp lobe takes to its
-            // power; the sine keeps its digits.
+            // Near the axis the cosine is 1 up to rounding, which a sharp lobe would amplify; the
+            // sine keeps its digits.
             const V3 across = cross(V3{number(lobe.x), number(lobe.y), number(lobe.z)}, d);
             const V sine2 = hn::Min(dot(across, across), number(0.5f));
             const V logarithm = hn::IfThenElse(cosine > number(0.70710678f),
@@ -123,7 +120,7 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
     }
 }
 
-// The environment's red, green and blue at a direction.
+// Red, green and blue of the environment in a direction.
 HWY_INLINE V3 environment_at(const EnvironmentPyramid& map, const V3& d, const V& extent) {
     const auto& levels = map.levels();
     const V sum = hn::Abs(d.x) + hn::Abs(d.y) + hn::Abs(d.z);
@@ -150,7 +147,7 @@ HWY_INLINE V3 environment_at(const EnvironmentPyramid& map, const V3& d, const V
     }
     const auto start = hn::Load(ints, start_of), side = hn::Load(ints, side_of);
     const V half = number(0.5f), side_f = hn::ConvertTo(k_floats, side);
-    // Texel centres are at half numbers; the border adds 1.
+    // Texel centres are at half-integers; the border adds 1.
     const V x = hn::MulAdd(hn::MulAdd(u, half, half), side_f, half),
             y = hn::MulAdd(hn::MulAdd(v, half, half), side_f, half);
     const V x0 = hn::Floor(x), y0 = hn::Floor(y);
@@ -168,7 +165,7 @@ HWY_INLINE V3 environment_at(const EnvironmentPyramid& map, const V3& d, const V
     return {mix(map.plane(0)), mix(map.plane(1)), mix(map.plane(2))};
 }
 
-// Near lights by their distance: how much of the pixel each fills, and how far it is.
+// Near lights: the share of the pixel that each fills, and its distance.
 template <bool kSoft>
 HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V& distance) {
     const V3 to{number(sphere.x) - ray.point.x, number(sphere.y) - ray.point.y,
@@ -179,7 +176,7 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
     const V radius = number(sphere.radius);
     distance = along;
     if constexpr (kSoft) {
-        // No pixel comes near it.
+        // Return early if no pixel is near it.
         const V wide = length_of(plus(ray.point_x, along, ray.direction_x)) +
                        length_of(plus(ray.point_y, along, ray.direction_y));
         if (hn::AllFalse(k_floats, miss < radius + wide)) return number(0.0f);
@@ -192,7 +189,7 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
         return hn::IfThenElseZero(hn::And(distance > number(0.0f), inside > number(0.0f)),
                                   number(1.0f));
     } else {
-        // What a pixel sees beside the middle, across the ray.
+        // Change per pixel of the point next to the centre, across the ray.
         const V over = number(1.0f) / hn::Max(miss, number(1e-30f));
         const V3 to_right = plus(ray.point_x, along, ray.direction_x),
                  down = plus(ray.point_y, along, ray.direction_y);
@@ -251,14 +248,14 @@ HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& di
     return share;
 }
 
-// Near lights along a ray, up to `reach`; returns the share of the pixel that they leave free.
+// Adds near lights along a ray up to `reach`; returns the share of the pixel that they leave free.
 template <bool kSoft, class Take>
 HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& reach, Take& take) {
     V share[k_most_near_lights], distance[k_most_near_lights];
     const float* radiance[k_most_near_lights];
     const ShadedLights::Polarised* polarised[k_most_near_lights];
     int count = 0;
-    // Those that no ray sees take no part: of several lights most rays see one or none.
+    // Drop lights that no ray sees: of several lights most rays see one or none.
     const auto put = [&](const auto& light, const V& seen) HWY_ATTR {
         share[count] = hn::IfThenElseZero(distance[count] < reach, hn::Max(seen, number(0.0f)));
         if (hn::AllFalse(k_floats, share[count] > number(0.0f))) return;
@@ -299,16 +296,16 @@ HWY_INLINE void all_light(const ShadedLights& lights, const Ray& ray, Take& take
     }
 }
 
-// What reaches the eye of a path's end: its weight at each node, and where light's polarisation
-// counts (one node then) the rest of the Stokes parameters, along u and v.
+// The end of a path as the eye sees it: its weight at each node and, if polarisation matters (with
+// one node), the other Stokes parameters along u and v.
 struct PathWeight {
     const V* weight;
     bool polarised = false;
-    V Q, U;  // of weight I = weight[0]
+    V Q, U;  // relative to I = weight[0]
     V3 direction, u, v;
 };
 
-// Adds light to the nodes' sums; without `kMany` there is one node, and no absorption.
+// Adds light to the nodes' sums; without `kMany` there is one node and no absorption.
 template <bool kMany>
 struct Gather {
     const ShadedLights& lights;
@@ -317,7 +314,7 @@ struct Gather {
 
     HWY_INLINE int nodes() const { return kMany ? lights.nodes : 1; }
 
-    // Of light that is polarised, more or less of the path's weight comes through.
+    // Weight of the path for a polarised light.
     HWY_INLINE V weight(int node, const ShadedLights::Polarised& light) const {
         const V I = path.weight[node];
         if (!kMany || !path.polarised || light.degree == 0) return I;
@@ -326,7 +323,7 @@ struct Gather {
             V3 normal = vector(light.normal);
             const V sign = hn::CopySign(number(1.0f), dot(normal, path.direction));
             normal = sign * normal;
-            // Turned with the normal into the ray, to which it is perpendicular then.
+            // Turned with the normal into the ray, and so perpendicular to it.
             const V cosine = dot(normal, path.direction);
             along = plus(along, hn::Neg(dot(along, path.direction)) / (number(1.0f) + cosine),
                          normal + path.direction);

@@ -17,9 +17,9 @@ Folding Folding::mirrored(const Plane& plane) const {
 
 namespace {
 
-// A ray at a face: towards it, and on behind it.
+// A ray at a face, before and behind it.
 struct Refracted {
-    Vec3 v{0}, x0{0};  // unit direction outside, and where it enters
+    Vec3 v{0}, x0{0};  // unit direction outside, entry point
     double distance = 0, cos_i = 1, q2 = 0;
 };
 Refracted refracted(const ScreenView& view, const ScreenPoint& at, const Plane& front, double n) {
@@ -73,7 +73,7 @@ PencilMap map_of(const Pencil& pencil, Refraction refraction, const Folding& fol
     }
     const double tan_t =
         -glm::dot(pencil.direction, pencil.tangential) / glm::dot(pencil.direction, pencil.normal);
-    // Depth and the two offsets as functions of a point of the folded stone: a vector and a number.
+    // Depth and the two offsets as affine functions of a point of the folded stone.
     const auto folded = [&](const Vec3& direction, double at_x0) {
         const Vec3 turned = folding.turn * direction;
         return glm::dvec4(turned, -glm::dot(turned, folding.shift) - at_x0);

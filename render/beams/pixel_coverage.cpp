@@ -16,9 +16,9 @@
 namespace culet {
 
 struct RegionBox {
-    int pixel = 0, width = 0;  // of the box's first row, and from row to row
+    int pixel = 0, width = 0;  // index of its first pixel; the picture's width
     int columns = 0, rows = 0;
-    float x = 0, y = 0;  // of its first pixel's middle, from the point of reference
+    float x = 0, y = 0;  // middle of its first pixel, from the reference point
 };
 
 struct SpanRows {
@@ -27,7 +27,7 @@ struct SpanRows {
     double inner_low = 0, inner_high = 0;  // y
 };
 
-// Numbers of one edge, or of the region, in each of some rows.
+// Numbers stored per edge, or for the region, in each row of a vector.
 constexpr std::size_t k_row_numbers = 6;
 
 }  // namespace culet
@@ -37,21 +37,21 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-// What rounding leaves of no area at all, and of a whole pixel.
+// Zero area and a whole pixel, up to rounding.
 constexpr float k_nothing = 1e-6f, k_whole = 1 - 4e-6f;
 
-// Moments of a part of a pixel about the pixel's middle: of what lies to the right of some edges,
-// less what lies to the right of others.
+// Moments of a pixel's part about the pixel's middle, summed over edges: each adds what lies to its
+// right, with its sign.
 struct Moments {
     V area, x, y, xx, xy, yy;
 
-    // An edge from its left end, at height y, to `rise` above it, over the signed height h: the
-    // shares `before` and `until` of it lie left of the pixel and left of its right side, and x is
-    // that of the middle of what is between. Closed forms of the integrals over y (Green 1828).
+    // Adds an edge that starts at its left end at height y0, rises by `rise`, and covers the signed
+    // height h. The shares `before` and `until` lie left of the pixel and left of its right side; x
+    // is the middle of what lies between. Closed forms of the integrals over y (Green 1828).
     HWY_INLINE void add(const V& h, const V& y0, const V& rise, const V& before, const V& until,
                         const V& middle, const V& reach) {
         const V third = number(1.0f / 3), half = number(0.5f), quarter = number(0.25f);
-        // Beside the part left of the pixel all of its rows count.
+        // Where the edge lies left of the pixel, it covers the pixel's whole rows.
         const V slab = h * before, ys = hn::MulAdd(half * rise, before, y0),
                 up = half * rise * before;
         const V in = h * (until - before), yi = hn::MulAdd(half * rise, before + until, y0),
@@ -72,13 +72,13 @@ struct Moments {
     }
 };
 
-// What CoveredPixels says of a part, all of the pixel where it is not `cut`.
+// The part in CoveredPixels' form; the whole pixel where not `cut`.
 struct Part {
     V x, y, xx, yx, yy;
 
     HWY_INLINE Part(const Moments& m, const M& cut) {
         const V zero = number(0.0f), one = number(1.0f), half = number(0.5f), twelve = number(12);
-        // Of next to nothing rounding leaves anything; it stays within the pixel.
+        // For tiny areas rounding dominates; clamp to the pixel.
         const V over = one / hn::Max(m.area, number(1e-12f));
         x = hn::IfThenElseZero(cut, hn::Clamp(m.x * over, hn::Neg(half), half));
         y = hn::IfThenElseZero(cut, hn::Clamp(m.y * over, hn::Neg(half), half));
@@ -94,7 +94,7 @@ struct Part {
     }
 };
 
-// `numbers` has room for `edge_count` + 1 blocks of k_row_numbers * lanes.
+// `numbers` needs room for `edge_count` + 1 blocks of k_row_numbers * lanes.
 void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const RegionBox& box,
                bool parts, float* numbers, CoveredPixels& found) {
     using Edge = PixelCoverage::Edge;
@@ -104,7 +104,7 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
     float *xs = found.x.data(), *ys = found.y.data(), *shares = found.share.data();
     int n = 0;
     for (int row0 = 0; row0 < box.rows; row0 += static_cast<int>(lanes)) {
-        // Each edge in many rows: between which x it crosses, over which signed height.
+        // For each edge and many rows: the range of x that it crosses, and its signed height.
         const V top = hn::Iota(k_floats, static_cast<float>(row0)), end = top + one;
         V left = number(widest), right = zero, full_left = zero, full_right = left, height = zero;
         for (std::size_t e = 0; e < edge_count; ++e) {
@@ -121,7 +121,7 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
                 yb == y_end, x_end,
                 hn::Min(hn::Max(hn::MulAdd(yb - y_top, slope, x_top), zero), widest_x));
             const V low = hn::Min(xa, xb);
-            // An upright edge is as wide as rounding.
+            // Give an upright edge the width of rounding.
             const V high =
                 hn::Max(hn::Max(xa, xb), hn::MulAdd(low, number(1.2e-7f), low) + number(1e-7f));
             float* of_edge = numbers + e * block;
@@ -129,7 +129,7 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
             hn::StoreU(one / (high - low), k_floats, of_edge + lanes);
             hn::StoreU(number(0.5f) * (high - low), k_floats, of_edge + 2 * lanes);
             hn::StoreU(number(edge.sign) * over, k_floats, of_edge + 3 * lanes);
-            // From the row's middle.
+            // Relative to the row's middle.
             const V half_row = top + number(0.5f);
             const M falls = xb < xa;
             hn::StoreU(hn::IfThenElse(falls, yb, ya) - half_row, k_floats, of_edge + 4 * lanes);
@@ -182,7 +182,7 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
                     share = zero;
                     for (std::size_t e = 0; e < edge_count; ++e) {
                         const float* of_edge = numbers + e * block + row;
-                        // How much of the edge lies left of the pixel, and left of its right side.
+                        // Shares of the edge left of the pixel and left of its right side.
                         const V in = pixel - number(of_edge[0]);
                         const V over_width = number(of_edge[lanes]);
                         const V before = clamped_to_unit(in * over_width),
@@ -216,7 +216,7 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
             found.runs.push_back(
                 {box.pixel + (row0 + row) * box.width + static_cast<int>(first) + skipped,
                  n + skipped, count - skipped});
-            // Skipped places stay, with nothing in them.
+            // Skipped pixels stay in the arrays with share 0.
             for (int i = 0; i < skipped; ++i) shares[n + i] = 0;
             n += count;
         }
@@ -229,16 +229,16 @@ using Doubles = hn::ScalableTag<double>;
 using D = hn::Vec<Doubles>;
 constexpr Doubles k_doubles;
 
-// In each row the columns whose middles are in the region, and those farther than `margin` from its
-// border; `spans` has room for 4 numbers a row and a vector's more in each of the four.
+// For each row the columns whose middles are in the region, and those farther than `margin` from
+// its border. `spans` needs room for 4 numbers per row, and one more vector for each of the four.
 void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRows& rows,
                double margin, double* spans) {
     const std::size_t lanes = hn::Lanes(k_doubles);
     const D half = hn::Set(k_doubles, 0.5), zero = hn::Zero(k_doubles),
             width = hn::Set(k_doubles, rows.width), by = hn::Set(k_doubles, margin);
     const auto first_middle = [&](const D& x) HWY_ATTR {
-        // Bounded first: a side that is all but level leaves the picture by more than the integers
-        // hold through which some processors round.
+        // Clamp first: a nearly level side leaves the picture by more than the integers can hold
+        // through which some processors round.
         return hn::Ceil(hn::Min(hn::Max(x - half, zero), width));
     };
     for (std::size_t row0 = 0; row0 < rows.count; row0 += lanes) {
@@ -246,11 +246,12 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
         D left = width, right = zero, inner_left = zero, inner_right = width;
         for (std::size_t i = 0; i < count; ++i) {
             const PixelCoverage::Side& side = sides[i];
-            // Alike for both regions that share the side.
+            // Computed identically for both regions that share the side.
             const D x = hn::Set(k_doubles, side.x_top) +
                         (y - hn::Set(k_doubles, side.y_top)) * hn::Set(k_doubles, side.slope);
             const D moved = by * hn::Set(k_doubles, side.stretch);
-            // A middle on the upper end's level is the side's, one on the lower end's is not.
+            // Middles level with the upper end belong to the side, those level with the lower end
+            // do not.
             const auto here =
                 hn::And(y >= hn::Set(k_doubles, side.y_top), y < hn::Set(k_doubles, side.y_end));
             if (side.right) {
@@ -275,7 +276,7 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
     }
 }
 #else
-// Where vectors hold no doubles (WebAssembly in Highway 1.0): row by row, by the same formulas.
+// Without vectors of doubles (WebAssembly in Highway 1.0): the same formulas row by row.
 void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRows& rows,
                double margin, double* spans) {
     const double width = rows.width;
@@ -311,7 +312,7 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
 }
 #endif
 
-// Places and shares of whole pixels; a run's y is that of its row.
+// Fills in positions and shares of whole pixels.
 void FillRuns(const RegionBox& box, CoveredPixels& found) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));
     const V one = number(1.0f);
@@ -377,7 +378,7 @@ const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_
               y0 = std::max(static_cast<int>(std::floor(y_low)), row_begin),
               y1 = std::min(static_cast<int>(std::ceil(y_high)), row_end);
     if (y0 >= y1) return found_;
-    // In the region's own corner, where single precision has digits to spare.
+    // Relative to the region's own corner, so that single precision suffices.
     const auto local = [&](const ScreenPoint& p) {
         return std::pair{
             static_cast<float>(std::clamp(p.x - x0, 0.0, static_cast<double>(x1 - x0))),
@@ -387,7 +388,7 @@ const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_
     auto [xa, ya] = local(corners[count - 1]);
     for (std::size_t i = 0; i < count; ++i) {
         const auto [xb, yb] = local(corners[i]);
-        // Positively oriented: edges that run up (in y) have the region on their left.
+        // Positively oriented: edges that run upwards in y have the region on their left.
         if (ya < yb) edges_.push_back({xa, ya, xb, yb, (xb - xa) / (yb - ya), -1.0f});
         if (ya > yb) edges_.push_back({xb, yb, xa, ya, (xa - xb) / (ya - yb), 1.0f});
         xa = xb;
@@ -415,7 +416,7 @@ const CoveredPixels& PixelCoverage::middles(const ScreenPoint* corners, std::siz
         y_low = std::min(y_low, corners[i].y);
         y_high = std::max(y_high, corners[i].y);
     }
-    // The lowest whole number that is not below v - 1/2: pictures have no rows before -1.
+    // The least integer not below v - 1/2; pictures have no rows before -1.
     const auto first_middle = [](double v) {
         const int whole = static_cast<int>(v - 0.5);
         return whole + (whole < v - 0.5);
@@ -441,7 +442,7 @@ const CoveredPixels& PixelCoverage::middles(const ScreenPoint* corners, std::siz
      {static_cast<double>(y0), static_cast<double>(width_), rows, stride, y_low + margin,
       y_high - margin},
      margin, spans_.data());
-    // Those near the border first, then the others.
+    // Pixels near the border come first.
     const auto add = [&](std::size_t row, double from, double until) {
         if (!(from < until)) return;
         const int columns = static_cast<int>(until - from);

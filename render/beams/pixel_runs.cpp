@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-// Calls `whole(i)` for vectors of values and `part(i, mask)` for what is left, where the processor
-// can leave the rest of a vector alone; or else `one(i)` for each.
+// Calls `whole(i)` for full vectors. For the rest calls `part(i, mask)` if the processor has masked
+// stores, else `one(i)` for each value.
 template <typename Whole, typename Part, typename One>
 HWY_INLINE void over_values(int count, const Whole& whole, const Part& part, const One& one) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));

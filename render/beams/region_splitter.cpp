@@ -19,7 +19,7 @@ void RegionSplitter::prepare(const FacetNet& net) {
     }
 }
 
-// The edge beyond which the point is seen, if it is not on the facet.
+// The edge across which the point lies; null if it is on the facet.
 const NetEdge* RegionSplitter::way_to(int facet, const ScreenPoint& point) {
     for (const NetEdge& edge : net_->edges(facet)) {
         const Vec3& l = line(edge);
@@ -29,8 +29,8 @@ const NetEdge* RegionSplitter::way_to(int facet, const ScreenPoint& point) {
     return nullptr;
 }
 
-// The facet in whose image the point lies, by walking over edges from `start`; where that does not
-// lead there, which a start that is seen from outside may do, by looking at all.
+// The facet whose image contains the point. Walks over edges from `start`; if that fails, as it may
+// from a facet seen from outside, tries all facets.
 int RegionSplitter::facet_around(int start, const ScreenPoint& point) {
     int facet = start;
     for (int step = 0; step < net_->facets() && leads_out(facet); ++step) {
@@ -49,11 +49,11 @@ void RegionSplitter::clip(std::vector<ScreenPoint>& pool, const Region& region, 
     const std::vector<NetEdge>& edges = net_->edges(facet);
     cutter_.take(pool.data() + region.first, region.count, edges.size());
     for (const NetEdge& edge : edges) {
-        // Where a ray left a facet it crossed that facet's edges on the right side.
+        // Rays that left a facet crossed its edges on the correct side.
         if (edge.beyond == from) continue;
         const auto [lowest, highest] =
             cutter_.measure(static_cast<double>(inside_of(edge)) * line(edge));
-        // Beyond the outline of what the eye sees from within there is no other facet.
+        // Beyond the outline of the facets seen from inside there is no other facet.
         if (!(lowest < 0) || !leads_out(edge.beyond)) continue;
         unsigned& seen = seen_[static_cast<std::size_t>(edge.beyond)];
         if (seen != stamp_) {
@@ -81,9 +81,9 @@ void RegionSplitter::split(const InsideView& view, std::vector<ScreenPoint>& poo
     }
     const std::size_t parts_before = parts.size(), pool_before = pool.size();
     tile(pool, region, from, start, middle, parts);
-    // Past the outline of what the eye sees from within, facets that are not neighbours may both
-    // hold the same place. Rounding apart the parts have the whole's area, or else the region is
-    // cut along the outline first.
+    // Beyond the outline of the facets seen from inside, facets that are not neighbours may
+    // overlap. If the parts' areas do not sum to the region's up to rounding, cut the region along
+    // the outline first.
     const double whole = doubled_area(pool.data() + region.first, region.count);
     double sum = 0;
     for (std::size_t i = parts_before; i < parts.size(); ++i) sum += parts[i].doubled_area;
@@ -108,8 +108,7 @@ void RegionSplitter::tile(std::vector<ScreenPoint>& pool, const Region& region, 
     }
 }
 
-// What lies past an edge of the outline is given to the facet within it, edge by edge; returns what
-// is left.
+// Assigns what lies beyond each edge of the outline to the facet within it; returns the rest.
 Region RegionSplitter::cut_off_outline(std::vector<ScreenPoint>& pool, const Region& region,
                                        std::vector<FacetRegion>& parts) {
     Region left = region;

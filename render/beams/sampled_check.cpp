@@ -15,12 +15,12 @@ namespace culet {
 
 namespace {
 
-// Pixels that are compared with the reference, and its rays in each: their own noise counts as the
-// beams' error, which can only make the bound larger.
+// Checked pixels across the picture, and reference rays in each. The noise of these rays counts as
+// error of the beams, so it can only raise the bound.
 constexpr int k_checked_across = 64, k_check_samples = 16;
 constexpr double k_standard_errors = 3;
 
-// On a grid over the picture, or of so many pixels on the stone, jittered by the golden ratio.
+// Pixels on a grid over the picture, or `wanted` pixels on the stone, jittered by the golden ratio.
 std::vector<std::size_t> pixels_to_check(const Picture& picture, int wanted, double filled) {
     const double area =
         wanted > 0 ? filled
@@ -80,7 +80,7 @@ SampledCheck check_against_reference(const Scene& scene, const PreparedScene& pr
     if (listener.stopped()) throw Interrupted();
     double sum = 0, squares = 0;
     for (double error : errors) {
-        // A pixel of no number is as wrong as can be.
+        // Non-finite pixels count with the largest possible error.
         if (!std::isfinite(error)) error = prepared.surroundings->max_radiance();
         sum += error;
         squares += error * error;

@@ -28,12 +28,12 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     view.height = camera.height;
     view.forward = forward;
     view.right = right;
-    glm::dmat3 basis;  // its inverse takes a point, from the eye, to the picture
+    glm::dmat3 basis;  // its inverse maps a point, relative to the eye, to the picture
     if (camera.orthographic_width) {
         const double pixel = *camera.orthographic_width / camera.width;
         const Vec3 corner = camera.position - pixel * (middle_x * right + middle_y * down);
         if (camera.aperture_radius > 0) {
-            // Rays of a pixel meet in the plane in focus; they do not meet in the pupil.
+            // Rays of a pixel meet in the plane of focus, not in the pupil.
             view.o = corner + beside;
             view.v = focus * forward - beside;
         } else {

@@ -33,7 +33,8 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& 
         pass.n = band.n / band.n_outside;
         pass.plane = static_cast<std::size_t>(k) * nodes + static_cast<std::size_t>(first);
         pass.counts_area = passes.empty();
-        // Remainders are of the eye's unit of light, which only S0's pass carries whole.
+        // Remainders are relative to the eye's unit of light, which only the pass of S0 carries
+        // completely.
         const double unit = stokes == 4 || !responds ? 1 : seen[0];
         pass.weight = k == 0 ? 1 / (unit * static_cast<double>(nodes)) : 0;
         std::vector<double> one(nodes, 0.0);

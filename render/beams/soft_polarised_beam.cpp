@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/beams/soft_polarised_beam.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h, each after the one before; clang-format must not sort them.
+// After foreach_target.h and in this order, each needing the one before.
 // clang-format off
 #include "render/beams/vectors-inl.h"
 #include "render/beams/lights-inl.h"

@@ -10,16 +10,15 @@ namespace culet {
 
 namespace {
 
-// Pixels between the ray of reference and those beside it: differences over it hold about half of
-// the digits of double precision.
+// Pixels between the reference ray and its neighbours: finite differences keep about half the
+// digits of double precision.
 constexpr double k_beside = 1e-3;
-// Every face is a call within a call, of 5 kB of stack each, and threads have 4 MB (8 at most).
-// What is left of a beam then counts as remainder.
+// Each face is a recursive call that takes 5 kB of stack, and threads have 4 MB (8 at most). Deeper
+// light counts as remainder.
 constexpr int k_deepest_call = 200;
-// Where the ray of reference meets a facet's plane outside the stone it may have come too far, and
-// what it lost on the way back is less than nothing: to first order right for the points of the
-// beam, if it is small. No more than this, of an absorption so strong that nothing is of first
-// order.
+// Outside the stone the reference ray may pass its facet's plane and come back, and so regain
+// absorbed light. To first order that is right for points of a small beam. This bounds the exponent
+// for absorption so strong that first order fails.
 constexpr double k_most_regained = 1;
 
 std::array<double, 3> with_changes(const std::array<double, 3>& v) {
@@ -29,7 +28,7 @@ std::array<Vec3, 3> with_changes(const std::array<Vec3, 3>& v) {
     return {v[0], (v[1] - v[0]) / k_beside, (v[2] - v[0]) / k_beside};
 }
 
-// Radiance behind the eye's optics that amplitudes along the picture's x and y bring.
+// Radiance behind the eye's optics, from amplitudes along the picture's x and y.
 double seen(const Stokes& response, const Complex& x, const Complex& y) {
     const Complex xy = x * std::conj(y);
     return 0.5 * ((response[0] + response[1]) * std::norm(x) +
@@ -89,7 +88,7 @@ void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* regi
         points[i] = point;
         directions[i] = d - 2 * cosine * plane.normal;
         tangents[i] = s;
-        // What is reflected, of light that vibrates along s and along p, and at 45 degrees.
+        // Reflected light that vibrates along s, along p and at 45 degrees.
         const auto reflected = [&](const Complex& of_s, const Complex& of_p) {
             const Complex in_s = of_s * entry.back[0][0] + of_p * entry.back[0][1],
                           in_p = of_s * entry.back[1][0] + of_p * entry.back[1][1];
@@ -115,13 +114,13 @@ void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* regi
     }
 }
 
-// The rays' places as the eye sees them, to first order; exact to first order at `length`.
+// Maps points to the picture to first order, exact to first order at `length`.
 InsideView SplitBeams::view_of(const Rays& rays, double length) const {
     const Vec3 &x0 = rays[0].point, &t0 = rays[0].mode.ray;
     const auto change = [](const Vec3& a, const Vec3& b) { return (b - a) / k_beside; };
     const Vec3 X_u = change(x0, rays[1].point), X_v = change(x0, rays[2].point);
     const Vec3 T_u = change(t0, rays[1].mode.ray), T_v = change(t0, rays[2].mode.ray);
-    // How fast the rays part, per length: half the trace of what they do to an area's two sides.
+    // Divergence of the rays per length: half the trace of their effect on the sides of an area.
     const double area = glm::dot(t0, glm::cross(X_u, X_v));
     const double k =
         area != 0
@@ -132,7 +131,7 @@ InsideView SplitBeams::view_of(const Rays& rays, double length) const {
     const Vec3 a_u = glm::cross(Y_v, t0) / determinant, a_v = glm::cross(t0, Y_u) / determinant,
                a_s = glm::cross(Y_u, Y_v) / determinant;
     const double scale = 1 + length * k;
-    // Rows as a vector and a number: w, then x w and y w.
+    // Affine rows: w, then x w and y w.
     const glm::dvec4 w(k * a_s, 1 - k * glm::dot(a_s, x0));
     const auto row = [&](const Vec3& a, double at) {
         return scale * glm::dvec4(a, -glm::dot(a, x0)) + at * w;
@@ -150,7 +149,7 @@ InsideView SplitBeams::view_of(const Rays& rays, double length) const {
     return view;
 }
 
-// A beam that left facet `facet` as its `event`th.
+// Follows a beam that left `facet`, the `event`th facet that it met.
 void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, int event) {
     ++beams_;
     constexpr long long k_asked_after = 1024;
@@ -176,7 +175,7 @@ void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, in
         const Plane& plane = net_.plane(next.facet);
         bool meets = true;
         for (const Ray& ray : rays) meets = meets && glm::dot(plane.normal, ray.mode.ray) > 0;
-        // Seen edge-on by the ray of reference: left out, and counted.
+        // The reference ray sees it edge-on: count it as remainder.
         if (!meets) continue;
         followed += next.doubled_area;
         Rays at = rays;
@@ -205,7 +204,7 @@ void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, in
             if (!hits[0].modes[m].propagates || !(hits[0].power[m] > 0)) continue;
             Rays inside = at;
             for (int i = 0; i < 3; ++i) {
-                // Beyond the angle where a wave ceases, the one of reference serves.
+                // If this ray's wave is evanescent, use the reference ray's.
                 const CrystalHit& hit = hits[i].modes[m].propagates ? hits[i] : hits[0];
                 inside[i].mode = hit.modes[m];
                 inside[i].weight *= hit.power[m];

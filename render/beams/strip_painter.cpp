@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// False for points that are outside by more than rounding.
+// False for points outside by more than rounding.
 bool may_be_within(const std::vector<ScreenPoint>& outline, const ScreenPoint& p) {
     constexpr double k_rounding = 1e-6;  // pixels
     for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
@@ -22,7 +22,7 @@ bool may_be_within(const std::vector<ScreenPoint>& outline, const ScreenPoint& p
     return true;
 }
 
-// Those from `first` on.
+// The fragments from `first` on.
 Fragments rest_of(const Fragments& all, int first, int count) {
     Fragments rest = all;
     rest.follows = nullptr;
@@ -44,9 +44,9 @@ Fragments rest_of(const Fragments& all, int first, int count) {
     return rest;
 }
 
-// Beams that are painted before somebody is asked whether to go on.
+// Beams painted between questions whether to go on.
 constexpr std::size_t k_asked_every = 16;
-// Borders of beams are off by half of this.
+// Borders of sure beams are off by at most half of this.
 constexpr double k_margin = 0.5;  // pixels
 
 }  // namespace
@@ -79,7 +79,7 @@ void StripPainter::reserve(int count, int nodes) {
     }
 }
 
-// One colour for all of the beam: that of its middle.
+// Paints a beam in the colour of its middle.
 void StripPainter::paint_flat(const CoveredPixels& covered, const Beam& beam,
                               const std::uint16_t* facets, const ShadedEye& eye,
                               const ShadingPass& pass) {
@@ -120,12 +120,12 @@ void StripPainter::paint_flat(const CoveredPixels& covered, const Beam& beam,
     sums_.absorbed += filled * pass.weight * nodes * static_cast<double>(absorbed_[0]);
 }
 
-// A ray along the facets that it does meet. False: it misses the stone.
+// Shades a ray along the facets that it actually meets. False if it misses the stone.
 bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longest, float* radiance,
                            int stride, float& left, float& absorbed, float& unhidden,
                            float* before) {
     const ScreenPoint at{pixel % canvas_.width + 0.5, pixel / canvas_.width + 0.5};
-    // As many facets as its beam has, or all that matter.
+    // As many facets as its beam has; else all that matter.
     const bool as_beam = longest > 0;
     find_facets(stone_.body, *view_, at, pass.n,
                 as_beam ? static_cast<int>(longest) : options_.depth,
@@ -162,7 +162,7 @@ bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longe
     return true;
 }
 
-// With room for what shading finds; radiance is all that is wanted yet.
+// Prepares fragments, with outputs for the radiance only.
 Fragments StripPainter::fragments_of(const CoveredPixels& covered, const ShadingPass& pass) {
     const int nodes = pass.lights.nodes;
     reserve(covered.count, nodes);
@@ -184,7 +184,7 @@ Fragments StripPainter::fragments_of(const CoveredPixels& covered, const Shading
     return fragments;
 }
 
-// The radiance found last, and with `before` that of what stands before the stone.
+// Adds the radiance found last; with `before` also that of lights in front of the stone.
 void StripPainter::add_light(const CoveredPixels& covered, const float* shares,
                              const ShadingPass& pass, bool before) {
     const float of_picture = static_cast<float>(options_.share);
@@ -200,7 +200,7 @@ void StripPainter::add_light(const CoveredPixels& covered, const float* shares,
     }
 }
 
-// `unhidden`: which part of each pixel's share is seen; null: all.
+// `unhidden`: visible share of each pixel's part; null: all.
 void StripPainter::add_cover(const CoveredPixels& covered, const float* shares,
                              const float* unhidden) {
     add_to_runs(covered.runs, nullptr, shares, 1, strip(cover_));
@@ -209,7 +209,7 @@ void StripPainter::add_cover(const CoveredPixels& covered, const float* shares,
         options_.share * static_cast<double>(sum_of_shared(unhidden, shares, covered.count));
 }
 
-// Every pixel along the beam's facets; the first `to_verify` are looked at again.
+// Shades every pixel along the beam's facets and verifies the first `to_verify`.
 void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, int to_verify,
                                 const std::uint16_t* facets, const ShadedEye& eye,
                                 const ShadingPass& pass) {
@@ -235,7 +235,7 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
 
     const float* share = covered.share.data();
     if (options_.shading == BeamShading::single) {
-        // Where rounding gives a pixel's middle to two beams, the first has it.
+        // If rounding puts a pixel's middle into two beams, the first takes it.
         std::copy_n(covered.share.data(), covered.count, share_.data());
         claim_runs(covered.runs, strip(taken_), share_.data());
         share = share_.data();
@@ -252,7 +252,7 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
             of_sums * static_cast<double>(sum_of_shared(absorbed_.data(), share, covered.count));
 }
 
-// Whole pixels whose rays meet other facets than the beam's.
+// Retraces whole pixels whose rays meet other facets than the beam's.
 void StripPainter::retrace_astray(const CoveredPixels& covered, int verified, const Beam& beam,
                                   const ShadingPass& pass, const float* share) {
     const int stride = static_cast<int>(left_.size());
@@ -263,7 +263,7 @@ void StripPainter::retrace_astray(const CoveredPixels& covered, int verified, co
             if (!retrace(run.pixel + k, pass, beam.facets, radiance_.data() + i, stride, left_[i],
                          absorbed_[i], unhidden_[i], before_.data() + i) &&
                 options_.shading == BeamShading::single)
-                share_[i] = 0;  // the pixel's middle misses the stone
+                share_[i] = 0;  // misses the stone
         }
     }
 }
@@ -286,8 +286,8 @@ void StripPainter::paint_beam(const SortedBeams& beams, BeamNumber number,
     }
     const ShadedEye eye =
         shaded_eye(*view_, middle, stone_.net.plane(facets[0]), stone_.shaded.middle);
-    // Where the beam is sure, rays half a pixel within it need no second look. Under anti-aliasing
-    // all whole pixels are; others are means of their beams anyway.
+    // In sure beams, rays half a pixel inside need no verification. With anti-aliasing all whole
+    // pixels lie that deep; others are averages over beams anyway.
     const bool sure = beam.sure && beams.n == pass.n;
     const bool single = options_.shading == BeamShading::single;
     const CoveredPixels& covered =
@@ -299,13 +299,13 @@ void StripPainter::paint_beam(const SortedBeams& beams, BeamNumber number,
     if (flat) {
         paint_flat(covered, beam, facets, eye, pass);
     } else {
-        // The rays of a beam alone share its middle ray's facets to the end, as far as is known.
+        // With anti-aliasing, a beam that follows its middle ray alone is not verified.
         const bool looked_at = single || !(sure || beam.alone);
         paint_pixels(covered, beam, looked_at ? covered.near_border : 0, facets, eye, pass);
     }
 }
 
-// Middles of pixels that no beam took, next to pixels that one did.
+// Retraces pixels that no beam took, next to pixels that one did.
 void StripPainter::fill_holes(const std::vector<FrontFacet>& fronts,
                               const std::vector<ShadingPass>& passes) {
     const int width = canvas_.width;

@@ -1,4 +1,4 @@
-// Strips of crystals whose two waves part (split_beams.h).
+// Paints strips of crystals with split waves (split_beams.h).
 
 #include <algorithm>
 
@@ -8,8 +8,8 @@ namespace culet {
 
 namespace {
 
-// Pixels along the edge of a cell that has one ray of reference: what is of second order over it is
-// about the square of its share of the stone's width, and a cell costs as much as some 10 pixels.
+// Side in pixels of a cell with one reference ray. Second-order errors grow as the square of its
+// share of the stone's width; a cell costs as much as about 10 pixels.
 int cell_of(const std::vector<FrontFacet>& fronts) {
     constexpr double k_cells_across = 64;
     constexpr int k_least = 4, k_most = 16;
@@ -60,11 +60,11 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
     sums_.fragments += covered.count;
     sums_.deepest = std::max(sums_.deepest, beam.facets);
     add_light(covered, covered.share.data(), pass, false);
-    // What is mirrored at the front covers each pixel once.
+    // The reflection at the front covers each pixel once.
     if (pass.counts_area && beam.facets == 1) add_cover(covered, covered.share.data(), nullptr);
 }
 
-// Cell by cell of every front facet.
+// Paints every front facet cell by cell.
 void StripPainter::paint_split(const std::vector<FrontFacet>& fronts, const ShadingPass& pass) {
     const long long before = sums_.beams;
     const auto goes_on_with = [&](long long grown) {

@@ -1,6 +1,5 @@
-// Vectors of numbers, and of points and directions, many rays at once.
-// For one instruction set; Highway includes this once for each, which a guard of the usual kind
-// would not let it.
+// Vectors of numbers, points and directions, for many rays at once. No include guard: Highway
+// includes this once per instruction set.
 
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
@@ -23,8 +22,8 @@ constexpr int k_most_lanes = 64;
 HWY_INLINE V number(float v) {
     return hn::Set(k_floats, v);
 }
-/// e to the power of what is not positive. From -104 on the library gives 0 but computes with
-/// powers of two beyond its numbers on the way, which sets the flag of an invalid operation.
+/// exp of a non-positive number. The result is 0 below -104; there the library's powers of two
+/// overflow and set the invalid-operation flag, hence the clamp.
 HWY_INLINE V decayed(V v) {
     return hn::Exp(k_floats, hn::Max(v, number(-105.0f)));
 }
@@ -58,19 +57,19 @@ HWY_INLINE V length_of(const V3& a) {
     return hn::Sqrt(dot(a, a));
 }
 
-// How a value changes from pixel to pixel: to the right and down.
+// Derivatives of a value per pixel, to the right and down.
 struct Gradient {
     V x, y;
 };
-// A ray, and how it changes from pixel to pixel.
+// A ray with its derivatives per pixel.
 struct Ray {
     V3 point, direction, point_x, point_y, direction_x, direction_y;
-    const Fragments* parts = nullptr;  // whose rays these are, from the first on
+    const Fragments* parts = nullptr;  // the fragments of these rays, from `first` on
     int first = 0;
 };
 
-// A parallelogram in a pixel, as CoveredPixels has it: how far its sides take what changes by
-// `right` and `down` from pixel to pixel.
+// A parallelogram in a pixel (CoveredPixels): changes along its sides of a quantity that changes by
+// `right` and `down` per pixel.
 struct PixelPart {
     V xx, yx, yy;
     HWY_INLINE V3 along(const V3& right, const V3& down) const {
@@ -79,12 +78,12 @@ struct PixelPart {
     HWY_INLINE V3 across(const V3& down) const { return yy * down; }
 };
 
-// Share of a pixel where a value that is linear in it is above 0.
+// Share of a pixel where a linear value is positive.
 HWY_INLINE V share_above(const V& value, const Gradient& g) {
     const V a = hn::Abs(g.x), b = hn::Abs(g.y);
     const V high = hn::Max(hn::Max(a, b), number(1e-15f)), low = hn::Min(a, b);
     const V size = hn::Abs(value), reach = number(0.5f) * (high + low);
-    // The pixel's corner beyond the line, or a slice of it.
+    // The corner or slice of the pixel beyond the line.
     const V missing = hn::Max(reach - size, number(0.0f));
     const V corner = missing * missing / (number(2.0f) * high * hn::Max(low, number(1e-15f)));
     const V slice = number(0.5f) - size / high;
@@ -102,19 +101,19 @@ HWY_INLINE V share_where(const V& value, const Gradient& g) {
     }
 }
 
-// True where two changes from pixel to pixel are small against a distance.
+// True if both changes per pixel are small against a distance.
 HWY_INLINE M narrow(const V3& right, const V3& down, const V& distance) {
     return number(16.0f) * (dot(right, right) + dot(down, down)) < distance * distance;
 }
 
-// True where a change from pixel to pixel is no small part of a circle's radius.
+// True if a change per pixel is not small against a circle's radius.
 HWY_INLINE M exceeds(const V3& right, const V3& down, const V& radius) {
     return number(16.0f) * hn::Max(dot(right, right), dot(down, down)) > radius * radius;
 }
 
-// Share of a part of a pixel that is within a circle in the plane across `normal`: the part's
-// middle is at `offset` from the circle's. Across the part's shorter side the circle's chords are
-// averaged, whose middles and ends change from one side of it to the other.
+// Share of a pixel's part that lies within a circle in the plane across `normal`. The part's middle
+// is at `offset` from the circle's centre. Averages the circle's chords over the part's shorter
+// side, as their middles and ends vary across it.
 HWY_INLINE V share_in_disc(const V3& offset, const V3& right, const V3& down, const V3& normal,
                            const V& radius) {
     const V zero = number(0.0f), one = number(1.0f), half = number(0.5f);
@@ -127,14 +126,14 @@ HWY_INLINE V share_in_disc(const V3& offset, const V3& right, const V3& down, co
     V3 across = choose(right, down);
     const V length2 = hn::Max(dot(along, along), number(1e-30f));
     V area = dot(normal, cross(along, across));
-    // A part without width is as good as one of little.
+    // Give a part without width a small one.
     constexpr float k_thin = 1e-4f;
     const M thin = hn::Abs(area) < number(k_thin) * length2;
     const V3 sideways = cross(normal, along);
     across = plus(across, hn::IfThenElseZero(thin, hn::CopySign(number(k_thin), area)), sideways);
     area = dot(normal, cross(along, across));
     area = hn::CopySign(hn::Max(hn::Abs(area), number(1e-34f)), area);
-    // The circle's middle, in sides of the part.
+    // The circle's centre, in units of the part's sides.
     const V over = hn::Neg(one) / area;
     const V u = over * dot(normal, cross(offset, across)),
             v = over * dot(normal, cross(along, offset));
@@ -144,7 +143,7 @@ HWY_INLINE V share_in_disc(const V3& offset, const V3& right, const V3& down, co
     const V from = hn::Clamp((first - v) / high, hn::Neg(one), one),
             to = hn::Clamp((last - v) / high, hn::Neg(one), one);
     const V middle = half * (from + to);
-    // Mean of sqrt(1 - t^2), of half a chord of a circle of radius 1.
+    // Mean of sqrt(1 - t^2): half a chord of the unit circle.
     const auto root = [&](const V& t)
                           HWY_ATTR { return hn::Sqrt(hn::Max(hn::NegMulAdd(t, t, one), zero)); };
     const auto integral = [&](const V& t) HWY_ATTR {
@@ -159,12 +158,12 @@ HWY_INLINE V share_in_disc(const V3& offset, const V3& right, const V3& down, co
     return filled * hn::Max(inside, zero);
 }
 
-// Cosine and sine of twice an angle from a vector along and across.
+// Cosine and sine of twice the angle of a vector with components along and across.
 struct DoubleAngle {
     V cosine, sine;
     HWY_INLINE DoubleAngle(const V& along, const V& across) {
         const V al = along * along, ac = across * across, length = al + ac;
-        // Where there is no direction all serve.
+        // Without a direction, any angle will do.
         const M any = length > number(1e-24f);
         const V scale = number(1.0f) / hn::IfThenElse(any, length, number(1.0f));
         cosine = hn::IfThenElse(any, (al - ac) * scale, number(1.0f));

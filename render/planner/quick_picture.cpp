@@ -15,7 +15,7 @@ RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
     RenderSettings& settings = quick.settings;
     settings.meter = nullptr;
     settings.allowed_ns = 0;
-    // Takes about a second, and is fine enough to show the motif.
+    // Takes about a second, and is fine enough to recognise the picture.
     settings.tolerance = 0.1;
     settings.cut_weight = settings.split_weight = 0.02;
     settings.crystal_beams = CrystalBeams::merged;
