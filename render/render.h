@@ -1,5 +1,5 @@
 #pragma once
-// Public interface of render/: draws a scene and reports what the picture leaves out.
+// Draws a scene and reports what the picture leaves out.
 
 #include <string>
 
@@ -9,15 +9,15 @@
 
 namespace culet {
 
-/// Draws with the scene's engine. The same scene and seed give the same bytes, whatever the number
-/// of threads. If `allowed_ns` decides the tolerance, `better` receives each picture on the way;
-/// the last one is returned. Throws InputError (stone not closed, camera inside the stone) and
+/// Draws with the scene's engine. The bytes depend on scene and seed only, not on the number of
+/// threads. If `allowed_ns` decides the tolerance, `better` receives each picture on the way,
+/// including the returned one. Throws InputError (stone not closed, camera inside the stone) and
 /// Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {},
                     const PictureSink& better = {});
 
 /// Draws with the plan of an earlier picture of the same stone and light, and reports that
-/// picture's error bound: nothing is chosen or checked anew. For turntables and other views.
+/// picture's error bound. Nothing is chosen or checked anew. For turntables and other views.
 RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
                                const Progress& progress = {});
 
@@ -31,8 +31,8 @@ bool leaves_something_open(const Scene& scene);
 /// tolerance or nothing is left to choose.
 bool allow_usual_time(Scene& scene);
 
-/// False if the picture should not be trusted: the usual time was too short to estimate its error,
-/// or verification showed that its error bound is too low.
+/// False if the usual time was too short to estimate the error, or verification showed that the
+/// error bound is too low.
 bool usable(const RenderStats& stats, bool was_allowed_usual_time);
 
 /// STATS.json (docs/rendering.md) as text.

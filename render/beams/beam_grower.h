@@ -10,7 +10,6 @@
 
 namespace culet {
 
-/// A beam to be split.
 struct BeamTrunk {
     FacetRegion part;   ///< region on the facet met last
     double weight = 1;  ///< of the light that goes on behind the facet before

@@ -44,7 +44,6 @@ ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& li
 
 }  // namespace
 
-// Converts sources of each type.
 struct ShadedLights::Adder {
     ShadedLights& to;
     const WavelengthSet& colours;

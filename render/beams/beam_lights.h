@@ -33,7 +33,6 @@ struct ShadedLights {
         std::vector<float> radiance;
         Polarised polarised;
     };
-    /// A disc in the sky.
     struct Disc {
         float cosine, sine;  ///< of the angle from its middle to its rim
     };

@@ -1,10 +1,9 @@
 #pragma once
-// Light along a beam's rays. Each ray is followed exactly along the beam's facets without
-// searching, many rays at once, in single precision relative to the stone's middle (the regions are
-// computed in double).
+// Light along a beam's rays, each followed exactly along the beam's facets, without searching, many
+// at once. Single precision relative to the stone's middle (regions are computed in double).
 //
 // As in light_paths.h, polarised light carries the Stokes parameters of two orthogonal eye
-// polarisations. They are turned from face to face by products of normals alone.
+// polarisations, turned from face to face by products of normals alone.
 
 #include <array>
 #include <cstdint>

@@ -2,10 +2,10 @@
 // The beams of a convex stone: regions of the picture whose rays meet the same facets in the same
 // order (Voelker & Hamann's beam tree, Guy & Soler's facet tree), unfolded (pencil.h).
 //
-// A beam's polygon is clipped by the facets that its rays meet next, which are found by walking
-// over edges. Each edge's line is computed once, from its lower to its higher corner, and used with
-// either sign by the two facets that share it. So children tile their parent without an epsilon.
-// Edges shared with the facet just left never clip.
+// A beam's polygon is clipped by the facets that its rays meet next, found by walking over edges.
+// Each edge's line is computed once, from its lower to its higher corner, and used with either sign
+// by its two facets, so that children tile their parent without an epsilon. Edges of the facet just
+// left never clip.
 
 #include <cstdint>
 #include <functional>
@@ -75,9 +75,8 @@ struct FrontFacet {
 std::vector<FrontFacet> front_facets(const FacetNet& net, const ScreenView& view);
 
 /// Builds into `tree`, reusing its memory. `n`: index relative to the outside, above 1. The eye
-/// must be outside. Runs in parallel; the result does not depend on the number of threads.
-/// `goes_on` is asked from any thread with the number of beams so far; if it says no, the tree
-/// stays unfinished and the function returns false.
+/// must be outside. The result does not depend on the number of threads. `goes_on` is asked from
+/// any thread with the number of beams so far; false leaves the tree unfinished and is returned.
 bool build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
                  BeamTree& tree, const std::function<bool(long long)>& goes_on = {});
 

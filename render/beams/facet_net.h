@@ -24,8 +24,8 @@ struct NetNeighbour {
 
 /// Corners are where planes meet; the planes alone are exact. Meets that miss each other slightly
 /// stay separate, with short edges between them. Edges shorter than the root of the rounding unit
-/// times the diameter are collapsed, since rounding of their corners makes their directions
-/// meaningless; this moves a corner by at most that length.
+/// times the diameter are collapsed, since rounding makes their directions meaningless; corners
+/// move by at most that length.
 class FacetNet {
 public:
     /// Throws InputError if the planes bound no solid.

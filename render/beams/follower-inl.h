@@ -12,7 +12,6 @@ HWY_INLINE V3 eye_right(const ShadedEye& eye, const V3& direction) {
                 forward + direction);
 }
 
-// The parts of pixels to shade.
 HWY_INLINE PixelPart part_of(const Fragments& fragments, int first) {
     if (fragments.xx == nullptr) return {number(1.0f), number(0.0f), number(1.0f)};
     return {hn::LoadU(k_floats, fragments.xx + first), hn::LoadU(k_floats, fragments.yx + first),

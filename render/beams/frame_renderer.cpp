@@ -29,8 +29,8 @@ constexpr double k_cut_share = 1 / 4e5;
 // about ten times that much light, and err to either side equally often.
 constexpr double k_alone = 10;
 // Border error in pixels over the tolerance: a border off by a pixel brings its contrast to that
-// pixel. Bounded to a range where accuracy is cheap (docs/engines.md, "What accuracy costs in
-// time"). Verified rays may have larger errors.
+// pixel. Bounded to a range where accuracy is cheap (docs/engines.md, "Beams"). Verified rays may
+// have larger errors.
 constexpr double k_map_error = 10, k_least_map_error = 0.02, k_least_verified = 0.1,
                  k_most_map_error = 0.25;
 // Previews have one colour per beam, an error far larger than that of these borders and of weaker

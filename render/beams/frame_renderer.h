@@ -20,24 +20,23 @@ public:
 
     /// Changes the view: beams are grown anew (milliseconds).
     void look_from(const Camera& camera);
-    /// The same, with the lights turned or moved. Wavelengths are kept, so the lights' kinds and
-    /// colours must not change.
+    /// The same, with the lights turned or moved. Wavelengths are kept, which may not suit lights
+    /// of other kinds or colours.
     void look_from(const Camera& camera, const Lights& lights);
     /// Changes the lights: beams are kept and shaded anew, unless the lights' colours need other
     /// wavelengths.
     void light_with(const Lights& lights);
     /// Changes view, lights and settings; the stone must stay the same.
     void show(const Scene& scene);
-    /// Limits a frame's processor time in milliseconds; 0: no limit. Beams that bring little are
-    /// then not split further, depending on the last frame's time. So the picture depends on the
-    /// machine, and its `remainder` grows. Guy & Soler (2004) call this the frame-rate limit.
+    /// Limits a frame's processor time in milliseconds; 0: no limit. Depending on the last frame's
+    /// time, beams that bring little are not split further: the picture depends on the machine, and
+    /// its `remainder` grows. Guy & Soler (2004) call this the frame-rate limit.
     void keep_within(double milliseconds);
     /// Reports the progress of a frame, and may stop it: `draw` then throws Interrupted.
     void report_to(const Progress& progress);
 
-    /// The picture is valid until the next call. Without `check`, no pixels are compared with the
-    /// reference: `error_bound` is that of the last checked view in this light and with these
-    /// settings, as a note says; NaN if there was none.
+    /// The picture is valid until the next call. Without `check`, `error_bound` is that of the last
+    /// view checked in this light and with these settings, as a note says; NaN if there was none.
     const RenderResult& draw(bool check = false);
     /// Moves the last picture out.
     RenderResult take();

@@ -120,7 +120,6 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
     }
 }
 
-// Red, green and blue of the environment in a direction.
 HWY_INLINE V3 environment_at(const EnvironmentPyramid& map, const V3& d, const V& extent) {
     const auto& levels = map.levels();
     const V sum = hn::Abs(d.x) + hn::Abs(d.y) + hn::Abs(d.z);

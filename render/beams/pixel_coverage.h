@@ -23,7 +23,7 @@ struct CoveredPixels {
     std::size_t corner_count = 0;
     ScreenPoint reference{0, 0};
     int count = 0;
-    int near_border = 0;  ///< the first so many middles are near the border
+    int near_border = 0;  ///< number of values, at the front, whose middles are near the border
 };
 
 class PixelCoverage {

@@ -25,8 +25,8 @@ struct FacetRegion {
     double doubled_area = 0;
 };
 
-/// Each edge's line is computed once, from its lower to its higher corner, and used with either
-/// sign by the two facets that share it, so that parts tile the whole without an epsilon.
+/// Computes each edge's line once for both its facets, so that parts tile the whole without an
+/// epsilon (beam_tree.h).
 class RegionSplitter {
 public:
     void prepare(const FacetNet& net);

@@ -1,11 +1,10 @@
 #pragma once
-// Beams in a crystal, where every face splits them: each follows one wave from face to face, as
-// exactly as the reference's rays (crystal.h). Powers are added; the coherence of the two waves is
-// lost.
+// Beams in a crystal, where every face splits them: each follows one wave, as exactly as the
+// reference's rays (crystal.h). Powers are added; coherence is lost.
 //
-// Each small cell of the picture has one reference ray. It and two neighbouring rays, which give
-// all derivatives over the cell, are traced exactly along facets and waves. If a neighbour misses
-// the facet of the reference ray, it is intersected with that facet's plane.
+// Each small cell of the picture has a reference ray and two neighbouring rays, which give all
+// derivatives over the cell. They are traced exactly along facets and waves. A neighbour that
+// misses the reference ray's facet is intersected with that facet's plane.
 
 #include <array>
 #include <functional>

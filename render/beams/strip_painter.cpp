@@ -22,7 +22,6 @@ bool may_be_within(const std::vector<ScreenPoint>& outline, const ScreenPoint& p
     return true;
 }
 
-// The fragments from `first` on.
 Fragments rest_of(const Fragments& all, int first, int count) {
     Fragments rest = all;
     rest.follows = nullptr;

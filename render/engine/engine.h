@@ -1,6 +1,5 @@
 #pragma once
-// Interface of a rendering engine. CONTRIBUTING.md says how to add one; render/engines.cpp lists
-// them.
+// Interface of engines. CONTRIBUTING.md says how to add one; render/engines.cpp lists them.
 
 #include <string>
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace culet {
 
-/// Amount of work in a picture, as known before it is drawn.
+/// Estimated amount of work in a picture.
 struct DrawingWork {
     double pixels = 0;         ///< of the stone
     double views = 1;          ///< rays of a pixel, or points of the pupil
@@ -39,11 +38,11 @@ public:
     virtual std::string refuses(const Scene& scene, const OpticalSetup& setup) const = 0;
     /// Estimated processor time of a picture, in the nanoseconds of work/price.h.
     virtual double cost_ns(const DrawingWork& work) const = 0;
-    /// Draws with the scene's settings as they are; open settings follow from the tolerance. Throws
+    /// Draws with the scene's settings as they are; the tolerance decides open ones. Throws
     /// InputError for refused scenes, and Interrupted.
     virtual RenderResult draw(const Scene& scene, const Progress& progress) const = 0;
-    /// Whether finer settings converge to the reference with everything on. Such engines' pictures
-    /// are planned and checked.
+    /// Whether finer settings converge to the reference with everything on: then pictures are
+    /// planned and checked.
     virtual bool approaches_truth() const = 0;
 };
 

@@ -13,8 +13,8 @@
 
 namespace culet {
 
-/// Comparison of a finished picture with the reference picture (everything on) at some pixels of
-/// the stone. Errors are defined in scene_plan.h.
+/// Comparison of a picture with the reference (everything on) at some pixels of the stone. Errors
+/// as in scene_plan.h.
 struct Verification {
     int pixels = 0, samples = 0;
     double difference = 0;                ///< from the reference as drawn
@@ -25,7 +25,7 @@ struct Verification {
     double bound = 0, bound_delta_e = 0;  ///< claimed by the picture
     double seconds = 0;
 
-    /// Whether the claimed bound is not clearly below the measured error.
+    /// False if the measured error is clearly above the claimed bound.
     bool holds() const { return measured - 3 * spread - noise <= bound; }
 };
 
@@ -38,17 +38,17 @@ struct RenderStats {
     /// Mean weight over the stone's pixels: left at the depth limit; of paths cut for their small
     /// weight; absorbed.
     double remainder = 0, cut = 0, absorbed = 0;
-    /// (remainder + cut) x brightest light / mean radiance. Bounds the picture's mean relative
-    /// error over the stone, apart from sampling and effects switched off.
+    /// (remainder + cut) x brightest light / mean radiance: bounds the mean relative error over the
+    /// stone, apart from sampling and effects switched off.
     double error_bound = 0;
     /// Crystals, whose smallest paths are chosen at random: root mean square standard error of a
     /// pixel, relative to the mean. Unbiased: each choice is made twice, independently.
     double standard_error = 0;
-    /// Reference: mean error of the pixels due to their few rays, relative to the mean radiance.
-    /// Estimated as half the difference between every other ray and the rest.
+    /// Reference: mean error of the pixels due to few rays, relative to the mean radiance; half the
+    /// difference between every other ray and the rest.
     double sampling_error = 0;
-    /// What was chosen, if the scene left anything open. `error_bound` is then the plan's, with the
-    /// measured error of sampling or beams.
+    /// Set if the scene left anything open. `error_bound` is then the plan's, with the measured
+    /// error of sampling or beams.
     std::optional<ScenePlan> plan;
     std::optional<Verification> verification;  ///< if asked for
     /// The tolerance that the allowed work sufficed for.

@@ -1,12 +1,12 @@
 #pragma once
-// The plan of a scene: which effects it needs, the settings of the first picture, and a bound on
-// the error of leaving out the rest.
+// The plan of a scene: the effects it needs, the settings of the first picture, and a bound on the
+// error of omitting the rest.
 //
 // Errors are mean absolute differences of R, G and B over the stone's pixels from the picture with
-// everything on, relative to its mean radiance. Bounds follow the table in docs/plan.md: exactly
-// zero where nothing can change; else the smaller of the a-priori bound and the pilot picture's
-// error plus three standard errors. A pilot can miss a light that none of its rays meet; `verify`
-// checks the finished picture.
+// everything on, relative to its mean radiance. Bounds follow the table in docs/plan.md: zero where
+// nothing can change; else the smaller of the a-priori bound and the pilot's error plus three
+// standard errors. A pilot can miss a light that none of its rays meet; `verify` checks the
+// finished picture.
 
 #include <limits>
 #include <string>
@@ -24,9 +24,8 @@ struct PlanItem {
     bool on = false;
     std::string fidelity;  ///< "both waves, each its own way", "15 wavelengths", ...; empty: off
     std::string why;       ///< "garnet is isotropic", "bound 0.0004 under tolerance 0.01", ...
-    /// Bound on the remaining error: of omitting the effect if it is off, of its fidelity if it is
-    /// on. For coherence: the error of adding the two waves' powers if they do interfere. NaN:
-    /// unknown.
+    /// Bound on the remaining error: of omitting the effect if off, of its fidelity if on; for
+    /// coherence, of adding the powers of waves that interfere. NaN: unknown.
     double bound = 0;
     double bound_delta_e = 0;  ///< the same as mean CIEDE2000
     /// Error of the picture without it, as seen by the pilot; NaN: not measured.
@@ -43,8 +42,8 @@ struct ScenePlan {
     RenderSettings settings;
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
-    /// Of all effects together. Excludes sampling, beams, and what the scene itself decides:
-    /// effects it switches off, and whether a crystal's two waves interfere.
+    /// Of all effects together. Excludes sampling, beams, and decisions of the scene: effects it
+    /// switches off, and whether a crystal's two waves interfere.
     double bound = 0, bound_delta_e = 0;
     double bound_of_sampling = 0;   ///< reference: error of few rays per pixel
     double bound_of_depth = 0;      ///< part of `bound`: error of the depth that the scene names

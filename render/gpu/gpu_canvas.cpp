@@ -11,7 +11,8 @@ namespace culet {
 
 namespace {
 
-// Pixels drawn between interrupts. Some systems kill drivers that draw for long without a pause.
+// Pixels per draw call, between which drawing can be stopped. Some systems kill drivers that draw
+// for long without a pause.
 constexpr int k_pixels_at_once = 1 << 18;
 constexpr int k_targets = 3;
 constexpr std::array k_sum_samplers{"u_sum", "u_balance", "u_length"};

@@ -1,33 +1,32 @@
 #pragma once
-// A convex stone as a GPU program: GLSL ES 3.00 for OpenGL ES 3 and WebGL2. This file makes no GL
-// calls.
+// A convex stone as a GPU program: GLSL ES 3.00 for OpenGL ES 3 and WebGL2. Makes no GL calls.
 //
 // The kernel draws light paths of one eye ray per pixel, by the stone's planes as in
 // reference/light_paths.h; a crystal's two waves are merged (Guy & Soler 2004, 4.2), as in beams.
 // Single precision, relative to the stone's middle.
 //
-// Steps of a caller (native: gpu_canvas.cpp; a web page: WebGL2 with EXT_color_buffer_float):
-// 1. Compile `vertex` with `kernel` and with `display`. Draw three vertices without attributes:
-//    drawArrays(TRIANGLES, 0, 3) fills the viewport.
-// 2. Make two RGBA32F textures of the picture's size, each with a framebuffer. One holds the sum so
-//    far, the other is drawn to; then swap them. No float blending is needed.
+// Steps of a caller (native: gpu_canvas.cpp; web: WebGL2 with EXT_color_buffer_float):
+// 1. Compile `vertex` with `kernel` and with `display`. Three vertices without attributes,
+//    drawArrays(TRIANGLES, 0, 3), fill the viewport.
+// 2. Make two RGBA32F textures of the picture's size with framebuffers: one holds the sum so far,
+//    the other is drawn to; then swap them. No float blending is needed.
 // 3. Bind every texture of `textures` to its unit as RGBA32F, NEAREST, CLAMP_TO_EDGE: the kernel
 //    interpolates itself. The sum so far is `u_sum` on unit `k_gpu_sum_unit`.
 // 4. Set `uniforms` and gpu_lights once, and again when their sources change. For each sample set
-//    gpu_view; for each pass of `passes` set its uniforms and gpu_eye, and draw, with `u_keep` 0
-//    for the very first draw and 1 after that.
-// 5. The sum is linear sRGB times the number of samples. Its fourth component counts the samples
-//    that met the stone, times the number of passes.
-// 6. To show it, use `display` with `u_sum`, `u_exposure` (exposure over the number of samples) and
-//    `u_tone_map`, a ToneMap of image/film_look.h as a number. Glare and sparkle are not included.
-// Samples come from sample_pattern (reference/sampling.h) or any other source.
+//    gpu_view; for each pass set its uniforms and gpu_eye, and draw, with `u_keep` 0 for the very
+//    first draw and 1 after that.
+// 5. The sum is linear sRGB times the number of samples; its fourth component is the number of
+//    samples that met the stone, times the number of passes.
+// 6. Show it by `display` with `u_sum`, `u_exposure` (exposure over the number of samples) and
+//    `u_tone_map` (a ToneMap of image/film_look.h). Glare and sparkle are not included.
+// Samples come from sample_pattern (reference/sampling.h) or elsewhere.
 //
 // Interactive changes touch only uniforms: camera and pupil (gpu_view); lights (gpu_lights for
-// positions and sizes, `u_light_turn` to turn them and the environment about the stone's middle, a
-// mat3 from stone to light directions); analyser and retarder (gpu_eye); exposure. Depth, cut-off,
-// index, absorption and colours of lights are uniforms too, so the text of `kernel` stays the same
-// and need not be compiled again. The text changes with the stone, the kinds or numbers of lights,
-// the optical class, and a scene's first analyser or polarised light (OpticalSetup::stokes).
+// positions and sizes; `u_light_turn` turns them and the environment about the stone's middle, a
+// mat3 from stone to light directions); analyser and retarder (gpu_eye); exposure; also depth,
+// cut-off, index, absorption and colours of lights. The text of `kernel` changes with the stone,
+// the kinds or numbers of lights, the optical class, and a scene's first analyser or polarised
+// light (OpticalSetup::stokes).
 
 #include <string>
 #include <vector>

@@ -23,11 +23,10 @@ struct Contrast {
     double radiance = 0;        ///< sum over the pixels
 };
 
-/// Takes every pixel of the stone. If it fills many (about `filled`), takes one in each square, so
-/// that about 65 000 remain: details in a larger picture are larger, too. Differences are mean
-/// absolute ones of R, G and B (colour_error.h); non-finite ones count as 0. `windows`: number of
-/// windows side by side that show the same; only the first is used. Empty if the picture has no
-/// coverage.
+/// Takes every pixel of the stone, or if it fills many (about `filled`), one in each square, so
+/// that about 65 000 remain: larger pictures have larger details. Differences are mean absolute
+/// ones of R, G and B (colour_error.h); non-finite ones count as 0. `windows` side by side show the
+/// same: only the first is used. Empty without coverage.
 Contrast contrast_of(const Picture& picture, int windows, double filled);
 
 struct CheckPixels {
@@ -40,9 +39,8 @@ struct CheckPixels {
 };
 
 /// Prefers pixels next to which the picture changes, and pixels that may see a bright light at
-/// another wavelength. `scene`: one window, or two that show the same. `some`: stone pixels to use
-/// if the picture's coverage shows none. `frames`: the renderer that drew the picture, if any
-/// (light_edge_scan.h). Throws Interrupted.
+/// another wavelength. `scene`: one window, or two that show the same. `some`: stone pixels, used
+/// if the picture's coverage shows none. `frames`: as in light_edge_scan.h. Throws Interrupted.
 CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
                                 const Progress& progress, FrameRenderer* frames);
 

@@ -46,7 +46,6 @@ PilotDrawing Planner::draw(const Scene& scene) const {
     return draw_pilot(scene, pixels_, limits(), rays_, k_node_counts[1], progress_);
 }
 
-// Price of a pixel, all bands.
 double Planner::price_of(const Scene& scene, const PilotDrawing& drawing) const {
     PathWork work = work_along_paths(make_optical_setup(scene));
     work.rays = drawing.rays;
@@ -101,9 +100,9 @@ void Planner::try_without(Effects effect, double share) {
     if (!line.on) first_ = std::move(pilot.without);
 }
 
-// Dispersion: single rays have far stronger colours than a pixel. So two drawings with different
-// rays, one on a square grid and one not, are compared, and only their common part counts. One wave
-// shows the dispersion as well as two, whose trees are far more expensive.
+// Dispersion: single rays have far stronger colours than a pixel. So only the common part of two
+// drawings with different rays counts, one of them not on a square grid. One wave shows the
+// dispersion as well as two, whose trees are far more expensive.
 ColourError Planner::colours_apart() const {
     const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
     const auto spectral = [&](Scene scene) {

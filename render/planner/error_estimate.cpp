@@ -230,8 +230,8 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
 
 void ErrorEstimator::choose(const Picture& picture, FrameRenderer* frames) {
     chosen_ = choose_check_pixels(scene_, picture, some_, *progress_, frames);
-    // A sun has an image per wavelength. Where these separate, a picture of few wavelengths shows
-    // too much or too little of it, and a truth with the same wavelengths would agree.
+    // A sun has an image per wavelength. Where these separate, few wavelengths show too much or too
+    // little of it, in the picture and in a truth with the same wavelengths.
     if (chosen_.sun) nodes_ = k_node_counts.back();
 }
 

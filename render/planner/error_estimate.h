@@ -1,21 +1,20 @@
 #pragma once
-// Estimates how far a finished picture is from the truth, and how certain that is. The truth is the
-// reference with everything on, drawn at a few pixels, and at more until they decide.
+// Estimates the error of a finished picture. The truth is the reference with everything on, drawn
+// at a few pixels, and at more until they decide.
 //
-// The error of a picture p is the mean of |p - t| over the stone's pixels, over the mean of t. A
-// true pixel t is drawn with few rays, whose error e has mean 0 independently of p; then the mean
-// of |p - t - e| is not below that of |p - t| (Jensen's inequality). So the mean over randomly
-// chosen pixels plus three standard errors is a bound; the larger the tolerance, the fewer pixels
-// and rays it takes.
+// The error of a picture p is the mean of |p-t| over the stone's pixels, over the mean of t. A true
+// pixel t has few rays, whose error e has mean 0 independently of p; so the mean of |p-t-e| is not
+// below that of |p-t| (Jensen's inequality), and the mean over random pixels plus three standard
+// errors is a bound. The larger the tolerance, the fewer pixels and rays it takes.
 //
 // Errors concentrate where the picture changes and where a bright light may be seen at another
 // wavelength (light_edge_scan.h): such pixels are chosen more often and weigh less (Hansen &
-// Hurwitz 1943). As few pixels have large errors, means of some are not normally distributed; the
-// bound includes a skewness correction (Johnson 1978, JASA 73, eq. 2.4). With bright lights, all
-// pixels that hold more than a small share of the picture's light are checked, and the random ones
-// stand for the others: this way light that is in the picture by mistake is always found.
+// Hurwitz 1943). As large errors are rare, means are not normally distributed; the bound includes a
+// skewness correction (Johnson 1978, JASA 73, eq. 2.4). With bright lights, all pixels with more
+// than a small share of the picture's light are checked and the random ones stand for the others,
+// so that wrongly placed light is always found.
 //
-// Each picture is looked at up to `k_looks` times, with a bound each time.
+// Each picture is looked at up to `k_looks` times.
 
 #include <algorithm>
 #include <array>
@@ -62,13 +61,12 @@ public:
     double band_ns() const;
 
     /// Adds pixels or rays until the bound is below `room`, the picture is certainly too far off,
-    /// or the next step would cost more than `most_ns`. `frames`: the renderer that drew the
-    /// picture, if any (light_edge_scan.h).
+    /// or the next step would cost more than `most_ns`. `frames`: as in light_edge_scan.h.
     ErrorEstimate estimate(const Picture& picture, double room, double most_ns,
                            FrameRenderer* frames = nullptr);
 
-    /// Change, beyond noise, when the truth is drawn without the effects that a picture leaves out,
-    /// at the first `pixels` of the last estimate.
+    /// Change, beyond noise, if the truth omits the effects that a picture omits; at the first
+    /// `pixels` of the last estimate.
     double without_effects(const std::array<bool, k_effect_count>& effects, int pixels);
     /// Forgets the chosen pixels: the next picture is a better guide to where to look.
     void look_elsewhere();

@@ -31,7 +31,6 @@ ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
 
 namespace {
 
-// How finely each effect is simulated when it is on.
 const std::map<std::string, std::string> k_fidelities{
     {"dispersion", "each wavelength its own way"},
     {"birefringence", "both waves, each its own way"},

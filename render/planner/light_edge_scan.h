@@ -1,12 +1,12 @@
 #pragma once
-// Finds where in a picture the edge of a bright light may be seen at some wavelength, which a check
-// of few pixels must not miss.
+// Finds where the edge of a bright light may be seen at some wavelength, which a check of few
+// pixels must not miss.
 //
-// A small bright light shows in few pixels, and in other ones at each wavelength. A picture with
-// few wavelengths may lack one of its images without any trace. So every bright light is replaced
-// by a rim along its edges, as wide as the dispersion of one path, and drawn by beams at two
-// wavelengths; beams miss no region, however small. Where most shows, the scan is refined with
-// narrower rims, as wide as a cell of a few pixels, at many wavelengths.
+// A small bright light shows in few pixels, in others at each wavelength, and a picture of few
+// wavelengths may lack an image without any trace. So each bright light is replaced by a rim along
+// its edges, as wide as the dispersion of one path, and drawn at two wavelengths by beams, which
+// miss no region. Where most shows, narrower rims, as wide as a cell of a few pixels, are drawn at
+// many wavelengths.
 
 #include <vector>
 
@@ -25,18 +25,17 @@ struct Brightness {
     bool sun() const { return most > 100 * least; }
 };
 
-/// Rims of the lights whose radiance reaches `least` at some wavelength: their radiance within
-/// `width` of the edge on both sides (radians, seen from the stone). A map gives the brightest
-/// texel in cells about 6 degrees wide, lobes become wider lobes, lights without an edge are left
-/// out.
+/// Rims of the lights that reach the radiance `least` at some wavelength: their radiance within
+/// `width` (radians from the stone) of the edge on both sides. Maps give the brightest texel in
+/// cells about 6 degrees wide, lobes become wider lobes, lights without edges are omitted.
 Lights light_rims(const Lights& lights, const Vec3& stone, double width, double least);
 
 class LightEdgeScan {
 public:
-    /// For bright lights only: edges of others may show in every pixel. Light is traced
-    /// unpolarised, unabsorbed and along one path through the stone. `frames`: a renderer of this
-    /// stone, used to save its preparation; it afterwards shows other lights in larger pixels.
-    /// `progress` receives 0 and may stop it: Interrupted.
+    /// For bright lights only: edges of others may show in every pixel. Traces unpolarised,
+    /// unabsorbed light along one path. `frames`: a renderer of this stone, to save its
+    /// preparation; afterwards it shows other lights in larger pixels. `progress` receives 0 and
+    /// may stop it: Interrupted.
     LightEdgeScan(const Scene& scene, const Brightness& bright, const Progress& progress,
                   FrameRenderer* frames = nullptr);
 

@@ -1,15 +1,13 @@
 #pragma once
 // From a scene and a tolerance to a picture with a known error. In this folder:
 //
-// - `planner`: decides which effects a picture needs, first from what is known beforehand
-//   (`known_effects`), then by one pilot per effect, the scene with and without it
-//   (`effect_pilots`, `pilot_picture`). `explain` reports it.
-// - `refinement`: draws pictures from coarse to fine (`refinement_levels`) until the check says
-//   that one is close enough.
-// - `error_estimate`: compares a picture with the reference (everything on) at a few pixels, chosen
-//   by `check_pixels` and, for small bright lights, `light_edge_scan`. The bound is the mean plus
-//   three standard errors.
-// - `time_budget`: if there is no tolerance, draws as finely as a given amount of work allows.
+// - `planner`: decides which effects are needed, from what is known beforehand (`known_effects`),
+//   then by pilots with and without each effect (`effect_pilots`, `pilot_picture`). `explain`
+//   reports it.
+// - `refinement`: draws pictures from coarse to fine (`refinement_levels`) until a check passes.
+// - `error_estimate`: compares a picture with the reference (everything on) at pixels chosen by
+//   `check_pixels` and, for small bright lights, `light_edge_scan`.
+// - `time_budget`: without a tolerance, draws as finely as a given amount of work allows.
 // - `policy.h`: the constants.
 
 #include <chrono>
@@ -38,15 +36,15 @@ void say_what_is_known(const Scene& scene, ScenePlan& plan);
 
 class Planner {
 public:
-    /// likely: leave out effects that probably change little enough. surely: leave out only those
-    /// that certainly change nothing, after a picture has shown that the pilot misjudged the scene.
+    /// likely: omit effects that probably change little enough. surely: omit only those that
+    /// certainly change nothing, after a picture has shown that the pilot misjudged the scene.
     enum class Leave { likely, surely };
-    /// `merged_waves`: merge a crystal's two waves; only the finished picture can show whether that
-    /// is close enough. `progress` receives 0 and may stop it; it must outlive the planner.
+    /// `merged_waves`: merge a crystal's two waves; only the finished picture shows whether that is
+    /// close enough. `progress` receives 0 and may stop it; it must outlive the planner.
     Planner(const Scene& whole, const Progress& progress, bool merged_waves = false,
             Leave leave = Leave::likely);
-    /// Plans a picture. If the coarsest picture costs no more than weighing effects, none is
-    /// weighed, and only effects that certainly change nothing are left out.
+    /// Plans a picture. If the coarsest picture costs no more than weighing effects, only effects
+    /// that certainly change nothing are omitted.
     ScenePlan run();
     /// Plans with all effects weighed; with `everything` also those that the scene switches off.
     ScenePlan run_to_explain(bool everything);

@@ -1,7 +1,7 @@
 #pragma once
-// The planner's constants, private to this folder. `bench_plan` (60 scenes, tolerances 0.1 to
-// 0.003: bounds, measured errors, processor time) shows the effect of a change; other sources are
-// named in the line. Shares are of the tolerance unless stated otherwise.
+// Constants of the planner. `bench_plan` (60 scenes, tolerances 0.1 to 0.003: bounds, measured
+// errors, processor time) shows the effect of a change; other sources are named. Shares are of the
+// tolerance unless stated otherwise.
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,8 @@ inline constexpr int k_pilot_pixels = 96, k_coherence_pixels = 16;
 inline constexpr int k_pilot_rays = 4, k_lens_rays = 16;
 /// Weight at which a pilot's paths end, as a share of the tolerance; at which trees play roulette.
 inline constexpr double k_pilot_cut = 0.03, k_pilot_roulette = 0.01;
-/// Joint error of all effects left out (root of the sum of squares); limit for a single effect that
-/// costs next to nothing to draw.
+/// Joint error of all omitted effects (root of the sum of squares); limit for one that is cheap to
+/// draw.
 inline constexpr double k_share_of_effects = 0.25, k_share_of_cheap = 0.05;
 /// Wavelengths of the pilot of dispersion.
 inline constexpr int k_spectral_nodes = 15;
@@ -45,8 +45,8 @@ constexpr double tree_cut(double tolerance) {
 constexpr double tree_split(double tolerance) {
     return tolerance < k_fine_tolerance ? 0.3 : 0.6;
 }
-/// While noise exceeds half of the difference, a step may cost this many times as much: with so
-/// much noise no other picture could be accepted either.
+/// While noise exceeds half of the difference, a step may cost this many times as much: no other
+/// picture could pass with so much noise either.
 inline constexpr double k_noisy_price = 12;
 /// Share of the pixels chosen evenly; the rest go to contrast and to edges of bright lights.
 inline constexpr double k_even_share = 0.4;
@@ -60,7 +60,7 @@ inline constexpr std::size_t k_most_outliers = 96;
 
 // The scan for edges of bright lights (light_edge_scan.h).
 
-/// Pixels along a cell when beams scan, which miss no region; else the number of cells, with one
+/// Pixels along a cell when scanned by beams, which miss no region; else the number of cells, one
 /// ray each.
 inline constexpr int k_cell = 3, k_scanned_pixels = 1000;
 /// Scanned pixels across the stone: details in larger pictures are larger, too.
@@ -80,8 +80,8 @@ inline constexpr double k_cut_weight = 0.01;
 /// Error that the next picture aims at. The closer to the tolerance, the more pixels a decision
 /// takes.
 inline constexpr double k_aim = 0.5;
-/// Border width of the first beams; factors per level for borders and for the weights at which
-/// paths end. Errors fall as the root of the borders (docs/engines.md), so they about halve.
+/// Borders of the first beams; factors per level for borders and cut weights. Errors fall as the
+/// root of the borders (docs/engines.md), so they about halve.
 inline constexpr double k_coarsest = 0.1, k_finer_borders = 0.25, k_finer_paths = 1.0 / 3;
 inline constexpr int k_most_levels_at_once = 3;
 /// Crystals' paths end without roulette at k_crystal_cut x tolerance^(1/0.6); a cut of 0.009 lost
@@ -97,8 +97,8 @@ inline constexpr std::array<ReferenceLevel, 9> k_reference_levels{
     {{1, 3}, {4, 8}, {9, 29}, {36, 57}, {64, 57}, {144, 57}, {256, 57}, {576, 57}, {1600, 57}}};
 /// The error of N rays falls as N to minus this power (grids: 0.75; trees: less).
 inline constexpr double k_power_of_rays = 0.7;
-/// Error of a sun's images at three wavelengths per radian of colour separation, and the share of
-/// the tolerance that it may take.
+/// Error of a sun's images at three wavelengths per radian of dispersion; share of the tolerance
+/// for it.
 inline constexpr double k_sun_apart = 0.8, k_share_of_sun = 0.2;
 /// Most pictures per set of effects; while a crystal's waves are tentatively merged.
 inline constexpr int k_most_drawings = 7, k_most_merged = 3;

@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Draws a picture to look at while a better one is drawn: with a crystal's two waves merged, few
-/// wavelengths, and the coarsest beams, or one reference ray per pixel if beams refuse the scene.
-/// Its `error_bound` is NaN, as it is not checked. Throws as `render` does.
+/// Draws a picture to show while a better one is drawn: a crystal's two waves merged, few
+/// wavelengths, the coarsest beams, or one reference ray per pixel if beams refuse. Its
+/// `error_bound` is NaN. Throws as `render` does.
 RenderResult draw_quickly(const Scene& scene, const Progress& progress = {});
 
 }  // namespace culet

@@ -24,9 +24,9 @@ public:
     Refinement(const Scene& scene, const Progress& progress)
         : scene_(scene), drawn_(scene), progress_(progress) {}
 
-    /// Returns the closest picture drawn with the plan's effects. If the meter has a limit, the
-    /// reference uses the rays that are left. Throws Interrupted, and OverBudget if there is no
-    /// work left for one picture.
+    /// Returns the closest picture with the plan's effects. If the meter has a limit, the reference
+    /// uses the rays that are left. Throws Interrupted, and OverBudget if no work is left for one
+    /// picture.
     RefinedPicture draw(ScenePlan plan, ErrorEstimator& estimator);
 
 private:

@@ -1,7 +1,7 @@
 #pragma once
-// The fixed series of refinement levels: preview, finer and finer beams, and the reference with
-// more and more rays (policy.h). From level to level the error of beams halves, so a measured error
-// tells how many levels to skip. The truth's own rays show the noise of the reference.
+// The series of refinement levels: preview, finer and finer beams, the reference with more and more
+// rays (policy.h). The error of beams halves per level, so it tells how many to skip. The truth's
+// own rays show the reference's noise.
 
 #include <optional>
 #include <string>
@@ -33,8 +33,8 @@ public:
                                          const ErrorEstimate& estimate) const;
     /// The reference's finest level up to `level` at that price; empty if one ray is too much.
     std::optional<RefinementLevel> within(const RefinementLevel& level, double allowed_ns) const;
-    /// Whether a picture may miss a sun's images at all check pixels: a preview's regions lie
-    /// beside those that show it, and few wavelengths lack some of its images.
+    /// Whether all check pixels may miss a sun's images: a preview's regions lie beside those that
+    /// show it, and few wavelengths lack some images.
     bool may_miss_the_sun(const RenderSettings& settings) const;
 
 private:

@@ -30,7 +30,6 @@ StonePixels some_pixels(const Camera& camera) {
     return pixels;
 }
 
-// Price and noise of a picture with so many rays per pixel.
 struct Pilot {
     double ns = 0, noise = 0;
 };

@@ -1,7 +1,7 @@
 #pragma once
 // Pictures for a given amount of work, which decides the tolerance, or the rays if light is sampled
-// at random. Work is counted (work_meter.h), not timed, so a scene has the same picture however
-// busy the machine is.
+// at random. Work is counted (work_meter.h), so a scene has the same picture however busy the
+// machine is.
 
 #include <functional>
 
@@ -14,19 +14,19 @@ namespace culet {
 /// Draws one picture to its tolerance; may throw OverBudget.
 using DrawToTolerance = std::function<RenderResult(const Scene&, const Progress&)>;
 
-/// Draws coarsely first, then as finely as the rest of `settings.allowed_ns` allows by estimate,
-/// and again while another step is likely to fit; never finer than `settings.tolerance`. `better`
-/// receives each improved picture. Sets the result's `allowed_tolerance`. Throws Interrupted.
+/// Draws coarsely, then as finely as the rest of `settings.allowed_ns` allows by estimate, and
+/// again while another step probably fits; never finer than `settings.tolerance`. `better` receives
+/// each improved picture. Sets `allowed_tolerance`. Throws Interrupted.
 RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
                                 const DrawToTolerance& draw, const PictureSink& better);
 
-/// Whether `render` chooses the rays per pixel from `settings.allowed_ns`: with objects around the
-/// stone, light is sampled at random, and every ray lowers the noise.
+/// Whether `settings.allowed_ns` decides the rays per pixel: with objects around the stone, light
+/// is sampled at random.
 bool leaves_samples_open(const Scene& scene);
 
-/// `scene` with as many rays per pixel as `settings.allowed_ns` allows, or fewer that reach
+/// `scene` with the rays per pixel that `settings.allowed_ns` allows, or fewer that reach
 /// `settings.tolerance`. If one ray at all wavelengths is too much, uses three wavelengths, and
-/// then merges a crystal's two waves. Work is counted at some pixels. Throws Interrupted.
+/// then merges a crystal's two waves. Throws Interrupted.
 Scene with_allowed_samples(const Scene& scene, const Progress& progress);
 
 }  // namespace culet

@@ -12,9 +12,8 @@ constexpr double k_first_nm = 410, k_last_nm = 690;
 
 std::vector<double> even_wavelengths(int count) {
     // Small sets sample the middle of the eye's responses rather than the ends of the spectrum.
-    // Dispersion puts each wavelength's image of a light's edge elsewhere in a pixel. Of sets of
-    // five, this one approximates such steps, at any wavelength, better than even spacing, and a
-    // lamp's spectrum about as well.
+    // Dispersion spreads a light's edge over a pixel; of sets of five, this one approximates such a
+    // step of the spectrum better than even spacing, and a lamp's spectrum about as well.
     if (count == 3) return {450, 550, 610};
     if (count == 5) return {440, 480, 540, 600, 650};
     std::vector<double> nm;

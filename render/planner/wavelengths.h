@@ -16,8 +16,8 @@ inline const std::vector<double> k_three_nm{450, 550, 610};
 /// The set of `count` wavelengths.
 std::vector<double> even_wavelengths(int count);
 
-/// Number of turns in which the rays of a pixel share the wavelengths: about four per ray carry
-/// nearly as much as all of them, and each turn comes up at least twice.
+/// Turns in which the rays of a pixel share the wavelengths: about four per ray carry nearly as
+/// much as all, and each turn comes up at least twice.
 int turns_for(int rays, int wavelengths);
 
 }  // namespace culet

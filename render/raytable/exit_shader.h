@@ -1,6 +1,6 @@
 #pragma once
-// The light that a ray table's exit events see in one scene. Vectorised in single precision if
-// there are only lights around the stone; else the surroundings are asked for each exit event.
+// The light that exit events of a ray table see: vectorised in single precision if there are only
+// lights around the stone, else asked of the surroundings one by one.
 
 #include <memory>
 

@@ -1,11 +1,11 @@
 #pragma once
 // A ray table (Lee, Interactive refractive rendering for gemstones, 2004, chapter 5): for one view
-// of a stone, where the light paths behind each pixel leave the stone, in which direction and with
-// which weight. Pictures in any light follow from it without tracing. docs/ray-tables.md describes
-// the file, which is this table byte by byte.
+// of a stone, where the light paths behind each pixel leave it, in which direction and with which
+// weight. Pictures in any light follow without tracing. docs/ray-tables.md describes the file,
+// which is this table byte by byte.
 //
 // A "hit" is an eye ray that meets the stone; a "leaf" is an exit event, the end of one of its
-// light paths. A "band" is a set of wavelengths that follow the same paths; each has its own exit
+// light paths. A "band" is a set of wavelengths that share their paths; each has its own exit
 // events.
 
 #include <array>

@@ -23,7 +23,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// A table and the scene's rays that fit it.
 struct FittingTable {
     RayTable table;
     TableRays rays;

@@ -18,7 +18,6 @@ namespace culet {
 
 namespace {
 
-// Sums over rows of the picture.
 struct RowSums {
     double hit = 0;      // rays
     Rgb stone{};         // over rays

@@ -22,10 +22,10 @@ constexpr int k_table_samples = 1;
 /// Weight at which branching paths end if the scene names none.
 constexpr double k_table_cut = 1e-3;
 
-/// Uses the scene's wavelengths; if it names none, `wavelengths_nm` (of a table with dispersion);
-/// if these are empty, as many as make_optical_setup takes. Nothing depends on the lights, which
-/// may differ for one table. For the same reason a tolerance cuts paths by weight alone: at
-/// k_table_cut if they branch, else at a twentieth of the tolerance, at most k_table_cut.
+/// Uses the scene's wavelengths; if none, `wavelengths_nm` (of a table with dispersion); if these
+/// are empty, as many as make_optical_setup takes. Nothing depends on the lights, which may change:
+/// a tolerance cuts paths by weight alone, at k_table_cut if they branch, else at a twentieth of
+/// the tolerance, at most k_table_cut.
 TableRays table_rays(const Scene& scene, std::span<const double> wavelengths_nm = {});
 
 /// Why this kind of scene has no ray table, to be continued with ": say engine = ..."; empty if it

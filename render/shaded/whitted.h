@@ -1,6 +1,6 @@
 #pragma once
-// Whitted ray tracing: mirror reflection, refraction and point lights with shadows, in three
-// primaries (Whitted, An improved illumination model for shaded display, CACM 23(6), 1980).
+// Whitted ray tracing in three primaries: mirrors, refraction, point lights with shadows (Whitted,
+// An improved illumination model for shaded display, CACM 23(6), 1980).
 
 #include <cstdint>
 #include <memory>

@@ -10,18 +10,18 @@ namespace {
 // Nanoseconds, measured by bench_plan --prices.
 constexpr double k_ray = 60, k_event = 150, k_plain_event = 135, k_exit_node = 1.5;
 constexpr double k_general_ray = 1500, k_general_event = 450;
-// Per edge and face met. Fits a heart in `jeweller` and `idealscope` (including the rays that leave
-// it and meet it again), relative to a zircon by the reference. Brilliants of 73 and 145 facets,
-// drawn as not convex, took half.
+// Per edge and face met. Fits a heart in `jeweller` and `idealscope` (with rays that leave and meet
+// it again), relative to a zircon by the reference. Brilliants of 73 and 145 facets, drawn as not
+// convex, took half.
 constexpr double k_edge = 9;
 // Rough: a brilliant of 145 facets next to a ball on a plane took 16.4 s of an allowed 16 s.
 constexpr double k_met = 600;
-// Fitted to pictures with 1600 pixels of stone at tolerance 0.03: round brilliants and step cuts of
-// quartz, garnet, sapphire, zircon and diamond, within a factor of 1.6. of_cut: from a cut of 0.1
-// to 0.01 the time rose by 1.3 to 2.4 (64 to 400 pixels across). of_fine: for diamonds 200 pixels
-// across by 1.9 to 2 from tolerance 0.03 to 0.01, and by 4.4 from there to 0.001. Split beams of
-// corundum and tanzanite 100 pixels across: by 2 to 2.2 for 0.44 times the cut, and by 3.5 for 0.22
-// times the cut and 0.16 times the tolerance.
+// Fitted to 1600 pixels of stone at tolerance 0.03: round brilliants and step cuts of quartz,
+// garnet, sapphire, zircon and diamond, within a factor of 1.6. of_cut: time rose by 1.3 to 2.4
+// from a cut of 0.1 to 0.01 (64 to 400 pixels across). of_fine: by 1.9 to 2 from tolerance 0.03 to
+// 0.01, by 4.4 from there to 0.001 (diamonds, 200 pixels across). Split beams of corundum and
+// tanzanite (100 pixels across): by 2 to 2.2 for 0.44 times the cut, by 3.5 for 0.22 times the cut
+// and 0.16 times the tolerance.
 constexpr double k_stone = 8e6, k_beam = 1300, k_pixels = 1600, k_tolerance = 0.03;
 struct BeamCount {
     double at_one_event, of_events, of_pixels, of_tolerance, of_fine, of_cut;  // factor; powers

@@ -1,7 +1,7 @@
 #pragma once
-// Price of a picture in processor time, from counts alone, so that a scene is planned alike on
-// every machine. The unit is one nanosecond on the machine of docs/plan.md; the pilot's clock gives
-// this machine's factor.
+// Price of a picture in processor time, from counts alone, so that plans are alike on every
+// machine. Unit: a nanosecond of the machine of docs/plan.md; the pilot's clock gives this
+// machine's factor.
 
 namespace culet {
 

@@ -1,6 +1,6 @@
 #pragma once
-// Counts a picture's work at the prices of price.h. Work is counted, not timed, so that where it
-// exceeds the budget depends on the picture alone.
+// Counts a picture's work at the prices of price.h. Because work is not timed, exceeding the budget
+// depends on the picture alone.
 
 #include <algorithm>
 #include <atomic>
@@ -24,9 +24,8 @@ class WorkMeter {
 public:
     /// Thread-safe.
     void spend(double ns) { spent_ += static_cast<long long>(ns); }
-    /// Whether the total exceeds the limit; the current piece of work is then useless. This is
-    /// deterministic: spending only grows, so if one thread sees it early, the finished piece would
-    /// exceed the limit too.
+    /// Whether the total exceeds the limit. Deterministic: spending only grows, so a piece of work
+    /// that sees this early would exceed the limit when finished, too.
     bool over() const { return spent_ > limit_; }
     void require_not_over() const {
         if (over()) throw OverBudget();
@@ -45,8 +44,8 @@ public:
         return expected > 0 ? std::min(0.99, done / expected) : 0;
     }
     void allow(double ns) { limit_ = static_cast<long long>(ns); }
-    /// Counts the whole limit as spent. Call after abandoning a piece of work: how far it got
-    /// depends on thread timing.
+    /// Counts the whole limit as spent. Call after abandoning work: how far it got depends on
+    /// thread timing.
     void use_up() { spent_ = limit_; }
     double left() const { return static_cast<double>(limit_ - spent_); }
     bool limited() const { return limit_ != std::numeric_limits<long long>::max(); }
@@ -56,8 +55,8 @@ private:
     long long limit_ = std::numeric_limits<long long>::max();
 };
 
-/// Wraps `progress`, which must outlive the result, to report the meter's fraction whatever part of
-/// the work calls it.
+/// Wraps `progress` to report the meter's fraction instead of the caller's. `progress` must outlive
+/// it.
 inline Progress counted_by(const Progress& progress, std::shared_ptr<const WorkMeter> meter) {
     if (!progress) return progress;
     return [&progress, meter = std::move(meter)](double) { return progress(meter->fraction()); };
