@@ -11,8 +11,8 @@ EyeRays::EyeRays(const Camera& camera) : camera_(camera), middle_(line_of_sight_
     forward_ = glm::normalize(camera.look_at - camera.position);
     const Vec3 right = glm::normalize(glm::cross(forward_, camera.up));
     const Vec3 down = glm::cross(forward_, right);
-    // One pixel: a length for the orthographic camera, a sine for the conoscope, else a length at
-    // unit distance. Pixels are square.
+    // Size of a square pixel: a length (orthographic), a sine (conoscope), or a length at unit
+    // distance.
     double pixel = 0;
     if (camera.cone) {
         pixel = 2 * std::sin(*camera.cone) / std::min(camera.width, camera.height);
@@ -48,7 +48,7 @@ EyeRay EyeRays::through(double x, double y, double pupil_x, double pupil_y) cons
         ray = {camera_.position, glm::normalize(forward_ + across)};
     }
     if (camera_.aperture_radius > 0) {
-        // Thin lens: every ray of a pixel meets in the plane at the focus distance.
+        // Thin lens: all rays of a pixel meet at one point of the focal plane.
         const Vec3 focus =
             ray.origin + camera_.focus_distance / glm::dot(ray.direction, forward_) * ray.direction;
         ray.origin += camera_.aperture_radius *

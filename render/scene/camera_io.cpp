@@ -13,7 +13,7 @@ namespace culet {
 namespace {
 
 constexpr int k_most_pixels_a_side = 32768;
-constexpr double k_most_pixels = 268435456;  // 2^28, as many as picture files are read with
+constexpr double k_most_pixels = 268435456;  // 2^28, the limit for reading picture files
 
 void read_picture_size(const TomlTable& table, Camera& camera) {
     if (const auto size = table.numbers("size")) {

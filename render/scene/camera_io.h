@@ -1,15 +1,16 @@
 #pragma once
-// [camera] of scene files, see docs/rendering.md.
+// Reads [camera] of scene files (docs/rendering.md).
 
 #include "render/scene/scene.h"
 #include "stone/text/toml_file.h"
 
 namespace culet {
 
-/// Throws InputError with file and line. Where nothing is said, as in scene.h.
+/// Missing keys take the defaults of scene.h. Throws InputError with file and line.
 Camera read_camera(const TomlTable& table);
 
-/// Whether it says from where, or how much is seen; else the stone is framed (framing.h).
+/// True if the table places the camera or says how much it sees. Otherwise frame_stone sets the
+/// view.
 bool names_a_view(const TomlTable& table);
 
 }  // namespace culet

@@ -12,8 +12,7 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-// ImfEnvmap.cpp, CubeMap::direction, in culet's axes: face, then (s to the right, t down) in -1..1.
-// OpenEXR's own pictures of the faces as seen from inside follow from these rows.
+// CubeMap::direction of ImfEnvmap.cpp in culet's axes: face, then s (right) and t (down) in -1..1.
 Vec3 on_cube(int face, double s, double t) {
     switch (face) {
         case 0:  // OpenEXR +X
@@ -38,7 +37,7 @@ Vec3 exr_of_culet(const Vec3& v) {
     return {v.y, v.z, v.x};
 }
 
-// The part of a square beside a corner at (x, y) seen from its middle at distance 1.
+// Signed solid angle of the rectangle from (0, 0) to (x, y) at distance 1.
 double corner_angle(double x, double y) {
     return std::atan2(x * y, std::sqrt(x * x + y * y + 1));
 }
@@ -52,7 +51,7 @@ struct Lat {
     double solid_angle(int, int row) const {
         return lat_long_solid_angle(row, map.width, map.height);
     }
-    // Of solid angle within a texel, up to a factor.
+    // Relative density of solid angle within a texel.
     static double density(const Vec3& d) { return std::hypot(d.x, d.y); }
 };
 struct Cube {
@@ -64,7 +63,7 @@ struct Cube {
     double solid_angle(int column, int row) const {
         return cube_solid_angle(column, row % map.width, map.width);
     }
-    // The direction's largest component is 1 over the distance to the place on the unit cube.
+    // The largest component is 1 over the distance to the unit cube.
     static double density(const Vec3& d) {
         const double most = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         return most * most * most;
@@ -92,7 +91,7 @@ Rgb energy_of(const Layout& layout) {
     return sum;
 }
 
-// Steps a texel and direction so that the finer of the two maps is met several times over.
+// Samples per texel and direction: several per texel of the finer map.
 int steps_for(double coarse, double fine) {
     return std::clamp(static_cast<int>(std::ceil(4 * coarse / fine)), 4, 24);
 }
@@ -107,7 +106,8 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
     const double pitch_from = std::sqrt(four_pi / (static_cast<double>(source.rgb.size()) / 3));
     const double pitch_to = std::sqrt(four_pi / (static_cast<double>(to_map.rgb.size()) / 3));
 
-    // What is not a bright light: the mean over places spread evenly in the texel, by solid angle.
+    // Light up to the limit: mean over an even grid of samples in the texel, weighted by solid
+    // angle.
     const int steps = steps_for(pitch_to, pitch_from);
     for (int y = 0; y < to_map.height; ++y) {
         for (int x = 0; x < to_map.width; ++x) {
@@ -128,7 +128,7 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
                 to_map.rgb[at + c] = static_cast<float>(sum[c] / weight);
         }
     }
-    // Sampling leaves it a thousandth too bright or too dark; a factor near 1 puts that right.
+    // Sampling changes the total by about a thousandth; scale it to the right total.
     Rgb base{};
     for (int y = 0; y < source.height; ++y) {
         for (int x = 0; x < source.width; ++x) {
@@ -143,7 +143,7 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
         if (sampled[i % 3] > 0)
             to_map.rgb[i] = static_cast<float>(to_map.rgb[i] * (base[i % 3] / sampled[i % 3]));
     }
-    // Bright lights: every piece of a source's texel goes, with its solid angle, to one texel.
+    // Bright lights: move every piece of a source texel, with its solid angle, to one target texel.
     const int pieces = steps_for(pitch_from, pitch_to);
     std::vector<double> carried(to_map.rgb.size(), 0.0);
     for (int y = 0; y < source.height; ++y) {
@@ -194,7 +194,7 @@ MapPlace lat_long_place(const Vec3& d, int width, int height) {
 }
 
 double lat_long_solid_angle(int row, int width, int height) {
-    // cos a - cos b without cancellation at the poles.
+    // cos a - cos b, without cancellation at the poles.
     const double middle = (row + 0.5) * k_pi / height, half = 0.5 * k_pi / height;
     return 2 * k_pi / width * 2 * std::sin(middle) * std::sin(half);
 }
@@ -211,7 +211,7 @@ MapPlace cube_place(const Vec3& direction, int size) {
     double s = 0, t = 0;
     if (a.x >= a.y && a.x >= a.z) {
         face = d.x > 0 ? 0 : 1;
-        s = d.z / d.x;  // both signs: on_cube's rows 0 and 1
+        s = d.z / d.x;  // signed: matches on_cube's faces 0 and 1
         t = -d.y / a.x;
     } else if (a.y >= a.z) {
         face = d.y > 0 ? 2 : 3;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_strongest = 100, k_parallel_view_deg = 20;
 
-// true is 1, false is 0.
+// Booleans count as 1 and 0.
 double strength_of(const TomlTable& table, const char* key) {
     if (table.kind(key) == TomlTable::Kind::boolean) return *table.boolean(key) ? 1 : 0;
     const double strength = table.number(key).value_or(0);
@@ -42,7 +42,7 @@ PngLook read_film(const TomlTable& table) {
 
 double degrees_per_pixel(const Camera& camera) {
     if (camera.orthographic_width || camera.cone) return k_parallel_view_deg / camera.height;
-    // d tan(angle) = pixel, at the middle.
+    // At the picture's middle, d tan(angle) is one pixel.
     return 2 * std::tan(camera.fov / 2) / camera.height * 180 / std::numbers::pi;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A short name for a lot of data: equal data, equal name, on every machine.
+// A short name for data: equal data have equal names on every machine.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// FNV-1a (Fowler, Noll, Vo), two of 64 bits from different starts. Not against malice.
+/// Two 64-bit FNV-1a hashes (Fowler, Noll, Vo) from different starts. Not safe against malice.
 class Fingerprint {
 public:
     void add(std::string_view text);
@@ -19,9 +19,9 @@ public:
     void add(const Vec3& v);
     void add(const std::vector<float>& values);
     void add(const std::vector<double>& values);
-    /// Everything that a picture of the scene depends on, threads apart.
+    /// Adds everything that a picture of the scene depends on: all but the number of threads.
     void add(const Scene& scene);
-    /// The same but for the view and the settings: stones, objects and lights.
+    /// Adds the stones, objects and lights, without the view and settings.
     void add_stone_and_light(const Scene& scene);
     void add(const Stone& stone);
     void add(const Solid& solid);

@@ -7,7 +7,7 @@ namespace culet {
 
 namespace {
 
-// The eye's distance, in sizes of the stone: out of it by far; an orthographic view knows no other.
+// The eye's distance in sizes of the stone: well outside. It does not change an orthographic view.
 constexpr double k_distance = 5;
 constexpr double k_along_view = 1e-9;
 

@@ -1,18 +1,19 @@
 #pragma once
-// A stone seen square on, filling the picture: the camera of scenes that name none.
+// The camera of scenes that name none: it looks straight at the stone, which fills the picture.
 
 #include "render/scene/scene.h"
 
 namespace culet {
 
-/// Of the picture's side, what the stone's outline spans in the direction in which it fits tighter.
+/// Part of the picture's side that the outline spans, in the direction in which it fits more
+/// tightly.
 constexpr double k_framed_share = 0.85;
 
 enum class Facing { crown, pavilion };
 
-/// Sets position, target and width of `camera` (orthographic, from straight above or straight
-/// below) so that the stone is framed; its picture size and `up` stay as they are. An `up` along
-/// the view becomes +y. A solid without vertices changes nothing.
+/// Makes `camera` orthographic, straight above or below the stone, with the stone framed. The
+/// picture size stays, and so does `up` unless it runs along the view: it becomes +y then. A solid
+/// without vertices changes nothing.
 void frame_stone(const Solid& solid, Facing facing, Camera& camera);
 
 }  // namespace culet

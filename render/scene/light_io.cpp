@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-// Directions typed with a few digits: a plane's half-extents lie in it to within this sine.
+// Largest sine between a plane and its half-extents; allows for directions typed with a few digits.
 constexpr double k_in_plane = 0.01;
 
 std::vector<std::string_view> with_polarisation_keys(std::vector<std::string_view> keys) {
@@ -25,7 +25,7 @@ std::vector<std::string_view> with_polarisation_keys(std::vector<std::string_vie
     return keys;
 }
 
-// `normal`: of the polariser's sheet where the light has one.
+// `normal`: of the polariser's sheet, if the light has one.
 std::optional<LinearPolarisation> polarisation_in(const TomlTable& table,
                                                   const std::optional<Vec3>& normal) {
     if (!table.has("polarization")) {
@@ -116,12 +116,12 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
         notes.push_back(
             fmt::format("{}: {} negative values were taken as 0", path.string(), negative));
     }
-    // A lat-long map holds a cube's detail when its equator has as many texels.
+    // A lat-long map keeps a cube's detail if its equator has as many texels.
     if (cube) *map = lat_long_of_cube(*map, std::min(4 * map->width, 4096));
     return map;
 }
 
-// One source of each type; the pointer says which.
+// Overloads read one source each; the unused pointer selects the type.
 SphereLight source_of(const TomlTable& t, const SphereLight*) {
     t.refuse_unknown(with_polarisation_keys({"center", "radius", "radiance"}));
     return {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)};

@@ -1,5 +1,5 @@
 #pragma once
-// The [light] table of a scene file, see docs/rendering.md.
+// Reads the [light] table of scene files (docs/rendering.md).
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// `notes` receives what was repaired or is doubtful. Throws InputError with file and line.
+/// Adds to `notes` what it repaired or doubts. Throws InputError with file and line.
 Lights lights_of(const TomlTable& table, std::vector<std::string>& notes);
 
 }  // namespace culet

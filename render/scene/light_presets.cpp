@@ -18,7 +18,7 @@ DiscLight band(const Vec3& axis, double from_deg, double to_deg, LightColour col
     return {glm::normalize(axis), radians(from_deg), radians(to_deg), std::move(colour)};
 }
 
-// The hood of a viewer, round the hole for the eye.
+// The viewer's hood around the hole for the eye.
 Lights reflector(const Vec3& axis, double hole_deg) {
     Lights lights;
     lights.sources.push_back(band(axis, hole_deg, k_scope_rim_deg, {Rgb{1.0, 0.25, 0.3}}));
@@ -39,7 +39,7 @@ Lights daylight() {
     Lights lights;
     lights.constant = 0.04;
     const Vec3 sun{1, 0.4, 1.1};
-    // From the head to the trees; paler where the sun is.
+    // The sky between head and trees, paler near the sun.
     lights.sources.push_back(band(k_up, 15, 75, {Rgb{0.33, 0.37, 0.43}}));
     lights.sources.push_back(CosinePowerLight{glm::normalize(sun), 6, {Rgb{1.3, 1.25, 1.15}}});
     lights.sources.push_back(band(sun, 0, 2.5, {Rgb{60, 56, 50}}));

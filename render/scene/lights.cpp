@@ -12,8 +12,7 @@
 namespace culet {
 
 Rgb EnvironmentMap::at(const Vec3& direction) const {
-    // Top row +z; the middle column +x; azimuth grows to the left as seen from inside, which is to
-    // smaller columns.
+    // Azimuth grows to smaller columns (see the frame in environment_layout.h).
     const double azimuth = std::atan2(direction.y, direction.x);
     const double polar = std::acos(std::clamp(direction.z, -1.0, 1.0));
     const double column = (0.5 - azimuth / (2 * std::numbers::pi)) * width - 0.5;
@@ -44,13 +43,12 @@ std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& 
 }
 
 DiscCosines cosines_of(const DiscLight& cap) {
-    // Whole discs and half spaces include their limits: a cap of 180 degrees is everywhere.
+    // Full caps include their limits: a cap of 180 degrees covers all directions.
     return {cap.from <= 0 ? 2.0 : std::cos(cap.from),
             cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to)};
 }
 
-// Distance along a ray to a sphere, or infinity; from inside, to the far side: a dome shines
-// inwards.
+// From inside it is the distance to the far side: a dome shines inwards.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
     const Vec3 to = sphere.center - origin;
     const double along = glm::dot(to, direction);
@@ -62,14 +60,13 @@ double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& di
     return distance > 0 ? distance : std::numeric_limits<double>::infinity();
 }
 
-// The lit side only: from behind, a plane is not there.
 double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction) {
     const double towards = glm::dot(direction, plane.normal);
     const double height = glm::dot(origin - plane.point, plane.normal);
     if (!(towards < 0) || !(height > 0)) return std::numeric_limits<double>::infinity();
     const double distance = -height / towards;
     if (plane.u && plane.v) {
-        // The two half-extents need not be at right angles: coordinates in their own frame.
+        // The half-extents need not be perpendicular: solve for coordinates in their frame.
         const Vec3 at = origin + distance * direction - plane.point;
         const double uu = glm::dot(*plane.u, *plane.u), vv = glm::dot(*plane.v, *plane.v);
         const double uv = glm::dot(*plane.u, *plane.v), au = glm::dot(at, *plane.u),
@@ -102,7 +99,7 @@ Vec3 LinearPolarisation::of_ray(const Vec3& direction) const {
         return length > 0 ? across / length : perpendicular_to(direction);
     }
     const Vec3 from = glm::dot(*normal, direction) < 0 ? -*normal : *normal;
-    // A sheet's direction lies in it: what a scene's rounding left along the normal is dropped.
+    // Remove the rounding error along the sheet's normal.
     const Vec3 in_sheet = glm::normalize(vibration - glm::dot(vibration, from) * from);
     return turned_with(from, direction, in_sheet);
 }
@@ -170,12 +167,12 @@ void add_rims(const PlaneLight& plane, const Vec3& from, double width, std::vect
 
 void add_rims(SphereLight sphere, const Vec3& from, double width, std::vector<Light>& rims) {
     sphere.radius += width * glm::length(sphere.center - from);
-    // Whose widened ball would swallow the stone is no small light.
+    // A light whose widened ball would contain the stone is not small.
     if (sphere.radius < glm::length(sphere.center - from)) rims.push_back(sphere);
 }
 
 void add_rims(CosinePowerLight lobe, const Vec3&, double width, std::vector<Light>& rims) {
-    // cos^e falls to a third within about 1 / sqrt(e / 2).
+    // The lobe cos^e falls to 0.37 at an angle of about sqrt(2 / e).
     const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
     lobe.exponent = 2 / ((angle + width) * (angle + width));
     rims.push_back(lobe);

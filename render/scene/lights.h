@@ -1,11 +1,10 @@
 #pragma once
-// What shines on the stone: the one list of light types. Lengths in the stone's unit, angles in
-// radians.
+// The light types. Lengths in the stone's unit, angles in radians.
 //
-// A light type has a name, says how it shines (`distance_to` or `share_of` below) and of what parts
-// it consists (`each_part`, by which lights are turned and compared). Whoever asks something else
-// of every type (scene files, beams, export, their edges) asks it by std::visit, so that a type
-// that was forgotten does not compile. CONTRIBUTING.md has the list.
+// A light type has a name, its radiance (`distance_to` or `share_of` below), and its parts
+// (`each_part`, with which lights are turned and compared). Code that needs anything else of every
+// type (scene files, beams, exports, rims) uses std::visit, so that a forgotten type does not
+// compile. CONTRIBUTING.md lists these places.
 
 #include <memory>
 #include <optional>
@@ -22,31 +21,30 @@ namespace culet {
 /// Light that vibrates along one direction, as behind a polariser.
 struct LinearPolarisation {
     Vec3 vibration{1, 0, 0};  ///< unit
-    /// Normal of the polariser's sheet: rays at an angle to it vibrate along `vibration` turned
-    /// with the normal into the ray. None: along the projection of `vibration`.
+    /// Normal of the polariser's sheet. An oblique ray vibrates along `vibration` turned by the
+    /// least rotation from the normal to the ray. None: along the projection of `vibration`.
     std::optional<Vec3> normal;
     double degree = 1;  ///< 0..1 of the radiance; the rest is unpolarised
     /// Unit vibration of a ray that travels along or against the unit `direction`.
     Vec3 of_ray(const Vec3& direction) const;
 };
 
-/// What a light sends out: a number (D65 white), a colour, or an illuminant by name ("D65", "A").
-/// The radiance is that behind the polariser, if there is one.
+/// Radiance of a light: a number (D65 white), a colour, or an illuminant by name ("D65", "A"). With
+/// a polariser, it is the radiance behind it.
 struct LightColour {
     std::variant<double, Rgb, std::string> value = 1.0;
     std::optional<LinearPolarisation> polarisation = {};
 };
 
-/// Radiance from all directions as a lat-long map. Frame (docs/rendering.md): the
-/// top row +z, the middle column +x, azimuth growing to the left as seen from inside.
+/// Radiance from all directions as a lat-long map; environment_layout.h has the frame.
 struct EnvironmentMap {
     int width = 0, height = 0;
     std::vector<float> rgb;
-    /// Bilinear look-up at the centre-sampled texels; wraps in azimuth, clamps at the poles.
+    /// Bilinear between texel centres; wraps in azimuth, clamps at the poles.
     Rgb at(const Vec3& direction) const;
 };
 
-/// Shines outwards, and inwards on what stands inside it (a dome).
+/// Shines outwards, and inwards too on what it contains (a dome).
 struct SphereLight {
     static constexpr const char *k_name = "sphere", *k_names = "spheres";
     static constexpr bool k_is_near = true, k_has_edge = true;
@@ -100,8 +98,8 @@ struct DiscLight {
         visit.number(light.to);
     }
 };
-/// Emits on the side of its normal; from the other side it is not there. `u`, `v` empty: infinite;
-/// else the half-extents as vectors in it.
+/// Emits on the side of its normal and is invisible from behind. Infinite, or a parallelogram with
+/// the half-extents `u`, `v` (vectors in the plane).
 struct PlaneLight {
     static constexpr const char *k_name = "plane", *k_names = "planes";
     static constexpr bool k_is_near = true, k_has_edge = true;
@@ -118,13 +116,13 @@ struct PlaneLight {
     }
 };
 
-/// In the order in which people are told of them.
+/// Listed in the order of help texts.
 using Light = std::variant<SphereLight, CosinePowerLight, HemisphereLight, DiscLight, PlaneLight>;
 
 struct Lights {
-    std::shared_ptr<const EnvironmentMap> environment;  ///< or
+    std::shared_ptr<const EnvironmentMap> environment;  ///< excludes `constant`
     double constant = 0;                                ///< radiance from everywhere
-    std::optional<LinearPolarisation> polarisation;     ///< of these two
+    std::optional<LinearPolarisation> polarisation;     ///< of the environment or constant
     std::vector<Light> sources;
 };
 
@@ -136,14 +134,14 @@ void for_each_light_type(F&& f) {
     }(static_cast<const Light*>(nullptr));
 }
 
-/// The sources of one type, in their order.
+/// Returns the sources of one type, in order.
 template <class L, class AnyLights>
 auto lights_of_type(AnyLights& lights) {
     return lights.sources |
            std::views::filter([](const Light& light) { return std::holds_alternative<L>(light); }) |
            std::views::transform([](auto& light) -> auto& { return std::get<L>(light); });
 }
-/// The n-th of them, which must be there.
+/// Returns the n-th source of type L; it must exist.
 template <class L, class AnyLights>
 auto& nth_light(AnyLights& lights, std::size_t n) {
     auto of_type = lights_of_type<L>(lights);
@@ -158,32 +156,31 @@ std::size_t count_lights(const Lights& lights) {
 
 const LightColour& colour_of(const Light& light);
 LightColour& colour_of(Light& light);
-/// Near lights hide the distant ones behind them; the nearest wins. Distant ones add up.
+/// Near lights hide the distant ones behind them, and the nearest wins. Distant lights add up.
 bool is_near(const Light& light);
-/// Its radiance jumps from one direction to the next.
+/// True if the radiance jumps at the light's edge.
 bool has_edge(const Light& light);
-/// True when any light is polarised.
 bool polarised(const Lights& lights);
 
-/// Radiance at each node.
+/// Radiance at each wavelength node.
 std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths);
 
-/// A cap is where the cosine of the angle to its direction is in (to, from].
+/// A direction lies in the cap if the cosine of its angle to the cap's axis is in (to, from].
 struct DiscCosines {
     double from = 2, to = -2;
 };
 DiscCosines cosines_of(const DiscLight& cap);
 
-/// Of near lights: how far along a ray (unit direction) they are; infinite when the ray misses.
+/// Distance along a ray (unit direction) to a near light; infinite when the ray misses.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction);
 double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction);
-/// Of distant ones: what share of the radiance comes from a direction (unit, towards the light).
+/// Part of a distant light's radiance that comes from a direction (unit, towards the light).
 double share_of(const CosinePowerLight& lobe, const Vec3& direction);
 double share_of(const HemisphereLight& half, const Vec3& direction);
 double share_of(const DiscLight& cap, const DiscCosines& cosines, const Vec3& direction);
 
-/// Adds lights where the radiance of this one jumps or falls steeply, `width` (radians) wide as
-/// seen from a point: the search for what few pixels show looks along them.
+/// Adds lights that cover where this light's radiance jumps or falls steeply, `width` radians wide
+/// as seen from the point `from`. The search for small features samples along them.
 void add_rims(const DiscLight& cap, const Vec3& from, double width, std::vector<Light>& rims);
 void add_rims(const HemisphereLight& half, const Vec3& from, double width,
               std::vector<Light>& rims);

@@ -1,5 +1,5 @@
 #pragma once
-// The metals of jewellery, as a scene's `material = { kind = "metal", ... }` takes them.
+// The metals of jewellery that scenes name in `material = { kind = "metal", ... }`.
 
 #include <string_view>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace culet {
 
-/// `f0` is the reflectance at normal incidence in linear sRGB primaries: of gold, silver and
-/// platinum as computed from measured n and k (Akenine-Moeller et al., Real-Time Rendering, 4th
-/// ed., 2018, table 9.2).
+/// `f0`: reflectance at normal incidence, in linear sRGB primaries. Gold, silver and platinum are
+/// computed from measured n and k (Akenine-Moeller et al., Real-Time Rendering, 4th ed., 2018,
+/// table 9.2).
 ///
-/// No table of alloys was at hand, so theirs are estimates. Rose gold: gold, copper and silver of
-/// that table, weighted by the atoms of an 18 carat alloy of 75 % gold, 20.5 % copper and 4.5 %
-/// silver by weight. White gold: palladium of that table, the metal that whitens it.
+/// The alloys are estimates, for lack of a table. Rose gold: the table's gold, copper and silver,
+/// weighted by atoms of an 18 carat alloy (by weight 75 % gold, 20.5 % copper, 4.5 % silver). White
+/// gold: the table's palladium, the metal that whitens it.
 struct Metal {
     const char* name;
     Rgb f0;
@@ -22,7 +22,7 @@ struct Metal {
 
 const std::vector<Metal>& metals();
 
-/// Throws InputError with the nearest name.
+/// Throws InputError that suggests the nearest name.
 const Metal& metal_named(std::string_view name);
 
 }  // namespace culet

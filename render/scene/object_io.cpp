@@ -53,7 +53,7 @@ Shape shape_of(const TomlTable& table, const BoxShape*, LengthUnit) {
     return box;
 }
 
-// Of the file's lengths to the stone's.
+// Factor from the file's lengths to the stone's.
 double factor_of(const TomlTable& table, const std::filesystem::path& file, LengthUnit unit) {
     if (const auto name = table.text("unit")) {
         const auto known = length_unit(*name);
@@ -99,7 +99,7 @@ std::vector<std::string_view> keys_of(const MeshShape*) {
     return {"file", "unit", "smooth"};
 }
 
-// Calls visit(null pointer to the type) for every shape type.
+// Calls visit(null pointer of the type) for every shape type.
 template <class Visit, class... S>
 void each_type(const std::variant<S...>*, Visit&& visit) {
     (visit(static_cast<const S*>(nullptr)), ...);
@@ -129,7 +129,7 @@ Shape shape_in(const TomlTable& table, LengthUnit unit) {
     return *shape;
 }
 
-// Index and extinction given, or the reflectance at normal incidence.
+// Reads index and extinction, or the reflectance at normal incidence.
 MetalMaterial metal_in(const TomlTable& table) {
     table.refuse_unknown({"kind", "f0", "index", "absorption", "roughness"});
     MetalMaterial metal;

@@ -1,5 +1,5 @@
 #pragma once
-// `[[object]]` of a scene file, see docs/rendering.md.
+// Reads `[[object]]` of scene files (docs/rendering.md).
 
 #include "render/scene/objects.h"
 #include "stone/numbers/units.h"
@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// In the order of the file. `unit`: of the stone, in which all lengths are counted. Throws
-/// InputError with file and line.
+/// Returns the objects in the order of the file, lengths in `unit` (the stone's). Throws InputError
+/// with file and line.
 std::vector<SceneObject> objects_of(const TomlTable& root, LengthUnit unit);
 
 }  // namespace culet

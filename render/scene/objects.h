@@ -1,6 +1,6 @@
 #pragma once
-// What stands around the stone: shapes and what they are made of. Lengths in the stone's unit,
-// angles in radians. docs/rendering.md has the keys of scene files.
+// Objects around the stone: shapes and materials. Lengths in the stone's unit, angles in radians.
+// docs/rendering.md has the keys of scene files.
 
 #include <array>
 #include <memory>
@@ -33,7 +33,8 @@ struct BoxShape {
     static constexpr const char* k_name = "box";
     Vec3 center{0, 0, 0};
     std::array<Vec3, 3> axes{Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< orthonormal
-    Vec3 half{0.5, 0.5, 0.5};                                       ///< of the edges along them
+    Vec3 half{0.5, 0.5, 0.5};                                       ///< half edge lengths, along
+                                                                    ///< `axes`
 };
 struct MeshShape {
     static constexpr const char* k_name = "mesh";
@@ -46,7 +47,7 @@ struct SurfaceColour {
     std::variant<double, Rgb> value = 1.0;
 };
 
-/// Lambert's: the same radiance in all directions, unpolarised.
+/// Lambertian: the same radiance in all directions, unpolarised.
 struct DiffuseMaterial {
     static constexpr const char* k_name = "diffuse";
     SurfaceColour albedo;
@@ -54,25 +55,25 @@ struct DiffuseMaterial {
 /// Fresnel's equations for a complex index.
 struct MetalMaterial {
     static constexpr const char* k_name = "metal";
-    SurfaceColour n, k;  ///< n + i k; or, where there is `f0`, unused
-    /// Reflectance at normal incidence, 0..1: the index is 1 + i k then, with k to match. What that
-    /// reflects at a slant lies between real metals. Of 1: an ideal conductor.
+    SurfaceColour n, k;  ///< n + i k; unused if `f0` is set
+    /// Reflectance at normal incidence, 0..1. The index is then 1 + i k with k to match: at oblique
+    /// incidence this lies between real metals. 1 means an ideal conductor.
     std::optional<SurfaceColour> f0;
-    /// 0: polished. Else microfacets (GGX) of alpha = roughness^2, as glTF and Blender have it.
+    /// 0: polished. Else GGX microfacets with alpha = roughness^2, as in glTF and Blender.
     double roughness = 0;
 };
-/// Reflects the same share at every angle, and turns polarisation as an ideal conductor does.
+/// Reflects the same part at every angle, and changes polarisation like an ideal conductor.
 struct MirrorMaterial {
     static constexpr const char* k_name = "mirror";
     SurfaceColour albedo;
 };
-/// Clear or coloured glass; the shape must be closed.
+/// Clear or coloured glass. The shape must be closed.
 struct DielectricMaterial {
     static constexpr const char* k_name = "dielectric";
     double index = 1.5;
-    SurfaceColour absorption{0.0};  ///< Napierian, per length
+    SurfaceColour absorption{0.0};  ///< Napierian, per unit of length
 };
-/// Shines to all sides alike, and reflects nothing.
+/// Emits the same radiance to all sides, and reflects nothing.
 struct EmitterMaterial {
     static constexpr const char* k_name = "emitter";
     LightColour radiance;

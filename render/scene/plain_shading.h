@@ -1,6 +1,6 @@
 #pragma once
-// What the plain shadings (engines flat, gouraud, phong, whitted) need beyond the physical scene:
-// [shading] of scene files, see docs/engines.md.
+// Settings of the engines flat, gouraud, phong and whitted: [shading] of scene files
+// (docs/engines.md).
 
 #include <array>
 
@@ -8,10 +8,10 @@
 
 namespace culet {
 
-/// The illumination model of Phong (1975): ambient, diffuse and specular coefficients, which
-/// multiply the surface's colour and the lights, and the specular exponent. Light from a place is
-/// divided by c + l a + q a^2, a being the distance over that from the light to the middle of the
-/// scene. The defaults are the inverse square of physics.
+/// Illumination model of Phong (1975). The ambient, diffuse and specular coefficients multiply the
+/// surface's colour and the lights. Light from a near source is divided by c + l a + q a^2, where a
+/// is its distance divided by that from the light to the scene's middle. The defaults give the
+/// physical inverse square.
 struct PlainShading {
     double ambient = 1, diffuse = 1, specular = 0.3;
     double exponent = 40;

@@ -25,7 +25,7 @@ namespace culet {
 
 namespace {
 
-// The instrument that the scene is seen through, and the table that names it.
+// Finds the view preset of the scene and the table that names it.
 std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) {
     std::optional<std::pair<std::string, TomlTable>> view;
     const auto take = [&view](const TomlTable& table, bool may_be_light) {
@@ -48,8 +48,9 @@ std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) 
     return view;
 }
 
-// A mesh of which nobody says whether it is convex: one that is not, by more than meets of designs
-// miss, is drawn as it is. Bent facets have no other surface than their planes.
+// Decides whether a mesh is convex if the file does not say so. A mesh is drawn as it is when it
+// deviates from convex by more than the miss of meets in designs. A mesh with non-planar facets is
+// always drawn by its planes.
 void judge_convexity(Stone& stone, std::vector<std::string>& notes) {
     const CheckLimits limits{.planarity = k_largest_miss, .must_be_convex = false};
     if (is_convex(stone.solid) || !find_faults(stone.solid, limits).empty()) return;
@@ -65,7 +66,7 @@ void judge_convexity(Stone& stone, std::vector<std::string>& notes) {
                              : ""));
 }
 
-// A stone file (under `file_key`) or a mesh, and what the table says beside it.
+// Reads a stone file (key `file_key`) or a mesh, and the keys beside it.
 Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::string>& notes) {
     Stone stone;
     if (table.has(file_key)) {
@@ -105,7 +106,7 @@ void place_stone(const TomlTable& table, Stone& stone) {
     if (table.has("transform")) move_stone(transform, stone);
 }
 
-// One of `[[stone]]`.
+// Reads one of `[[stone]]`.
 Stone placed_stone(const TomlTable& table, std::vector<std::string>& notes) {
     table.refuse_unknown({"file", "mesh", "material", "unit", "optic_axis", "principal_axes",
                           "convex", "name", "transform"});
@@ -119,7 +120,7 @@ Stone placed_stone(const TomlTable& table, std::vector<std::string>& notes) {
     return stone;
 }
 
-// Its lengths counted in another unit.
+// Converts the stone's lengths to `unit`.
 void count_in(LengthUnit unit, Stone& stone) {
     if (stone.unit == unit) return;
     Transform transform;
@@ -138,7 +139,7 @@ bool shines(const std::vector<SceneObject>& objects) {
     });
 }
 
-// The stones of a scene, the one that it is about first; `instead` of that, where it is given.
+// Reads the scene's stones, the main one first; `instead` replaces the main stone.
 void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
     const std::vector<TomlTable> listed =
         lists_stones(root) ? root.tables("stone") : std::vector<TomlTable>();
@@ -157,7 +158,7 @@ void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
 }  // namespace
 
 void apply_words_beside(const TomlTable& table, Stone& stone) {
-    // Beside a stone file these are said of this picture only: the same stone in another material.
+    // Beside a stone file these keys are for this picture only, e.g. the stone in another material.
     if (const auto name = table.text("name")) stone.name = *name;
     if (table.has("material") || table.has("mesh")) {
         stone.material = table.kind("material") == TomlTable::Kind::table

@@ -1,5 +1,5 @@
 #pragma once
-// Scene files (TOML), see docs/rendering.md.
+// Reads scene files (TOML; docs/rendering.md).
 
 #include <filesystem>
 #include <string>
@@ -11,21 +11,20 @@
 
 namespace culet {
 
-/// Throws InputError with file and line. `stone_instead`: use this stone rather than the file's
-/// own; `light_instead`: the name of a preset (light_presets.h), rather than the file's lights.
+/// `stone_instead` replaces the file's stone; `light_instead`, the name of a preset
+/// (light_presets.h), replaces its lights. Throws InputError with file and line.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                  const Stone* stone_instead = nullptr, std::string_view light_instead = {});
 
-/// The same of a parsed file.
+/// Does the same for a parsed file.
 Scene scene_of(const TomlTable& root, const Stone* stone_instead = nullptr,
                std::string_view light_instead = {});
 
-/// What `stone` or `mesh` of a scene name, with the material and axes beside them. What there is to
-/// say about it is added to `notes`.
+/// Returns the stone that `stone` or `mesh` names, with the material and axes given beside it. Adds
+/// remarks to `notes`.
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes);
 
-/// What a scene says of its stone beside the stone's file: `name`, `material` and the crystal's
-/// axes.
+/// Applies the keys `name`, `material` and the crystal's axes that stand beside a stone's file.
 void apply_words_beside(const TomlTable& table, Stone& stone);
 
 }  // namespace culet

@@ -14,11 +14,11 @@ namespace culet {
 namespace {
 
 constexpr double k_fov_deg = 20;
-// Where the eye stands as seen from the middle of the mounting: across the hoop, aside and above.
+// Direction of the eye from the mounting's middle: across the hoop, from the side and above.
 const Vec3 k_toward_eye{0.72, -0.42, 0.55};
-// Of a ring's height: where the picture's middle is below its top, and half of what is shown.
+// As parts of a ring's height: the picture's middle below the top, and half the visible height.
 constexpr double k_ring_middle = 0.29, k_ring_shown = 0.385;
-constexpr double k_polished = 0.15;  // roughness of a polish that has been worn
+constexpr double k_polished = 0.15;  // roughness of a worn polish
 
 std::string quoted_name(const std::filesystem::path& file, const std::filesystem::path& from) {
     const std::filesystem::path folder = std::filesystem::absolute(from).parent_path();
@@ -35,7 +35,7 @@ std::string quoted_name(const std::filesystem::path& file, const std::filesystem
 }
 
 std::string list(Vec3 v) {
-    // Nothing but rounding is no length of a ring.
+    // Lengths that are only rounding errors are written as 0.
     constexpr double k_rounding = 1e-9;
     for (int i = 0; i < 3; ++i)
         if (std::abs(v[i]) < k_rounding) v[i] = 0;
@@ -54,8 +54,8 @@ std::string setting_scene(const SettingScene& files, const Setting& setting) {
                                                        : "\"" + files.material + "\"");
     }
     if (!files.is_stone_file && !files.convex) text += "convex = false\n";
-    // The ball about a head alone fills the picture's height; of a ring the lower part is left out,
-    // so that the stone is large enough to be looked at.
+    // For a head alone, its bounding ball fills the picture's height. For a ring the lower part is
+    // cut off, so that the stone is large enough.
     Vec3 middle = 0.5 * (setting.low + setting.high);
     double shown = 0.5 * glm::length(setting.high - setting.low);
     if (setting.options.shank) {

@@ -84,7 +84,7 @@ void read_engine(const TomlTable& table, RenderSettings& settings) {
         settings.refraction = static_cast<Refraction>(found - k_refractions.begin());
     }
     if (const auto beams = table.text("crystal_beams")) {
-        // "parted" is the name that files had before 0.2.0.
+        // Files written before 0.2.0 say "parted".
         if (*beams != "auto" && *beams != "merged" && *beams != "split" && *beams != "parted") {
             table.fail("crystal_beams",
                        fmt::format("crystal_beams is auto, merged or split, found \"{}\"", *beams));
@@ -188,7 +188,7 @@ void read_effects(const TomlTable& table, RenderSettings& settings) {
             set_effects({});
         } else if (word == "all") {
             settings.effects_auto = false;
-            // Coherence changes what "all" of the others mean: only where the scene calls for it.
+            // "all" does not include coherence: it is used only if the scene calls for it.
             settings.effects[static_cast<std::size_t>(Effects::coherence)] = false;
         } else if (word != "auto") {
             set_effects({word});
@@ -253,7 +253,7 @@ std::vector<std::pair<std::string, std::string>> written_settings(const RenderSe
         write("crystal_beams",
               quoted(*settings.crystal_beams == CrystalBeams::merged ? "merged" : "split"));
     write("depth", std::to_string(settings.depth));
-    // Shortest decimals that read back as the same number.
+    // fmt writes the shortest decimals that read back as the same number.
     write("tolerance", fmt::format("{}", settings.tolerance));
     if (settings.cut_weight) write("cut_weight", fmt::format("{}", *settings.cut_weight));
     if (settings.split_weight) write("split_weight", fmt::format("{}", *settings.split_weight));

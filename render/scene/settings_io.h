@@ -1,5 +1,5 @@
 #pragma once
-// [render] of scene files, see docs/rendering.md.
+// Reads and writes [render] of scene files (docs/rendering.md).
 
 #include <string>
 #include <utility>
@@ -13,8 +13,8 @@ namespace culet {
 /// Throws InputError with file and line.
 RenderSettings read_settings(const TomlTable& table);
 
-/// What decides how a picture is drawn (engine, effects, wavelengths, how finely), as keys of
-/// [render] and their values in TOML, which is JSON as well. Read again they give the same picture.
+/// Returns the settings that determine the picture (engine, effects, wavelengths, accuracy) as keys
+/// of [render] and values in TOML, which are valid JSON too. Reading them gives the same picture.
 std::vector<std::pair<std::string, std::string>> written_settings(const RenderSettings& settings);
 
 }  // namespace culet

@@ -20,7 +20,7 @@ namespace culet {
 
 namespace {
 
-// Designs are 1 or 2 wide (a radius of 1), cut stones hardly ever under 2 mm.
+// Designs are 1 or 2 wide (a radius of 1); cut stones are hardly ever under 2 mm.
 constexpr double k_widest_of_no_size = 2 + 1e-6;
 constexpr std::size_t k_suggestions = 3;
 
@@ -45,7 +45,7 @@ InputKind input_kind_of(const std::filesystem::path& file) {
     return InputKind::scene;
 }
 
-// Of the catalogue, those whose index is that of the design.
+// Suggests catalogue materials whose index is near the design's.
 std::string materials_of_index(double index) {
     std::vector<std::pair<double, std::string>> near;
     for (const std::string& name : catalogue_names())
@@ -101,7 +101,7 @@ void set_size(const std::filesystem::path& file, InputKind kind,
     }
 }
 
-// A view is a key of the scene, as others are.
+// Views are set by a scene's key.
 std::vector<std::string> keys_of(std::vector<std::string> overrides, const StoneScene& choices) {
     if (choices.width_mm && !(*choices.width_mm > 0 && std::isfinite(*choices.width_mm)))
         throw InputError(fmt::format("--width is in mm, found {:g}", *choices.width_mm));
@@ -113,7 +113,7 @@ std::string light_of(const StoneScene& choices) {
     return is_view_preset(choices.light) ? std::string() : choices.light;
 }
 
-// The stone alone, in the light that was asked for or else the usual one.
+// Makes a scene of the stone alone, in the light asked for or the usual one.
 Scene alone(const TomlTable& root, const Stone& stone, const StoneScene& choices,
             const std::vector<std::string>& notes) {
     std::string light = light_of(choices);
@@ -137,7 +137,7 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
                      const StoneScene& choices) {
     const InputKind kind = input_kind_of(file);
     const std::vector<std::string> keys = keys_of(overrides, choices);
-    // From where the command is given, as other files on the command line.
+    // Relative to the working directory, like other files on the command line.
     std::string material = choices.material;
     if (std::filesystem::path(material).extension() == ".toml")
         material = std::filesystem::absolute(material).string();

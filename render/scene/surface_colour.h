@@ -1,5 +1,5 @@
 #pragma once
-// A surface's colour as red, green and blue.
+// A surface's colour as RGB.
 
 #include "render/scene/objects.h"
 

@@ -9,8 +9,8 @@ namespace culet {
 
 namespace {
 
-// A picture's floats end at 3e38 and lose digits below 1e-38: what several lights add up to, and
-// what is left of it behind a stone, must fit, too.
+// Floats end at 3e38 and lose digits below 1e-38. The margin is for sums of several lights and for
+// what is left behind a stone.
 constexpr double k_brightest = 1e36, k_dimmest = 1e-36;
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// Matrices written with a few digits: columns of one length, at right angles.
+// Tolerance for similarities, relative; matrices may be written with few digits.
 constexpr double k_alike = 1e-6;
 
 Transform matrix_in(const TomlTable& table) {

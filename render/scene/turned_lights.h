@@ -1,5 +1,5 @@
 #pragma once
-// Lights that are turned as a whole.
+// Rotation of a scene's lights.
 
 #include <glm/mat3x3.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace culet {
 
-/// The lights turned about a point: environment, near and distant ones, and their polarisation.
+/// Rotates all lights about a point: environment, near and distant ones, and their polarisation.
 Lights turned_lights(const Lights& lights, const glm::dmat3& turn, const Vec3& about);
 
 }  // namespace culet

@@ -1,12 +1,12 @@
 #pragma once
-// A stone on a turntable, before a camera and lights that stand still.
+// A stone on a turntable in front of a fixed camera and fixed lights.
 
 #include "render/scene/scene.h"
 
 namespace culet {
 
-/// The stone turned by `angle` (radians, counter-clockwise seen from above) about its own axis: its
-/// `up`, through the middle of its volume.
+/// Rotates stones and objects by `angle` (radians, counter-clockwise seen from above) about the
+/// stone's `up` through its centroid.
 Scene turned(const Scene& scene, double angle);
 
 }  // namespace culet

@@ -1,12 +1,12 @@
 #pragma once
-// The gemmologist's instruments as views of a stone.
+// Gemmologists' instruments as views of a stone.
 //
-// polariscope: polarised light from behind, an analyser before the eye: bright where the stone
-//   turns the polarisation, and coloured where it has little birefringence.
-// conoscope: the same in all directions through one point: isogyres and rings around the optic
+// polariscope: polarised light from behind and an analyser before the eye. The stone is bright
+//   where it changes the polarisation, and coloured where its birefringence is small.
+// conoscope: the same for all directions through one point: isogyres and rings around the optic
 //   axes.
-// dichroscope: unpolarised light from behind, two windows side by side whose analysers are at right
-//   angles: the colours of the two waves.
+// dichroscope: unpolarised light from behind and two windows with crossed analysers, which show the
+//   colours of the two waves.
 
 #include <string_view>
 #include <vector>
@@ -16,17 +16,17 @@
 
 namespace culet {
 
-/// `keys` and those that may stand beside `preset` where it names a view.
+/// Appends the keys that may stand beside `preset` when it names a view.
 std::vector<std::string_view> with_view_keys(std::vector<std::string_view> keys);
 
 bool is_view_preset(std::string_view name);
 
-/// Analyser, retarder and cone of a table ([camera], or where `preset` stands), in degrees there;
-/// spelled either way. Throws InputError.
+/// Reads analyser, retarder and cone (degrees in the file, either spelling) from [camera] or from
+/// the table with `preset`. Throws InputError.
 void read_eye_optics(const TomlTable& table, Camera& camera);
 
-/// Sets up the lights of view `name` behind the stone as the camera sees it, and the analyser where
-/// none was given. `table` holds the polariser's angle.
+/// Places the lights of view `name` behind the stone as the camera sees it, and a default analyser.
+/// `table` holds the polariser's angle.
 void apply_view_preset(std::string_view name, const TomlTable& table, Scene& scene);
 
 }  // namespace culet

@@ -1,10 +1,10 @@
 #pragma once
-// What this build can draw. Every build for use has all effects; bench_stripped compiles the
-// renderers once more without any, to measure what they cost a scene that has none of them.
+// The effects compiled into this build. Normal builds have all. bench_stripped compiles the
+// renderers without any, to measure what the effects cost scenes that do not use them.
 
 namespace culet {
 
-/// False: isotropic, clear stones in unpolarised light at one wavelength, and nothing else.
+/// False: only isotropic, clear stones in unpolarised light at one wavelength.
 #ifdef CULET_WITHOUT_EFFECTS
 inline constexpr bool k_has_effects = false;
 #else

@@ -35,7 +35,7 @@ const char* name_of(Effects effect) {
 
 namespace {
 
-// Interference colours need no fewer: their fringes over wavelength are 10 nm wide at 30 waves.
+// For interference colours: fringes over wavelength are 10 nm wide at 30 waves.
 constexpr int k_least_coherent_nodes = 29;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -68,7 +68,7 @@ bool has_polariser(const Scene& scene) {
     return scene.camera.optics.analyzer || polarised(scene.lights);
 }
 
-// What the stone's optics can do over the wavelengths in question.
+// Spans of the stone's optics over the wavelengths used.
 struct Optics {
     double span = 0;       // of the indices over wavelength
     double split = 0;      // largest difference of two indices
@@ -107,7 +107,7 @@ bool more_stones_need_spectrum(const Scene& scene) {
     });
 }
 
-// Index and absorption along the crystal's three axes (uniaxial: axis 0 is the optic axis, e).
+// Orders values by the crystal's three axes (uniaxial: axis 0 is the optic axis, e).
 template <class Value>
 std::array<double, 3> along_axes(OpticCharacter optic, const Value& value) {
     switch (optic) {
@@ -122,11 +122,11 @@ std::array<double, 3> along_axes(OpticCharacter optic, const Value& value) {
 }
 
 double mean(const std::array<double, 3>& v) {
-    // Equal values stay what they are.
+    // Keeps equal values exactly equal.
     return v[0] == v[1] && v[1] == v[2] ? v[0] : (v[0] + v[1] + v[2]) / 3;
 }
 
-// Absorption per mm of each principal ray, or their mean where the two waves are not told apart.
+// Absorption per mm of each principal ray, or their mean if the two waves are not separated.
 std::vector<Spectrum> absorption_of(const Material& material, bool each_ray) {
     const int rays = ray_count(material.optic);
     const std::vector<Spectrum> all(material.absorption_per_mm.begin(),
@@ -243,7 +243,7 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     const int count = static_cast<int>(setup.wavelengths_nm.size());
     const bool each_ray = setup.on(Effects::pleochroism) && setup.splits;
     const FewWavelengths* few = nullptr;
-    // Spectra, and scenes with other things in colour, are at the wavelengths themselves.
+    // Spectral pictures, and scenes with objects, use the wavelengths themselves.
     if (setup.on(Effects::absorption) && optics.spectral_absorption && !scene.settings.spectral &&
         !scene.has_objects() && count >= k_least_fitted && count <= k_most_fitted) {
         few = &few_wavelengths(absorption_of(material, each_ray), setup.wavelengths_nm,
@@ -264,9 +264,9 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
         std::array<double, 3> n =
             along_axes(material.optic, [&](int ray) { return material.index[ray].at(nm); });
         band.n = mean(n);
-        // Without the split, light sees the mean over directions of its vibrations.
+        // Without birefringence, use the mean over the vibration directions.
         if (!setup.splits) n = {band.n, band.n, band.n};
-        // Of a uniaxial crystal the optic axis alone counts.
+        // In a uniaxial crystal only the optic axis matters.
         band.crystal = material.optic == OpticCharacter::uniaxial
                            ? uniaxial_crystal(scene.stone.crystal.axes[0], n[1], n[0])
                            : Crystal(scene.stone.crystal.axes, n);

@@ -1,5 +1,5 @@
 #pragma once
-// Which effects a scene calls for, at which wavelengths, and what leaving one out may cost.
+// The effects and wavelengths that a scene needs, and the error of leaving an effect out.
 
 #include <array>
 #include <string>
@@ -16,23 +16,23 @@ struct EffectDecision {
     Effects effect = Effects::dispersion;
     bool on = false;
     std::string why;
-    /// Bound on the error of the radiance, relative to the largest light, of leaving it out; 0 when
-    /// it is on or changes nothing. NaN: no bound is known (written as null).
+    /// Bound on the radiance's error from leaving the effect out, relative to the brightest light.
+    /// 0 when it is on or changes nothing; NaN (written as null) when no bound is known.
     double error_bound = 0;
 };
 
 struct OpticalSetup {
     std::array<EffectDecision, k_effect_count> effects;
     std::vector<double> wavelengths_nm;
-    /// Of each wavelength, where few stand for a coloured stone's whole spectrum, as the absorption
-    /// of `bands` then does (few_wavelengths.h); else empty.
+    /// Colour of each wavelength, if a few wavelengths with fitted absorption (`bands`) stand for a
+    /// coloured stone's whole spectrum (few_wavelengths.h); else empty.
     std::vector<Rgb> rgb_weight;
     std::vector<Band> bands;
     bool polarised = true;
     bool stokes = false;   ///< all four Stokes parameters are needed: polarised lights, an analyser
-    bool general = false;  ///< crystal_paths.h; else light_paths.h suffices
-    bool splits = false;   ///< the stone has two waves, so that trees double
-    int open_edges = 0;    ///< of a stone that is not convex
+    bool general = false;  ///< needs crystal_paths.h; else light_paths.h suffices
+    bool splits = false;   ///< the stone has two waves, so trees of paths double
+    int open_edges = 0;    ///< of a non-convex stone
 
     bool on(Effects effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     WavelengthSet colours() const {
@@ -41,19 +41,19 @@ struct OpticalSetup {
     }
 };
 
-/// Wavelengths that can be chosen from, coarse to fine; each set holds the one before.
+/// Numbers of wavelengths to choose from, coarse to fine; each set contains the one before.
 constexpr std::array<int, 4> k_node_counts{8, 15, 29, 57};
 
-/// `nodes`: wavelengths where a spectrum is called for and the scene names none.
+/// `nodes`: number of wavelengths if a spectrum is needed and the scene gives none.
 OpticalSetup make_optical_setup(const Scene& scene, int nodes = k_node_counts[1]);
 
-/// What a ray of one band costs, but for its counts.
+/// Work along a ray of one band, without its counts.
 PathWork work_along_paths(const OpticalSetup& setup);
 
-/// True when the plan's wavelengths were its own choice of a spectrum.
+/// True if the wavelengths are the plan's choice of a spectrum.
 bool chose_spectrum(const Scene& scene, const OpticalSetup& setup);
 
-/// Whether a ray's paths are a tree, whose small branches are chosen at random.
+/// True if a ray's paths form a tree, whose small branches are chosen at random.
 bool paths_branch(const Scene& scene, const OpticalSetup& setup);
 bool paths_branch(const Scene& scene);
 

@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-// A hand-made mesh whose corners lie so little off their planes, as a fraction of the diameter, is
-// drawn by its planes, and a note says so.
+// Largest distance of corners from their planes, relative to the diameter, at which a hand-made
+// mesh is drawn by its planes, with a note.
 constexpr double k_drawn_by_planes = 0.02;
 
 void require_drawable(const Stone& stone) {
@@ -28,8 +28,7 @@ void require_drawable(const Stone& stone) {
             case FaultKind::repeated_plane:
             case FaultKind::missing_facet:
                 break;
-            // Planes are what is drawn of a convex stone: outlines that rounding bent are no
-            // hindrance, see below.
+            // A convex stone is drawn by its planes, so outlines bent by rounding do not matter.
             case FaultKind::not_convex:
                 break;
             case FaultKind::self_crossing:
@@ -71,7 +70,7 @@ bool holds(const Shape& shape, const Vec3& point) {
     return true;
 }
 
-// What lies in glass, or looks from there, would be drawn as if it did not.
+// Refuses stones, objects and eyes inside glass: they would be drawn as if outside.
 void require_nothing_in_glass(const Scene& scene) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];

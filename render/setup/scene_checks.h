@@ -1,5 +1,5 @@
 #pragma once
-// What a scene must fulfil before the reference renderer takes it.
+// Checks of a scene before rendering.
 
 #include "render/geometry/stone_body.h"
 #include "render/scene/scene.h"
@@ -9,10 +9,10 @@ namespace culet {
 /// Throws InputError: a stone that is not closed and convex, a camera inside the stone, a depth
 /// over the longest path.
 void require_renderable(const Scene& scene);
-/// The part of it that another camera can break.
+/// The check that another camera can violate: the camera is outside the stone.
 void require_outside(const StoneBody& body, const Camera& camera);
 
-/// What of the stone is not drawn as its mesh has it: corners that lie off their planes.
+/// Notes where the drawing differs from the stone's mesh: corners that lie off their planes.
 std::vector<std::string> notes_on_drawing(const Scene& scene);
 
 }  // namespace culet
