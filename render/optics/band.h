@@ -1,5 +1,5 @@
 #pragma once
-// Wavelengths that are traced together, and the optics of the stone for them.
+// Wavelengths that are traced together, and the stone's optics for them.
 
 #include <array>
 
@@ -8,15 +8,16 @@
 
 namespace culet {
 
-/// Most wavelengths that share one band; longer sets are split.
+/// Largest number of wavelengths in a band; longer sets are split.
 constexpr int k_band_nodes = 32;
 using NodeWeights = std::array<double, k_band_nodes>;
 
-/// Wavelength nodes that share one geometry, and the optics of the stone for them.
+/// Wavelength nodes that share one path geometry.
 struct Band {
     int first = 0, count = 1;  ///< of the wavelength set
-    double n = 1.5;            ///< of an isotropic stone, or the mean where the split is left out
-    bool two_waves = false;    ///< the stone splits light: `crystal`
+    double n = 1.5;            ///< of an isotropic stone; the mean index if birefringence is left
+                               ///< out
+    bool two_waves = false;    ///< `crystal` has two different waves
     Crystal crystal;
     double n_outside = 1;
     bool absorbs = false;
@@ -24,8 +25,8 @@ struct Band {
     std::array<NodeWeights, 3> absorption{};
     /// Vacuum wavelength in the stone's unit of length.
     double wavelength = 1e-6 * k_d_line_nm;
-    /// Retardation, in the stone's unit of length, from which the two waves of a crystal are
-    /// followed apart: wavelength^2 / bandwidth. 0: always; infinite: monochromatic light.
+    /// Retardation, in the stone's unit of length, beyond which a crystal's two waves are followed
+    /// separately: wavelength^2 / bandwidth. 0: always; infinite: monochromatic light.
     double coherence_length = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The little algebra that complex fields need beside GLM's real vectors.
+// Algebra of complex field vectors.
 
 #include "render/optics/crystal.h"
 
@@ -17,7 +17,7 @@ inline ComplexVec3 operator*(const Complex& f, const ComplexVec3& a) {
 inline Vec3 real_part(const ComplexVec3& v) {
     return {v.x.real(), v.y.real(), v.z.real()};
 }
-/// Bilinear: nothing is conjugated.
+/// Bilinear, without conjugation.
 inline Complex dot(const Vec3& a, const ComplexVec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a metal reflects of unpolarised light: Fresnel's equations for the index n + i k, without
+// Reflectance of metals for unpolarised light: Fresnel's equations for the index n + i k, without
 // phases (Born & Wolf, 14.2).
 
 #include <algorithm>
@@ -7,10 +7,11 @@
 
 namespace culet {
 
-/// Mean of s and p, for the cosine of incidence. `n`, `k`: over the index outside; infinite k: all.
+/// Mean of s and p at the cosine of incidence. `n`, `k`: relative to the index outside; infinite k
+/// reflects all light.
 inline double conductor_reflectance(double n, double k, double cosine) {
     if (std::isinf(k)) return 1;
-    // a + i b is the root of (n + i k)^2 - sin^2; a^2 + b^2 its square's modulus.
+    // a + i b is the root of (n + i k)^2 - sin^2, and a^2 + b^2 the modulus of its square.
     const double c2 = cosine * cosine, s2 = (1 - cosine) * (1 + cosine);
     const double re = (n - k) * (n + k) - s2, im = 2 * n * k;
     const double squares = std::sqrt(re * re + im * im);
@@ -22,7 +23,7 @@ inline double conductor_reflectance(double n, double k, double cosine) {
     return std::isfinite(R_s + R_p) ? 0.5 * (R_s + R_p) : 1;
 }
 
-/// Of the index 1 + i k that has this reflectance at normal incidence, r = k^2 / (4 + k^2);
+/// k of the index 1 + i k that has this reflectance at normal incidence, r = k^2 / (4 + k^2);
 /// infinite for 1.
 inline double extinction_of_reflectance(double reflectance) {
     return 2 * std::sqrt(reflectance / (1 - reflectance));

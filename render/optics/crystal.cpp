@@ -12,7 +12,7 @@ namespace culet {
 
 Crystal::Crystal(const std::array<Vec3, 3>& axes, const std::array<double, 3>& n)
     : axes_(axes), n_(n) {
-    // The axis of a uniaxial crystal is the one whose index no other has.
+    // The axis of a uniaxial crystal is the one whose index differs.
     const int odd = n[1] == n[2] ? 0 : n[0] == n[2] ? 1 : n[0] == n[1] ? 2 : -1;
     if (odd >= 0) {
         axis_ = axes[odd];
@@ -31,7 +31,7 @@ Crystal::Crystal(const std::array<Vec3, 3>& axes, const std::array<double, 3>& n
     rising_.e1 = n1 * n1;
     rising_.e2 = n2 * n2;
     rising_.e3 = n3 * n3;
-    // Differences of squares, without their cancellation.
+    // Differences of squares, without cancellation.
     rising_.d1 = (n1 - n2) * (n1 + n2);
     rising_.d3 = (n3 - n2) * (n3 + n2);
 }
@@ -43,12 +43,12 @@ Crystal uniaxial_crystal(const Vec3& axis, double n_o, double n_e) {
 
 namespace {
 
-// N parallel to the axis: below this sine of their angle nothing is left of a x N.
+// Sine of the angle between N and the axis below which a x N is only rounding error.
 constexpr double k_parallel = 1e-15;
-// Below this one a x N has lost a digit, and the two waves' fields differ in which.
+// Sine below which a x N has lost a digit, so that the two waves' fields become inconsistent.
 constexpr double k_beside = 0.1;
 
-// a x N is noise: N runs along the axis a.
+// True if a x N is noise: N runs along the axis a.
 bool along(const Vec3& aN, const Vec3& N) {
     return glm::dot(aN, aN) < k_parallel * k_parallel * glm::dot(N, N);
 }
@@ -60,18 +60,18 @@ Complex root_of(double squared) {
     return squared >= 0 ? Complex(std::sqrt(squared)) : Complex(0, std::sqrt(-squared));
 }
 
-// Any unit vector normal to the axis and fixed by the face, for waves along the axis.
+// Returns a unit vector normal to the axis, determined by the face, for waves along the axis.
 Vec3 beside_axis(const Vec3& axis, const Vec3& n) {
     const Vec3 from_face = glm::cross(axis, n);
     if (glm::dot(from_face, from_face) > 1e-6) return glm::normalize(from_face);
     return perpendicular_to(axis);
 }
 
-// A vector normal to the axis and to N.
+// Returns a vector normal to the axis and to N.
 Vec3 across(const Vec3& a, const Vec3& N, const Vec3& n) {
     Vec3 aN = glm::cross(a, N);
     if (along(aN, N)) aN = beside_axis(a, n);
-    // Rounding leaves a part along N, all the larger beside aN as N is nearer to the axis.
+    // Remove the rounding error along N, which grows relative to aN as N approaches the axis.
     return aN - glm::dot(aN, N) / glm::dot(N, N) * N;
 }
 
@@ -96,15 +96,15 @@ std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K,
         complete_evanescent(modes[0], along(aN, N) ? complex_of(beside_axis(a, n)) : aN, N);
     }
 
-    // Extraordinary: A q^2 + 2 B q + C = 0, E = eps^-1 (N x (a x N)); the sign of the root, not of
-    // q, is the energy's direction.
+    // Extraordinary: A q^2 + 2 B q + C = 0, E = eps^-1 (N x (a x N)). The sign of the root, not of
+    // q, gives the direction of the energy.
     const double an = glm::dot(a, n), ak = glm::dot(a, K);
     const double A = eo + d * an * an, B = d * an * ak;
     const double discriminant = A * eo * (n_e - k_length) * (n_e + k_length) - eo * d * ak * ak;
     const double along_a = 1 / ee - 1 / eo;
     if (discriminant > 0) {
         const double root = std::sqrt(discriminant);
-        // Where -B and the root cancel, the other root and Vieta's product give the digits back.
+        // If -B and the root cancel, use the other root and Vieta's product.
         const double C = eo * (k_length - n_e) * (k_length + n_e) + d * ak * ak;
         const Vec3 N = K + (B > 0 ? C / (-B - root) : (-B + root) / A) * n;
         const Vec3 D = glm::cross(N, across(a, N, n));
@@ -136,7 +136,7 @@ std::array<CrystalMode, 2> modes_towards(const Crystal& crystal, const Vec3& K, 
 
 namespace {
 
-// The tangential parts of a field at a face, t1 along s and t2 = n x t1.
+// Tangential parts of a field at a face, t1 along s and t2 = n x t1.
 struct Tangential {
     Complex E1, E2, H1, H2;
 };
@@ -144,8 +144,8 @@ struct Tangential {
 struct FaceFrame {
     Vec3 t1, t2;
     FaceFrame(const Vec3& K, const Vec3& n) {
-        // Normal incidence has no plane of incidence: any tangent serves. A short K may well have a
-        // part along n that is no longer small beside it.
+        // Normal incidence has no plane of incidence: any tangent serves. A short K may have a part
+        // along n that is not small beside it.
         const bool oblique = glm::length(K) > 1e-14;
         t1 = glm::normalize(glm::cross(oblique ? K : perpendicular_to(n), n));
         t2 = glm::cross(n, t1);
@@ -155,8 +155,8 @@ struct FaceFrame {
     }
 };
 
-// x of the 2x2 system with columns a, b and right side c, by Cramer on rows scaled to their largest
-// entry.
+// Solves the 2x2 system with columns a, b and right side c by Cramer's rule, with rows scaled to
+// their largest entry.
 std::array<Complex, 2> solve(std::array<Complex, 2> a, std::array<Complex, 2> b,
                              std::array<Complex, 2> c) {
     for (int row = 0; row < 2; ++row) {
@@ -171,8 +171,8 @@ std::array<Complex, 2> solve(std::array<Complex, 2> a, std::array<Complex, 2> b,
     return {(c[0] * b[1] - c[1] * b[0]) / determinant, (a[0] * c[1] - a[1] * c[0]) / determinant};
 }
 
-// Makes two pairs of amplitudes one column of a unitary matrix. Returns |sum of powers - 1| before;
-// 2 when there is no balance to speak of.
+// Normalises two pairs of amplitudes to one column of a unitary matrix. Returns |sum of powers - 1|
+// before, or 2 if the sum is 0 or not finite.
 double balance(std::array<Complex, 2>& a, std::array<Complex, 2>& b) {
     const double sum = std::norm(a[0]) + std::norm(a[1]) + std::norm(b[0]) + std::norm(b[1]);
     if (!(sum > 0) || !std::isfinite(sum)) return 2;
@@ -184,7 +184,7 @@ double balance(std::array<Complex, 2>& a, std::array<Complex, 2>& b) {
     return std::abs(sum - 1);
 }
 
-// Root of the normal flux of a wave of unit amplitude; 0 when it carries none.
+// Root of the normal flux of a wave of unit amplitude; 0 if it carries none.
 double root_flux(const CrystalMode& mode, const Vec3& n) {
     if (!mode.propagates) return 0;
     return std::sqrt(std::max(0.0, mode.flux * glm::dot(mode.ray, n)));
@@ -201,7 +201,7 @@ CrystalEntry enter_crystal(const Crystal& crystal, double n_outside, const Vec3&
     const double e = n_outside * n_outside;
     const double k_length = glm::length(K);
     const double q = std::sqrt(std::max(0.0, (n_outside - k_length) * (n_outside + k_length)));
-    // Grazing to the last digit: a mirror, r_s = r_p = -1.
+    // Exactly grazing incidence: a mirror with r_s = r_p = -1.
     const auto shut_out = [&entry](int incident) {
         entry.into[incident] = {};
         entry.power[incident] = {};
@@ -253,7 +253,7 @@ CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode&
     const Complex q = root_of(q_squared);
     const Tangential in = frame.of(incident);
     const std::array<Tangential, 2> m{frame.of(hit.modes[0]), frame.of(hit.modes[1])};
-    // Continuity with the one wave outside, whose admittance is H2 = q E1 and q H1 = -e E2.
+    // Continuity with the wave outside, whose admittance is H2 = q E1 and q H1 = -e E2.
     const std::array<Complex, 2> r = solve({m[0].H2 - q * m[0].E1, q * m[0].H1 + e * m[0].E2},
                                            {m[1].H2 - q * m[1].E1, q * m[1].H1 + e * m[1].E2},
                                            {-(in.H2 - q * in.E1), -(q * in.H1 + e * in.E2)});
@@ -269,13 +269,13 @@ CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode&
     }
     const double imbalance = balance(hit.amplitude, hit.out);
     if (imbalance == 2) {
-        // A ray in the face itself: nothing crosses, it goes on as it is.
+        // The ray lies in the face: nothing crosses, and it continues unchanged.
         hit.out = {};
         hit.amplitude = {};
         const std::size_t same = hit.modes[0].kind == incident.kind ? 0 : 1;
         hit.amplitude[same] = 1;
-        // By the last digit of K its own reflection may be said not to travel: then it is the
-        // incident wave that does, turned back from the face by as little as it ran towards it.
+        // The last digit of K may make its own reflection evanescent. Then the incident wave
+        // continues, mirrored at the face.
         if (!hit.modes[same].propagates) {
             CrystalMode on = incident;
             on.ray = glm::normalize(on.ray - 2 * std::max(0.0, glm::dot(on.ray, n_out)) * n_out);

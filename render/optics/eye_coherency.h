@@ -1,13 +1,12 @@
 #pragma once
-// The coherency matrix of two waves, for light of every polarisation at the eye.
+// Coherency matrix of two waves, for light of every polarisation at the eye.
 //
-// A path is traced backwards from the eye. The eye sends out two orthonormal polarisations x and y;
-// the two waves of a segment (s and p, or the modes of a crystal) then have amplitudes E_xm, E_ym,
-// m = 0, 1, in units of the root of normal flux. By reciprocity (amplitudes of a face are the same
-// when every wave is reversed) light that comes the other way with amplitudes e_m reaches the eye
-// as a_x = sum_m E_xm e_m, likewise a_y. What the eye sees of partly coherent waves therefore needs
-// the averages <E_im conj(E_jn)> only. Guy & Soler 2004, eq. 12, with its transmission and
-// reflection in their places.
+// A path is traced backwards from the eye, which emits two orthonormal polarisations x and y. The
+// two waves of a segment (s and p, or the modes of a crystal) then have amplitudes E_xm, E_ym, m =
+// 0, 1, in units of the root of normal flux. By reciprocity (a face has the same amplitudes when
+// every wave is reversed), light that comes the other way with amplitudes e_m reaches the eye as
+// a_x = sum_m E_xm e_m, and likewise a_y. For partly coherent waves the averages <E_im conj(E_jn)>
+// therefore suffice. Guy & Soler 2004, eq. 12, with transmission and reflection exchanged.
 
 #include <Eigen/Core>
 
@@ -18,7 +17,7 @@ namespace culet {
 struct EyeCoherency {
     Eigen::Matrix2cd xx, yy, xy;  ///< [m][n] = <E_im conj(E_jn)>, ij = xx, yy, xy
 
-    /// The eye's own two polarisations, as waves 0 and 1.
+    /// The eye's two polarisations are waves 0 and 1.
     static EyeCoherency of_eye() {
         EyeCoherency c;
         c.xx << 1, 0, 0, 0;
@@ -27,17 +26,17 @@ struct EyeCoherency {
         return c;
     }
 
-    /// Fraction of the eye's unpolarised power that wave m has.
+    /// Fraction of the eye's unpolarised power in wave m.
     double power(int m) const { return 0.5 * (xx(m, m).real() + yy(m, m).real()); }
     double power() const { return power(0) + power(1); }
 
-    /// After amplitudes E -> T E.
+    /// Transforms the amplitudes, E -> T E.
     EyeCoherency through(const Eigen::Matrix2cd& T) const {
         const Eigen::Matrix2cd back = T.adjoint();
         return {T * xx * back, T * yy * back, T * xy * back};
     }
 
-    /// Of wave m alone, entering two waves with amplitudes t0, t1.
+    /// Wave m alone excites two waves with amplitudes t0, t1.
     EyeCoherency through_one(int m, std::complex<double> t0, std::complex<double> t1) const {
         const double p0 = std::norm(t0), p1 = std::norm(t1);
         const std::complex<double> mixed = t0 * std::conj(t1);
@@ -57,12 +56,12 @@ struct EyeCoherency {
     }
 };
 
-/// At the eye, of unpolarised light of radiance 1 that arrives through the two waves.
+/// Stokes parameters at the eye of unpolarised light of radiance 1 that arrives in the two waves.
 inline Stokes stokes_of_unpolarised(const EyeCoherency& c) {
     return stokes_of(0.5 * c.xx.trace().real(), 0.5 * c.yy.trace().real(), 0.5 * c.xy.trace());
 }
 
-/// At the eye, of light whose Stokes parameters count from the two waves' vibrations (S1 > 0 along
+/// Stokes parameters at the eye of light given relative to the two waves' vibrations (S1 > 0 along
 /// wave 0, and so on).
 inline Stokes stokes_of_light(const EyeCoherency& c, const Stokes& light) {
     const double j00 = 0.5 * (light[0] + light[1]), j11 = 0.5 * (light[0] - light[1]);
@@ -73,7 +72,8 @@ inline Stokes stokes_of_light(const EyeCoherency& c, const Stokes& light) {
     return stokes_of(seen(c.xx).real(), seen(c.yy).real(), seen(c.xy));
 }
 
-/// At the eye, of linearly polarised light of radiance 1 with field (e0, e1) in the two waves.
+/// Stokes parameters at the eye of linearly polarised light of radiance 1 with field (e0, e1) in
+/// the two waves.
 inline Stokes stokes_of_linear(const EyeCoherency& c, double e0, double e1) {
     const Eigen::Vector2d e(e0, e1);
     return stokes_of((e.transpose() * c.xx * e)(0).real(), (e.transpose() * c.yy * e)(0).real(),

@@ -7,16 +7,16 @@ namespace culet {
 
 Stokes response(const EyeOptics& optics, double wavelength_nm, int window) {
     if (!optics.analyzer) return {1, 0, 0, 0};
-    // Behind the analyser: (S0 + S1 cos 2a + S2 sin 2a) / 2.
+    // Radiance behind the analyser: (S0 + S1 cos 2a + S2 sin 2a) / 2.
     const double angle = 2 * (*optics.analyzer + window * std::numbers::pi / 2);
     Stokes row{0.5, 0.5 * std::cos(angle), 0.5 * std::sin(angle), 0};
     if (!optics.retarder) return row;
-    // The plate acts first: in its own frame S2 + i S3 turns by the phase that the slow wave loses,
-    // as coherency x conj(y) does when x is slow.
+    // The plate acts first: in its frame S2 + i S3 turns by the phase that the slow wave loses,
+    // like the coherency x conj(y) when x is slow.
     const double axis = 2 * optics.retarder->slow_axis;
     const double phase = 2 * std::numbers::pi * optics.retarder->retardation_nm / wavelength_nm;
     const double c = std::cos(axis), s = std::sin(axis);
-    // The row in the plate's frame, then through the plate, then back.
+    // Transform the row to the plate's frame, through the plate, and back.
     const double along = row[1] * c + row[2] * s, across = -row[1] * s + row[2] * c;
     const double turned = across * std::cos(phase), circular = -across * std::sin(phase);
     return {row[0], along * c - turned * s, along * s + turned * c, circular};

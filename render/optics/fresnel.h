@@ -1,11 +1,11 @@
 #pragma once
 // One face between two isotropic media.
 //
-// Fields ~ exp(i k0 N.r - i w t). A wave has the wave vector N (length: refractive index); K is its
-// tangential part, the same on both sides (Snell's law), and q its part along the normal, q = n
-// cos. s = K x normal / |K x normal| and p = N/|N| x s for every wave at the face, so that r_p =
-// -r_s at normal incidence. Formulas: Born & Wolf, Principles of Optics, 1.5, rearranged so that
-// nothing cancels for n1 ~ n2, at Brewster's angle or next to the critical angle.
+// Fields ~ exp(i k0 N.r - i w t). A wave has the wave vector N (length: refractive index). K is its
+// tangential part, the same on both sides (Snell's law), and q its normal part, q = n cos. For
+// every wave at the face, s = K x normal / |K x normal| and p = N/|N| x s, so r_p = -r_s at normal
+// incidence. Formulas: Born & Wolf, Principles of Optics, 1.5, rearranged to avoid cancellation for
+// n1 ~ n2, at Brewster's angle and next to the critical angle.
 
 #include <algorithm>
 #include <cmath>
@@ -22,24 +22,24 @@ inline std::complex<double> over_its_conjugate(double re, double im) {
 struct FaceAmplitudes {
     std::complex<double> r_s, r_p;  ///< reflected over incident field
     double t_s = 0, t_p = 0;        ///< transmitted amplitude in units of the root of normal flux
-    double q2 = 0;                  ///< q of the transmitted wave; 0 when there is none
+    double q2 = 0;                  ///< q of the transmitted wave; 0 if there is none
     bool total = false;             ///< total reflection: |r| = 1, t = 0
 };
 
-/// `n1`, `n2`: indices on the side of the incident wave and beyond; `q1` = n1 cos(incidence),
-/// 0..n1. r_s^2 + t_s^2 = 1 and r_p^2 + t_p^2 = 1 to rounding.
+/// `n1`, `n2`: indices on the incident side and beyond; `q1` = n1 cos(incidence), 0..n1. r_s^2 +
+/// t_s^2 = 1 and r_p^2 + t_p^2 = 1 to rounding.
 inline FaceAmplitudes fresnel(double n1, double n2, double q1) {
     FaceAmplitudes face;
     const double e1 = n1 * n1, e2 = n2 * n2;
     q1 = std::clamp(q1, 0.0, n1);
     const double k_squared = (n1 - q1) * (n1 + q1);
-    // q2^2 = n2^2 - K^2 with K^2 = n1^2 - q1^2, as products of sums and differences.
+    // q2^2 = n2^2 - K^2 with K^2 = n1^2 - q1^2, in factored form.
     const double q2_squared = (n2 - n1) * (n2 + n1) + q1 * q1;
     if (q2_squared > 0) {
         const double q2 = std::sqrt(q2_squared);
         const double s = q1 + q2, p = e2 * q1 + e1 * q2;
         // The plain differences keep r^2 + t^2 = 1 next to the critical angle, where q2 has few
-        // digits; the rationalised ones keep the digits of a small r, next to Brewster's angle and
+        // digits. The rationalised ones keep the digits of a small r, next to Brewster's angle and
         // for n1 ~ n2.
         constexpr double k_small = 0.1;
         const double s_difference = q1 - q2, p_difference = e2 * q1 - e1 * q2;
@@ -52,11 +52,11 @@ inline FaceAmplitudes fresnel(double n1, double n2, double q1) {
         face.t_p = n1 * n2 * root / p;
         face.q2 = q2;
     } else {
-        // Evanescent beyond the face: q2 = i kappa.
+        // The wave beyond the face is evanescent: q2 = i kappa.
         const double kappa = std::sqrt(-q2_squared);
         face.total = true;
         if (q1 == 0) {
-            // Grazing: both limits are -1.
+            // At grazing incidence both limits are -1.
             face.r_s = -1;
             face.r_p = -1;
         } else {
@@ -67,10 +67,10 @@ inline FaceAmplitudes fresnel(double n1, double n2, double q1) {
     return face;
 }
 
-/// What unpolarised light does at a face: `fresnel` without phases and without what is transmitted.
+/// Reflection of unpolarised light, like `fresnel` without phases and transmitted amplitudes.
 struct FaceReflection {
-    double mean = 1;  ///< of the powers of s and p
-    double q2 = 0;    ///< as above
+    double mean = 1;  ///< mean power of s and p
+    double q2 = 0;    ///< as in FaceAmplitudes
     bool total = true;
 };
 inline FaceReflection mean_reflection(double n1, double n2, double q1) {
@@ -80,7 +80,7 @@ inline FaceReflection mean_reflection(double n1, double n2, double q1) {
     const double q2_squared = (n2 - n1) * (n2 + n1) + q1 * q1;
     if (!(q2_squared > 0)) return face;
     const double q2 = std::sqrt(q2_squared);
-    // Squared, a small r needs no digits of its own: no differences are rationalised.
+    // A small r is squared, so its lost digits do not matter: plain differences suffice.
     const double r_s = (q1 - q2) / (q1 + q2), r_p = (e2 * q1 - e1 * q2) / (e2 * q1 + e1 * q2);
     face.mean = 0.5 * (r_s * r_s + r_p * r_p);
     face.q2 = q2;

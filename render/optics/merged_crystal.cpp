@@ -13,8 +13,8 @@ float number(double v) {
 
 }  // namespace
 
-// Optic axes of the principal indices: in the plane of the smallest and the largest, at the angle V
-// to the latter's axis, sin^2 V = n3^2 (n2^2 - n1^2) / (n2^2 (n3^2 - n1^2)) (Born & Wolf, 15.3.1).
+// The optic axes lie in the plane of the axes of the smallest and the largest index, at the angle V
+// to the latter: sin^2 V = n3^2 (n2^2 - n1^2) / (n2^2 (n3^2 - n1^2)) (Born & Wolf, 15.3.1).
 MergedCrystal merged_crystal(const Band& band, int node) {
     const Crystal& crystal = band.crystal;
     std::array<int, 3> order{0, 1, 2};

@@ -1,23 +1,23 @@
 #pragma once
-// A crystal whose two waves are merged: in beams and on a GPU.
+// A crystal whose two waves share one path, for beams and GPUs.
 
 #include "render/optics/band.h"
 
 namespace culet {
 
-/// A crystal whose two waves go one way, that of the mean index (Guy & Soler 2004, 4.2): what is
-/// split is polarisation alone. The waves vibrate along the bisectors of the planes through the
-/// wave normal and the two optic axes (Biot and Fresnel).
+/// Both waves follow the path of the mean index (Guy & Soler 2004, 4.2); only their polarisation is
+/// split. They vibrate along the bisectors of the planes through the wave normal and the two optic
+/// axes (Biot and Fresnel).
 struct MergedCrystal {
-    float optic_axis[2][3];          ///< unit; the fast wave is the first
+    float optic_axis[2][3];          ///< unit vectors
     float inverse_square[2];         ///< half sum and half difference of 1/n^2, slow and fast
     float principal[3][3];           ///< axes of absorption
     float absorption[3];             ///< along each, per length
-    float waves_per_length = 0;      ///< 1 / wavelength, where the two waves stay coherent; else 0
+    float waves_per_length = 0;      ///< 1 / wavelength if the two waves stay coherent; else 0
     float coherence_per_length = 0;  ///< 1 / coherence length; 0: infinite
 };
 
-/// At one of the band's nodes; the band has two waves.
+/// Returns it for one of the band's nodes. The band must have two waves.
 MergedCrystal merged_crystal(const Band& band, int node);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// What the tracers of light paths share: limits, the way gone, and its end.
+// Types that the tracers of light paths share: limits, the path, and its exit.
 
 #include <array>
 #include <cstdint>
@@ -9,41 +9,42 @@
 
 namespace culet {
 
-/// What may stand between a stone that is not convex and itself.
+/// Objects that may stand between parts of a non-convex stone.
 class Obstacles {
 public:
     Obstacles() = default;
     Obstacles(const Obstacles&) = delete;
     Obstacles& operator=(const Obstacles&) = delete;
     virtual ~Obstacles() = default;
-    /// How far along the ray (unit direction) the nearest thing is that hides what lies behind it.
-    /// Infinite when there is none.
+    /// Distance along the ray (unit direction) to the nearest object that hides what is behind it;
+    /// infinite if there is none.
     virtual double nearest_distance(const Vec3& origin, const Vec3& direction) const = 0;
 };
 
 struct PathLimits {
-    const Obstacles* obstacles = nullptr;  ///< none: nothing
+    const Obstacles* obstacles = nullptr;  ///< null: none
     int depth = 64;                        ///< depth d has d - 1 inner segments
-    double cut_weight = 0;  ///< a path of less weight is not followed; its weight is counted as cut
-    /// Trees that double (crystals): below this weight one branch is followed, chosen with the
-    /// probability of its power, so that the sum stays unbiased (0: both always).
+    double cut_weight = 0;  ///< paths of less weight are not followed, and their weight counts as
+                            ///< cut
+    /// Crystals: below this weight only one branch of a tree is followed, chosen with probability
+    /// proportional to its power, so the sum stays unbiased. 0: always both.
     double split_weight = 0;
-    /// So many hits of one eye ray at most split in two; after them every path follows one branch
-    /// as above. Without it a tree of depth d has 2^d paths.
+    /// Largest number of hits of one eye ray that split in two; after them paths follow one branch
+    /// as above. Without this limit a tree of depth d has 2^d paths.
     int most_splits = 1 << 14;
-    /// Chosen branches below `cut_weight` play Russian roulette instead of being cut: the sum stays
-    /// unbiased.
+    /// Chosen branches below `cut_weight` play Russian roulette instead of being cut, which keeps
+    /// the sum unbiased.
     bool roulette = false;
-    std::uint64_t seed = 0;  ///< of those choices
-    /// Every wavelength makes the same choices, so that pictures at different wavelengths differ by
-    /// little else.
+    std::uint64_t seed = 0;  ///< of the random choices
+    /// All wavelengths make the same choices, so pictures at different wavelengths differ little
+    /// otherwise.
     bool alike = false;
-    bool polarised = true;  ///< false: mean powers of s and p at every isotropic face
+    bool polarised = true;  ///< false: every isotropic face uses the mean power of s and p
 };
 
-/// Variance of what is chosen at random. Every choice is estimated twice, independently and with
-/// half the weight: the squared difference of the two is an unbiased estimate of the variance of
-/// their sum. `seen`: the sum that is estimated, so far.
+/// Estimates the variance of random choices. Every choice is estimated twice, independently and
+/// with half the weight. The squared difference of the two is an unbiased estimate of the variance
+/// of their sum. `seen`: the sum so far.
 class PairedEstimates {
 public:
     void begin(double seen) { start_ = seen; }
@@ -58,23 +59,23 @@ private:
     double start_ = 0, first_ = 0, variance_ = 0;
 };
 
-/// What the eye ray met on the way, by facet; depth-first, so one array serves. Beyond `length` is
-/// what was met before.
+/// Facets hit by the eye ray, in order. Tracing is depth-first, so one array serves; beyond
+/// `length` stands an earlier path.
 struct PathTrace {
     static constexpr int k_longest = 1024;
     std::array<int, k_longest> facets{};
-    /// Of the segment behind each facet: 'i' isotropic; 'o', 'e', 's', 'f' a mode of a crystal; 'c'
-    /// both modes, coherent; 'a' outside the stone, on the way to meet it again.
+    /// Kind of the segment after each facet: 'i' isotropic; 'o', 'e', 's', 'f' a mode of a crystal;
+    /// 'c' both modes, coherent; 'a' outside the stone, on the way to meet it again.
     std::array<char, k_longest> modes{};
     int length = 0;
 };
 
-/// A path that ends outside: light seen along `direction` from `at`, through two waves that vibrate
-/// along `u` and `v`.
+/// An exit: light seen from `at` along `direction`, through two waves that vibrate along `u` and
+/// `v`.
 struct PathEnd {
     Vec3 at, direction, u, v;
     EyeCoherency coherency;
-    NodeWeights transmitted{};  ///< by absorption, at each node
+    NodeWeights transmitted{};  ///< after absorption, at each node
 };
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers that a seed fixes.
+// Reproducible random numbers.
 
 #include <cstdint>
 
@@ -17,7 +17,7 @@ public:
     /// In [0, 1).
     double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
-    /// Its output function: spreads what differs in one bit over all.
+    /// Output function: a change of one input bit affects all output bits.
     static std::uint64_t mixed(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;

@@ -8,7 +8,7 @@
 namespace culet {
 
 /// Stokes parameters as the eye sees them: S1 > 0 along the picture's x (to the right), S2 > 0 at
-/// 45 degrees (to the upper right), S3 > 0 turning clockwise for who looks towards the light (right
+/// 45 degrees (to the upper right), S3 > 0 clockwise when looking towards the light (right
 /// circular: Born & Wolf, Principles of Optics, 1.4.2).
 using Stokes = std::array<double, 4>;
 
@@ -17,9 +17,9 @@ inline Stokes stokes_of(double xx, double yy, std::complex<double> xy) {
     return {xx + yy, xx - yy, 2 * xy.real(), 2 * xy.imag()};
 }
 
-/// What light can be: S0 is no less than the polarised part's length. The nearest such to an
-/// estimate with noise, which may show less light than none; what it estimates is no farther from
-/// it than before (projection onto a convex cone: Boyd & Vandenberghe 2004, 8.1).
+/// Returns the nearest physical Stokes vector (S0 >= length of the polarised part) to a noisy
+/// estimate. This never moves the estimate away from the true value (projection onto a convex cone:
+/// Boyd & Vandenberghe 2004, 8.1).
 inline Stokes nearest_light(const Stokes& s) {
     const double polarised = std::hypot(s[1], s[2], s[3]);
     if (polarised <= s[0]) return s;

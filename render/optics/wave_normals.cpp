@@ -43,7 +43,7 @@ void share_no_flux(const CrystalMode& first, CrystalMode& second, const Vec3& E_
 
 namespace {
 
-// Everything below is in the principal frame, axes by rising index.
+// Everything below uses the principal frame, axes by rising index.
 //
 // Fresnel's equation for N^2 = e2 + w (from det(N N^T - w I + diag(d1, 0, d3)) = 0):
 //   a w^2 - b(N) w + d1 d3 N2^2 = 0,   a = e1 + e3 - e2,
@@ -59,8 +59,8 @@ public:
     double Q2() const { return Q2_; }
     Vec3 at(double q) const { return K_ + q * n_; }
 
-    // The root w of the quadratic with N held: the larger (slow) or the smaller (fast) one. For
-    // real N the discriminant is a sum of terms that are not negative.
+    // Root w of the quadratic with N fixed: the larger (slow) or the smaller (fast). For real N the
+    // discriminant is a sum of non-negative terms.
     double held(double q, bool slow) const {
         const Vec3 N = at(q);
         const double b = b_of(N), product = c_.d1 * c_.d3 * N.y * N.y;
@@ -71,7 +71,7 @@ public:
         return is_slow == slow ? larger_magnitude / (2 * a_) : 2 * product / larger_magnitude;
     }
 
-    // Both roots for a complex N, in no order that means anything.
+    // Both roots for a complex N, in arbitrary order.
     std::array<Complex, 2> held(Complex q) const {
         const Complex x = K_.x + q * n_.x, y = K_.y + q * n_.y, z = K_.z + q * n_.z;
         const Complex b = c_.d3 * x * x + (c_.d1 + c_.d3) * y * y + c_.d1 * z * z + c_.d1 * c_.d3;
@@ -82,7 +82,7 @@ public:
         return {larger / (2 * a_), 2.0 * product / larger};
     }
 
-    // One wave's w as Newton's method leaves it, from a good start; `w` real or complex.
+    // Result of Newton's method for one wave; `Number` is real or complex.
     template <class Number>
     struct Root {
         Number w, q;
@@ -95,7 +95,7 @@ public:
         Root<Number> root{w, q, false};
         double last = std::numeric_limits<double>::infinity();
         for (int step = 0; step < steps; ++step) {
-            // In w while w is the smaller part of q^2, so that its last digits count; else in q.
+            // Iterate in w while w is the smaller part of q^2, to keep its last digits; else in q.
             const bool in_w = std::norm(root.q) > std::abs(root.w);
             const Number Nx = K_.x + root.q * n_.x, Ny = K_.y + root.q * n_.y,
                          Nz = K_.z + root.q * n_.z;
@@ -112,7 +112,7 @@ public:
                 if (slope == 0.0) return root;
                 const Number move = F / slope;
                 root.w -= move;
-                // A step too far, to where no wave travels.
+                // The step went too far, to where no wave travels.
                 if constexpr (std::is_floating_point_v<Number>) {
                     if (root.w + Q2_ < 0) return root;
                 }
@@ -128,7 +128,7 @@ public:
                 change = std::abs(move) / (std::abs(root.q) + 1e-300);
             }
             if (!std::isfinite(change)) return root;
-            // Newton squares the error; from 1e-8 on, this step was the last that mattered.
+            // Newton's method squares the error: a change of 1e-9 leaves only rounding error.
             if (change < 1e-14 || (change < 1e-9 && step > 0 && last < 1e-3)) {
                 root.converged = true;
                 return root;
@@ -153,7 +153,7 @@ private:
     double b_of(const Vec3& N) const {
         return c_.d3 * N.x * N.x + (c_.d1 + c_.d3) * N.y * N.y + c_.d1 * N.z * N.z + c_.d1 * c_.d3;
     }
-    // What w is compared with: its own largest size, so that w = 0 converges too.
+    // Scale for relative changes of w: its largest size, so that w = 0 converges too.
     double scale() const { return 1e-3 * (c_.d3 - c_.d1); }
 
     const Crystal::Rising& c_;
@@ -161,23 +161,23 @@ private:
     double Q2_ = 0, a_ = 1;
 };
 
-// The fields of a real N: D is an eigenvector of the impermeability, less I/e2, on the plane
-// normal to N. Always orthogonal for the two waves, on an optic axis too.
+// Fields of a real N: D is an eigenvector of the impermeability, less I/e2, on the plane normal to
+// N. The two waves are always orthogonal, also on an optic axis.
 Vec3 field_of_real(const Crystal::Rising& c, const Vec3& N, bool slow) {
     const Vec3 u = perpendicular_to(glm::normalize(N));
     const Vec3 v = glm::normalize(glm::cross(N, u));
     const double f1 = -c.d1 / (c.e1 * c.e2), f3 = -c.d3 / (c.e3 * c.e2);  // 1/e_i - 1/e2
     const double uu = f1 * u.x * u.x + f3 * u.z * u.z, vv = f1 * v.x * v.x + f3 * v.z * v.z,
                  uv = f1 * u.x * v.x + f3 * u.z * v.z;
-    // The larger eigenvalue of 1/N^2 is the fast wave.
+    // The fast wave has the larger eigenvalue 1/N^2.
     const double angle = 0.5 * std::atan2(2 * uv, uu - vv);
     const Vec3 fast = std::cos(angle) * u + std::sin(angle) * v;
     const Vec3 D = slow ? glm::cross(glm::normalize(N), fast) : fast;
     return {D.x / c.e1, D.y / c.e2, D.z / c.e3};
 }
 
-// The field of a complex N: the null vector of N N^T + diag(d1 - w, -w, d3 - w), as the largest
-// column of its adjugate.
+// Field of a complex N: the null vector of N N^T + diag(d1 - w, -w, d3 - w), as the largest column
+// of its adjugate.
 ComplexVec3 field_of_complex(const Crystal::Rising& c, const ComplexVec3& N, Complex w) {
     const std::array<Complex, 3> N_{N.x, N.y, N.z}, delta{c.d1 - w, -w, c.d3 - w};
     int best = 0;
@@ -216,12 +216,13 @@ private:
 
 constexpr int k_most_steps = 60;
 
-// Eigenvalues of the companion matrix are off by the m-th root of rounding where m roots are one:
-// a ten-thousandth of its scale at most, of four. Newton's method has no slope there, and may leave
-// for anywhere: what ends farther off is not that root.
+// Farthest that Newton's method may move a root, relative to the quartic's scale. Eigenvalues of
+// the companion matrix have errors of the m-th root of rounding at an m-fold root: at most 1e-4 of
+// the scale, for m = 4. Newton's method has no slope there and may diverge to another root.
 constexpr double k_reach = 1e-3;
 
-// Waves whose N are this share of the birefringence apart run beside an optic axis.
+// Difference of the two waves' N, relative to the birefringence, below which they run beside an
+// optic axis.
 constexpr double k_beside_axis = 1e-2;
 
 class WavePair {
@@ -249,9 +250,9 @@ public:
     }
 
 private:
-    // The common case: both waves travel, q > 0. Steps with N held bring w within a power of the
-    // birefringence; Newton does the rest, unless the two roots are one (on an optic axis), where
-    // it has no slope and the steps are simply gone on with.
+    // The common case: both waves travel, q > 0. Iterations with N fixed converge by a factor of
+    // the birefringence per step, and Newton's method finishes. If the two roots coincide (on an
+    // optic axis), Newton's method has no slope, so the fixed-N iterations continue.
     bool both_travel(std::array<CrystalMode, 2>& modes) const {
         for (int m = 0; m < 2; ++m) {
             const bool slow = m == 0;
@@ -282,14 +283,14 @@ private:
                 if (!settled) return false;
             }
             travelling(modes[m], q, slow);
-            // Near grazing the wave of q > 0 may carry its energy the other way.
+            // Near grazing, the wave of q > 0 may carry its energy the other way.
             if (!(glm::dot(modes[m].ray, n_) > 0)) return false;
         }
         return true;
     }
 
-    // Both decay: far enough beyond the critical angle that N held settles. Each branch is the root
-    // nearest to its last one.
+    // Both waves decay, far enough beyond the critical angle for the fixed-N iteration to converge.
+    // Each branch takes the root nearest to its last one.
     bool both_evanescent(std::array<CrystalMode, 2>& modes) const {
         if (!(equation_.Q2() < -4 * split_)) return false;
         const Complex start(0, std::sqrt(-equation_.Q2()));
@@ -314,8 +315,8 @@ private:
         return true;
     }
 
-    // Near grazing: all four waves at this K, from the companion matrix of Fresnel's quartic in a
-    // scaled q, each polished; the two that go towards n.
+    // Near grazing: finds all four waves at this K from the companion matrix of Fresnel's quartic
+    // in a scaled q, polishes each, and takes the two that go towards n.
     void of_all_four(std::array<CrystalMode, 2>& modes) const {
         const std::array<double, 5> c = equation_.quartic();
         double scale = 0;

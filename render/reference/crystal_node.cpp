@@ -11,14 +11,14 @@ namespace culet {
 
 namespace {
 
-// Waves (u, v) of a ray in the face's own s and p.
+// Rotation from a ray's waves (u, v) to the face's s and p.
 Eigen::Matrix2d turned(const Vec3& u, const Vec3& v, const Vec3& s, const Vec3& p) {
     Eigen::Matrix2d turn;
     turn << glm::dot(s, u), glm::dot(s, v), glm::dot(p, u), glm::dot(p, v);
     return turn;
 }
 
-// What a face makes of the modes that arrive: a matrix column each.
+// Column of a face's matrix: the amplitudes from one arriving mode.
 Eigen::Vector2cd column(const std::array<Complex, 2>& a) {
     return {a[0], a[1]};
 }
@@ -28,7 +28,7 @@ Vec3 magnetic(const CrystalMode& mode) {
     return glm::normalize(real_part(mode.H));
 }
 
-// The orthogonal matrix next to a 2x2 one (its polar factor).
+// Orthogonal matrix nearest to a 2x2 one (its polar factor).
 Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d& m) {
     Eigen::Matrix2d nearest;
     if (m(0, 0) * m(1, 1) >= m(0, 1) * m(1, 0)) {
@@ -41,8 +41,8 @@ Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d& m) {
     return nearest;
 }
 
-// The next node after `from`, from a point on `facet`, with coherency `c`: a ray outside whose
-// first wave vibrates along `s`,
+// Starts the node after `from` at a point on `facet`, with coherency `c`, as a ray outside whose
+// first wave vibrates along `s`.
 void start_outside(const CrystalNode& from, const Vec3& at, int facet, const Vec3& direction,
                    const Vec3& s, const EyeCoherency& c, CrystalNode& outer) {
     outer.inside = false;
@@ -56,7 +56,7 @@ void start_outside(const CrystalNode& from, const Vec3& at, int facet, const Vec
     outer.event = from.event + 1;
 }
 
-// or two modes inside.
+// Starts it as two modes inside.
 void start_inside(const CrystalNode& from, const Vec3& at, int facet,
                   const std::array<CrystalMode, 2>& modes, const EyeCoherency& c,
                   CrystalNode& inner) {
@@ -150,7 +150,7 @@ bool CrystalSteps::meet_together(CrystalNode& node, CrystalNode& inner, CrystalN
     if (retardation != 0) {
         const double x = std::numbers::pi * retardation / band_.coherence_length;
         const double sinc = x != 0 ? std::sin(x) / x : 1;
-        // E_0 conj(E_1) turns by N0 - N1.
+        // E_0 conj(E_1) gets the phase of N0 - N1.
         const Complex turn =
             std::polar(sinc * sinc, -2 * std::numbers::pi * retardation / band_.wavelength);
         for (Eigen::Matrix2cd* block : {&node.c.xx, &node.c.yy, &node.c.xy}) {
@@ -158,8 +158,8 @@ bool CrystalSteps::meet_together(CrystalNode& node, CrystalNode& inner, CrystalN
             (*block)(1, 0) *= std::conj(turn);
         }
     }
-    // From the modes that left to the modes of the mean K: the same waves, or near an optic
-    // axis, where a mode's vibration is arbitrary, the rotation between them.
+    // Transform to the modes of the mean K: the same waves, or near an optic axis, where vibrations
+    // are arbitrary, rotated ones.
     Eigen::Matrix2d overlap;
     for (int a = 0; a < 2; ++a) {
         for (int b = 0; b < 2; ++b)
@@ -173,8 +173,7 @@ bool CrystalSteps::meet_together(CrystalNode& node, CrystalNode& inner, CrystalN
     out << column(hit0.out), column(hit1.out);
     reflected << column(hit0.amplitude), column(hit1.amplitude);
     EyeCoherency leaving = node.c.through(out), staying = node.c.through(reflected);
-    // Unitary to rounding only, and the mean K makes the two columns no more than that: put
-    // the balance right.
+    // The mean K makes the columns orthogonal only approximately: restore the energy balance.
     const double before = node.c.power(), after = leaving.power() + staying.power();
     if (after > 0) {
         leaving.scale(before / after);
@@ -185,8 +184,8 @@ bool CrystalSteps::meet_together(CrystalNode& node, CrystalNode& inner, CrystalN
     return true;
 }
 
-// Both modes at once: a common factor on tau where all are absorbed alike (isotropic stones),
-// else on the coherency, of the band's one wavelength.
+// Absorbs both modes: scales tau if all light is absorbed alike (isotropic stones), else the
+// coherency at the band's only wavelength.
 void CrystalSteps::absorb_together(CrystalNode& node, const std::array<double, 2>& length,
                                    NodeWeights& absorbed) const {
     if (!band_.absorbs) return;

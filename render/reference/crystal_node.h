@@ -1,15 +1,14 @@
 #pragma once
-// A wave, or two, on the way through a stone, and what a facet makes of them: one step of the tree
-// that crystal_paths.h follows.
+// One step of the tree that crystal_paths.h follows: what a facet makes of one or two waves.
 //
 // Inside the stone a node is one mode, or both modes of one K while they are coherent. Two modes
 // that leave a face together meet the next one at points x0, x1 with retardation G = (N1 - N0).x.
-// Beyond the coherence length of the band's light they are two nodes, each followed exactly. Below
-// it they are one: their coherency gets the phase 2 pi G / wavelength and the factor
-// sinc^2(pi G / coherence length), the mean over a triangular band, which falls to 0 where they
-// part; and they go on from the power-weighted means of their points and of their K. The mean is
-// exact where the two K are one (isotropic stones, plates with parallel faces) and off by the order
-// of the birefringence otherwise.
+// Beyond the coherence length of the band's light they become two nodes, each followed exactly.
+// Below it they stay one node: their coherency gets the phase 2 pi G / wavelength and the factor
+// sinc^2(pi G / coherence length), the mean over a triangular band, which reaches 0 where they
+// split. The node continues from the power-weighted means of their points and of their K. The mean
+// is exact if the two K are equal (isotropic stones, plates with parallel faces); otherwise its
+// error is of the order of the birefringence.
 
 #include <array>
 
@@ -22,10 +21,10 @@ namespace culet {
 struct CrystalNode {
     bool inside = true;
     Vec3 at{0, 0, 0};
-    int facet = -1;                                   ///< that it starts from
+    int facet = -1;                                   ///< where it starts
     std::array<CrystalMode, 2> modes;                 ///< inside
-    Vec3 direction{0, 0, 0}, u{0, 0, 0}, v{0, 0, 0};  ///< outside: the ray, and its two vibrations
-    BodyHit again;                                    ///< outside: where it meets the stone
+    Vec3 direction{0, 0, 0}, u{0, 0, 0}, v{0, 0, 0};  ///< outside: the ray and its two vibrations
+    BodyHit again;                                    ///< outside: its next hit of the stone
     EyeCoherency c;                                   ///< of the two modes or vibrations
     NodeWeights tau{};                                ///< transmission at each wavelength
     int event = 0;                                    ///< number of the hit that ends it
@@ -33,8 +32,8 @@ struct CrystalNode {
     double power() const { return c.power(); }
 };
 
-/// Makes two nodes of one that reaches a facet: `inner` goes on inside the stone, `outer` outside.
-/// Both start at inner.facet, and together have the power that arrives, less what is absorbed.
+/// Computes what a facet makes of a node: `inner` continues inside the stone, `outer` outside. Both
+/// start at inner.facet, and their powers sum to the arriving power less absorption.
 class CrystalSteps {
 public:
     /// Keeps references.
@@ -43,15 +42,15 @@ public:
     /// From outside, at node.at on `facet`.
     void meet_from_outside(const CrystalNode& node, int facet, CrystalNode& inner,
                            CrystalNode& outer);
-    /// Mode m of a node inside, by itself. `absorbed`: power lost on the way, at each wavelength.
+    /// Mode m of a node inside, alone. `absorbed`: power lost on the way, at each wavelength.
     void meet_alone(CrystalNode& node, int m, CrystalNode& inner, CrystalNode& outer,
                     NodeWeights& absorbed);
-    /// Both modes as one; false, and nothing done, when they are not coherent or do not meet the
-    /// same facet.
+    /// Both modes as one. Returns false, without any change, if they are not coherent or do not
+    /// meet the same facet.
     bool meet_together(CrystalNode& node, CrystalNode& inner, CrystalNode& outer,
                        NodeWeights& absorbed);
 
-    /// Largest |sum of powers - 1| met at a face before it was put right.
+    /// Largest |sum of powers - 1| at a face before normalisation.
     double worst_imbalance() const { return worst_imbalance_; }
 
 private:

@@ -1,9 +1,9 @@
 #pragma once
 // The exact tree of light paths behind one eye ray, for stones of every optical class and shape,
-// with polarisation at both ends: the judge. light_paths.h is its special case for isotropic,
-// convex stones seen without a polariser.
+// with polarisation at both ends. It is the reference. light_paths.h is its special case for
+// isotropic, convex stones seen without a polariser.
 //
-// A face acts on amplitudes and is unitary, so that for every ray
+// A face is a unitary matrix on amplitudes, so for every ray
 //   exits + remainder + absorbed + cut + roulette = 1
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace culet {
 // A Sink has
 //   void path_exits(const PathEnd&, const PathTrace&);
 //   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
-//   void roulette(const NodeWeights&): lost to Russian roulette, less what was won: of mean 0.
-//   void choice_begins(), choice_ends(bool second): two independent estimates, each of half weight,
-//     of what a subtree brings; their difference tells the variance.
+//   void roulette(const NodeWeights&): Russian roulette's losses minus its gains, of mean 0.
+//   void choice_begins(), choice_ends(bool second): enclose two independent estimates of a subtree,
+//     each of half weight; their difference gives the variance.
 template <class Sink>
 class CrystalPaths {
 public:
@@ -51,7 +51,7 @@ public:
         steps_.meet_from_outside(eye, entry.facet, first, second);
         push(entry.facet);
         const int count = after_hit(first, second);
-        // The first face is never left to chance: what waits there waits for `follow` to end.
+        // The first face is never left to chance: its other branch waits for `follow` to end.
         const int length = trace_.length;
         if (count > 0) follow(first);
         trace_.length = length;
@@ -60,14 +60,14 @@ public:
 
     /// True when the last tree was larger than `most_splits`.
     bool sampled() const { return splits_ > limits_.most_splits; }
-    /// Faces met so far, on all branches of all trees.
+    /// Faces hit so far, on all branches of all trees.
     long long events() const { return events_; }
-    /// Largest |sum of powers - 1| of a crystal's face before it was put right.
+    /// Largest |sum of powers - 1| at a crystal's face before normalisation.
     double worst_imbalance() const { return steps_.worst_imbalance(); }
 
 private:
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
-        NodeWeights result;  // the first band_.count are meant
+        NodeWeights result;  // only the first band_.count are set
         for (int i = 0; i < band_.count; ++i) result[i] = weight * tau[i];
         return result;
     }
@@ -82,8 +82,8 @@ private:
         ++trace_.length;
     }
 
-    // What leaves for good is a leaf; what stays, or meets the stone again, goes on. Returns how
-    // many go on; a single one is left in `inner`.
+    // Reports what leaves for good as an exit. Returns how many nodes go on (inside, or to meet the
+    // stone again); a single one is left in `inner`.
     int after_hit(CrystalNode& inner, CrystalNode& outer) {
         bool meets = false;
         if (outer.power() > 0) {
@@ -104,7 +104,7 @@ private:
         return stays + meets;
     }
 
-    // One event, or the parting of two modes that are no longer coherent.
+    // One event, or the split of two modes that are no longer coherent.
     int step(CrystalNode& node, CrystalNode& first, CrystalNode& second) {
         char& mode = trace_.modes[trace_.length - 1];
         NodeWeights absorbed;
@@ -138,8 +138,8 @@ private:
         }
     }
 
-    // The tree that hangs on a node, depth first; `node` is used up. What waits is on a list,
-    // because a tree may be as deep as a path is long.
+    // Follows the tree below a node, depth first; `node` is overwritten. Waiting nodes are on a
+    // list, not the call stack, because a tree may be as deep as a path is long.
     void follow(CrystalNode& node) {
         const std::size_t others = waiting_.size();
         CrystalNode first, second;
@@ -157,8 +157,8 @@ private:
         }
     }
 
-    // Two go on: the second waits, or one is chosen, or both are seen to by two estimates. Returns
-    // whether `first` goes on.
+    // Two nodes go on: the second waits, or one is chosen, or two estimates are made of both.
+    // Returns 1 if `first` goes on, else 0.
     int branch(CrystalNode& first, CrystalNode& second) {
         if (choosing_) {
             choose(first, second);
@@ -178,7 +178,8 @@ private:
         return 0;
     }
 
-    // One of two, by power, with the weight of both; in `first`.
+    // Chooses one of two with probability proportional to power; `first` gets it, with the weight
+    // of both.
     void choose(CrystalNode& first, CrystalNode& second) {
         const double power_first = first.power(), power_second = second.power();
         const double whole = power_first + power_second;
@@ -187,8 +188,8 @@ private:
         first.c.scale(whole / (stay ? power_first : power_second));
     }
 
-    // Two independent estimates of half weight, from here to the end of what hangs on it. From then
-    // on branches are chosen, so that nothing waits.
+    // Makes two independent estimates of half weight, each to the end of its subtree. Below this,
+    // branches are chosen, so nothing waits.
     template <class Estimate>
     void twice(Estimate&& estimate) {
         const int length = trace_.length;
@@ -202,7 +203,7 @@ private:
         choosing_ = false;
     }
 
-    // The depth limit, the weight cut and the roulette.
+    // Applies the depth limit, the weight cut and Russian roulette.
     bool stops(CrystalNode& node) {
         if (node.event > limits_.depth) {
             sink_.remainder(weighted(node.power(), node.tau));
@@ -222,7 +223,7 @@ private:
             });
             return true;
         }
-        // Survives with the probability weight / cut_weight, and then weighs cut_weight.
+        // It survives with probability weight / cut_weight, and then has weight cut_weight.
         if (random_.uniform() * limits_.cut_weight >= weight) {
             sink_.roulette(weighted(node.power(), node.tau));
             return true;
@@ -242,7 +243,7 @@ private:
     PathTrace trace_;
     struct Waiting {
         CrystalNode node;
-        int length;  // of the trace where it starts
+        int length;  // of the trace at its start
     };
     std::vector<Waiting> waiting_;
     int splits_ = 0;

@@ -30,8 +30,8 @@ Film::Film(const Scene& scene, const Camera& camera, const OpticalSetup& setup,
 }
 
 void Film::put(int x, int y, const PixelSums& sums, const double* estimates) {
-    // Paths that are chosen at random estimate, in a dark pixel, less light than none. Pictures
-    // without a standard error have none such.
+    // In dark pixels, random paths may estimate unphysical light. Pictures without a standard error
+    // have no random paths.
     std::vector<double> nearest;
     if (!picture_.standard_error.empty()) {
         nearest.resize(static_cast<std::size_t>(planes_ * nodes_));
@@ -43,7 +43,7 @@ void Film::put(int x, int y, const PixelSums& sums, const double* estimates) {
         }
     }
     const double* stokes = nearest.empty() ? estimates : nearest.data();
-    // S0 alone is the radiance: nothing stands before the eye.
+    // S0 alone is the radiance: there are no optics before the eye.
     std::vector<double> behind_optics(planes_ > 1 ? nodes_ : 0);
     const double* radiance = planes_ > 1 ? behind_optics.data() : stokes;
     for (int window = 0; window < windows_; ++window) {

@@ -1,6 +1,6 @@
 #pragma once
-// The picture while it is made: what is seen of each pixel behind the eye's optics, in colour and,
-// if asked for, wavelength by wavelength.
+// The picture while it is made: each pixel as seen behind the eye's optics, in colour and, if
+// requested, per wavelength.
 
 #include <vector>
 
@@ -12,15 +12,15 @@ namespace culet {
 
 class Film {
 public:
-    /// `camera`: of one window; a dichroscope's two stand side by side.
+    /// `camera`: of one window. A dichroscope has two, side by side.
     Film(const Scene& scene, const Camera& camera, const OpticalSetup& setup,
          const WavelengthSet& colours, int planes);
 
-    /// Of pixel (x, y) of the window: `estimates[plane * nodes + node]`, whose Stokes parameters
-    /// need not be light's. Different pixels may be put from different threads.
+    /// Writes pixel (x, y) of the window. `estimates[plane * nodes + node]` may be unphysical
+    /// Stokes parameters. Threads may write different pixels concurrently.
     void put(int x, int y, const PixelSums& sums, const double* estimates);
 
-    /// The finished picture; `noisy`: it has a standard error worth keeping.
+    /// Returns the finished picture; `noisy`: with its standard error.
     Picture take(bool noisy);
 
 private:

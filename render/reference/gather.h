@@ -1,5 +1,5 @@
 #pragma once
-// Sums over the light paths of one ray: what is seen, and what is not.
+// Sums over the light paths of one ray.
 
 #include <algorithm>
 #include <numeric>
@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// What is not seen of one eye ray. Sums over the band's nodes.
+/// Weights of one eye ray that bring no light, summed over the band's nodes.
 class Lost {
 public:
     explicit Lost(int count) : count_(count) {}
@@ -31,7 +31,7 @@ private:
     int count_;
 };
 
-/// Adds up what the leaves of one ray see, at the nodes of its band; `single`: at its only one.
+/// Adds the radiance of one ray's exits, at the nodes of its band; `single`: the band has only one.
 template <bool single>
 class Gather : public Lost {
 public:
@@ -50,7 +50,7 @@ public:
         NodeWeights radiance;
         std::fill_n(radiance.begin(), count, 0.0);
         const double most = *std::max_element(weight.begin(), weight.begin() + count);
-        if (!(most > 0)) return;  // absorbed to nothing at every node
+        if (!(most > 0)) return;  // fully absorbed at every node
         surroundings_.add_radiance(at, direction, most, band_.first, count, radiance.data());
         for (int i = 0; i < count; ++i)
             radiance_[band_.first + i] += weight[i] / most * radiance[i];

@@ -11,8 +11,8 @@ namespace culet {
 
 struct LightField::Ready {
     Lights lights;
-    std::array<std::vector<double>, 3> primaries;  // where there is an environment
-    /// Of each source: its radiance at the nodes, and what a cap needs.
+    std::array<std::vector<double>, 3> primaries;  // only with an environment
+    /// A source's radiance at the nodes, and a cap's cosines.
     struct Source {
         std::vector<double> nodes;
         DiscCosines cosines;
@@ -23,11 +23,11 @@ struct LightField::Ready {
     double brightest = 0;
     int nodes = 1;
 
-    // Calls visit(radiance at a node, polarisation) for every light that is seen.
+    // Calls visit(radiance at a node, polarisation) for every visible light.
     template <class Visit>
     void each_seen(const Vec3& origin, const Vec3& direction, Visit&& visit) const;
 
-    // What share of a distant light's radiance comes from a direction.
+    // Part of a distant light's radiance that comes from a direction.
     double share(std::size_t i, const Vec3& direction) const {
         return std::visit(
             [&](const auto& light) -> double {
@@ -42,7 +42,7 @@ struct LightField::Ready {
             },
             lights.sources[i]);
     }
-    // The nearest near light; -1 for none.
+    // Returns the nearest near light; -1 for none.
     int nearest(const Vec3& origin, const Vec3& direction, double& distance) const {
         int best = -1;
         distance = std::numeric_limits<double>::infinity();
@@ -89,7 +89,8 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
     if (lights.environment) {
         float most = 0;
         for (float v : lights.environment->rgb) most = std::max(most, v);
-        // A texel's spectrum is at most its brightest channel times the primaries above 0.
+        // A texel's spectrum is at most its brightest channel times the positive parts of the
+        // primaries.
         double gain = 0;
         for (int i = 0; i < r.nodes; ++i) {
             double sum = 0;

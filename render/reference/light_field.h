@@ -5,8 +5,8 @@
 
 namespace culet {
 
-/// Near lights (spheres, planes) hide the distant ones behind them; the nearest wins. Distant ones
-/// add up.
+/// Near lights (spheres, planes) hide the distant ones behind them, and the nearest wins. Distant
+/// lights add up.
 class LightField : public Surroundings {
 public:
     LightField(const Lights& lights, const WavelengthSet& wavelengths);

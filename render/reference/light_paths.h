@@ -1,15 +1,15 @@
 #pragma once
-// The exact light paths behind one eye ray in an isotropic, convex stone: crystal_paths.h without
-// what such a stone cannot do. There is one path, which sends a leaf out at every face. In a stone
-// that is not convex (Body: StoneBody) they are exact but for light that meets the stone again
-// after it left: it counts as gone.
+// The exact light paths behind one eye ray in an isotropic, convex stone, a special case of
+// crystal_paths.h. There is a single path, with an exit at every face. In a non-convex stone (Body:
+// StoneBody) light that would meet the stone again after leaving it counts as gone; the rest is
+// exact.
 //
-// Traced backwards from the eye, which is exact because a face's power fractions are the same when
-// every wave vector is reversed: the eye ray is an emitted, unpolarised ray, and the radiance seen
-// is the sum over leaves of weight x radiance from the exit direction. Radiance is "basic" (per
-// normal flux and per squared tangential wave vector), so there are no factors of index squared or
-// of solid angle. For every ray
-//   leaves + remainder + absorbed + cut = 1.
+// Paths are traced backwards from the eye. This is exact because a face's power fractions are the
+// same when every wave vector is reversed: the eye emits an unpolarised ray, and the radiance seen
+// is the sum over exits of weight x radiance from the exit direction. Radiance is "basic" (per
+// normal flux and per squared tangential wave vector), so no factors of index squared or of solid
+// angle arise. For every ray
+//   exits + remainder + absorbed + cut = 1.
 
 #include <algorithm>
 #include <array>
@@ -29,15 +29,15 @@
 namespace culet {
 
 // A Sink has
-//   void path_exits(const Vec3& origin, const Vec3& direction, const NodeWeights&, const
-//   PathTrace&); void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const
-//   NodeWeights&);
-// `single`: the band has one node, and loops over nodes are none.
+//   void path_exits(const Vec3& origin, const Vec3& direction, const NodeWeights&,
+//                   const PathTrace&);
+//   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
+// `single`: the band has one node, so no loops over nodes are needed.
 template <class Sink, bool single = !k_has_effects, class Body = ConvexBody>
 class LightPaths {
 public:
-    /// `trace`: room for the way, and where to look first: what the last ray met there. It changes
-    /// the time taken and nothing else, and comes from the same body or is new.
+    /// `trace`: storage for the path, and a guess from the last ray's path, which changes only the
+    /// time. It must be new or come from the same body.
     LightPaths(const Body& body, const Band& band, const PathLimits& limits, Sink& sink,
                PathTrace& trace)
         : body_(body), band_(band), limits_(limits), sink_(sink), trace_(trace) {}
@@ -56,7 +56,7 @@ public:
         trace_.length = 0;
         std::fill_n(tau_.begin(), nodes(), 1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
-        // What is off is not in the loop at all.
+        // Template arguments remove unused effects from the loop.
         if (!k_has_effects) {
             trace_scalar<false>(at, ray.direction, entry.facet);
         } else if (limits_.polarised) {
@@ -71,7 +71,7 @@ public:
 private:
     int nodes() const { return single ? 1 : band_.count; }
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
-        NodeWeights result;  // the band's nodes only
+        NodeWeights result;  // only the band's nodes are set
         for (int i = 0; i < nodes(); ++i) result[i] = weight * tau[i];
         return result;
     }
@@ -83,7 +83,8 @@ private:
         for (int i = 0; i < nodes(); ++i) most = std::max(most, tau[i]);
         return weight * most;
     }
-    // A convex body takes where the last ray went from here, another the facet that it comes from.
+    // A convex body is given the last ray's facet as a guess, any other the facet that the ray
+    // leaves.
     BodyHit way_out(const Vec3& at, const Vec3& direction) const {
         constexpr bool convex = std::is_same_v<Body, ConvexBody>;
         return body_.exit(at, direction, trace_.facets[trace_.length - (convex ? 0 : 1)]);
@@ -94,7 +95,7 @@ private:
         ++trace_.length;
     }
 
-    // Beer and Lambert along a segment.
+    // Absorbs along a segment (Beer-Lambert).
     void absorb(double weight, double length, NodeWeights& tau) {
         NodeWeights lost{};
         for (int i = 0; i < band_.count; ++i) {
@@ -105,32 +106,32 @@ private:
         sink_.absorbed(lost);
     }
 
-    // The tangent of a face for a ray, of any length; with the ray's direction it gives p.
+    // Returns s of a face for a ray, of any length; with the ray's direction it gives p.
     static Vec3 tangent(const Vec3& direction, const Vec3& n) {
         const Vec3 s = glm::cross(direction, n);
         if (glm::dot(s, s) > 1e-28) return s;
-        // Normal incidence: the face treats all directions alike (r_p = -r_s), any tangent serves.
+        // At normal incidence all directions are equivalent (r_p = -r_s): any tangent serves.
         return perpendicular_to(n);
     }
 
     static Vec3 mirrored(const Vec3& direction, const Vec3& n) {
         const Vec3 v = direction - 2 * glm::dot(direction, n) * n;
-        // Newton's step to unit length: of a length that is off by rounding it is exact.
+        // One Newton step to unit length corrects a rounding error exactly.
         return (1.5 - 0.5 * glm::dot(v, v)) * v;
     }
-    // `n` points to the side that the ray goes to; q1, q2 along it.
+    // `n` points to the side that the ray goes to; q1, q2 are along it.
     static Vec3 refracted(const Vec3& direction, const Vec3& n, double n1, double q1, double q2) {
         return glm::normalize(n1 * direction + (q2 - q1) * n);
     }
 
-    // Powers that a path passes on of two orthogonal eye polarisations of power 1/2 each, as Stokes
-    // parameters: of s and p together, their difference, and twice the real and imaginary part of
-    // E_s E_p*. A new face turns the frame (s, direction x s): no frame degenerates, and the
-    // parameters' I is the weight.
+    // Power carried by a path for two orthogonal eye polarisations of power 1/2 each, as Stokes
+    // parameters: the sum of s and p, their difference, and twice the real and imaginary part of
+    // E_s E_p*. Each face rotates the frame (s, direction x s). No frame degenerates, and I is the
+    // weight.
     struct Carried {
         double I, Q, U, V;
 
-        // To the tangent s2, from s; each of any length.
+        // Rotates from tangent s to s2, each of any length.
         void turn(const Vec3& direction, const Vec3& s, const Vec3& s2) {
             const double along = glm::dot(s, s2), across = glm::dot(glm::cross(direction, s), s2);
             const double scale = 1 / (along * along + across * across);
@@ -146,7 +147,7 @@ private:
                 I = 0.5 * ((Rs + Rp) * was + (Rs - Rp) * Q);
                 Q = 0.5 * ((Rs - Rp) * was + (Rs + Rp) * Q);
             }
-            // r_s r_p*, of modulus 1 where reflection is total.
+            // r_s r_p*, of modulus 1 in total reflection.
             const double re = s.real() * p.real() + s.imag() * p.imag(),
                          im = s.imag() * p.real() - s.real() * p.imag(), was = U;
             U = re * was - im * V;
@@ -157,7 +158,7 @@ private:
         }
     };
 
-    // The first face: its leaf goes out, and `direction` turns into the stone.
+    // The first face: sends out its exit and refracts `direction` into the stone.
     FaceAmplitudes enter(const Vec3& at, Vec3& direction, int facet) {
         const Vec3 n_in = -body_.normal(facet);
         const double q1 = std::clamp(glm::dot(direction, n_in), 0.0, 1.0);
@@ -238,7 +239,7 @@ private:
     Sink& sink_;
     std::optional<PathTrace> own_;
     PathTrace& trace_;
-    NodeWeights tau_;  // transmitted so far by absorption
+    NodeWeights tau_;  // transmission so far, after absorption
 };
 
 }  // namespace culet

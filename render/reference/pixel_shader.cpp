@@ -44,8 +44,8 @@ public:
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += end.transmitted[i] * seen[i];
     }
-    // Weight of mean 0, so it may be given any radiance: the usual one makes up best for what was
-    // lost, and exactly in a constant light.
+    // The weight has mean 0, so any radiance is unbiased. The mean radiance reduces the noise most,
+    // and removes it in constant light.
     void roulette(const NodeWeights& weight) {
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
@@ -71,7 +71,7 @@ private:
     PairedEstimates estimates_;
 };
 
-// Colour of a Stokes parameter of 1 at each node, as seen behind the eye's optics.
+// Colour of each Stokes parameter (of 1) at each node, behind the eye's optics.
 std::vector<Rgb> colour_weights(const WavelengthSet& colours, const EyeOptics& optics, int planes) {
     const int nodes = colours.size();
     std::vector<Rgb> weights(static_cast<std::size_t>(planes * nodes));
@@ -88,7 +88,7 @@ std::vector<Rgb> colour_weights(const WavelengthSet& colours, const EyeOptics& o
     return weights;
 }
 
-// Mean over directions evenly spread on the sphere (Fibonacci's spiral).
+// Mean over directions evenly spread on the sphere (Fibonacci spiral).
 std::vector<double> usual_radiance(const Surroundings& surroundings, const Vec3& at, int nodes) {
     constexpr int k_directions = 256;
     constexpr double k_golden_angle = 2.39996322972865332;
@@ -137,7 +137,7 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
       usual_(usual_radiance(surroundings_, scene.camera.look_at, nodes_)) {
     limits_.obstacles = &surroundings_;
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
-    // Where most of the noise is that of the surroundings, a ray need not carry all wavelengths.
+    // With objects, most of the noise is theirs, so a ray need not carry all wavelengths.
     const int usual_turns = has_objects_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;
     take_turns(std::clamp(scene.settings.wavelength_turns.value_or(usual_turns), 1,
                           static_cast<int>(std::min(pattern_.size(), setup_.bands.size()))));
@@ -145,7 +145,7 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
 
 void PixelShader::take_turns(int turns) {
     const std::size_t count = pattern_.size();
-    // Cells of a grid in an order whose every stretch is evenly spread (Roberts 2018, R2).
+    // Order the grid's cells so that every stretch is evenly spread (Roberts 2018, R2).
     const std::size_t side = static_cast<std::size_t>(std::lround(std::sqrt(count)));
     const bool grid = side * side == count;
     std::vector<std::pair<double, std::size_t>> order;
@@ -156,8 +156,8 @@ void PixelShader::take_turns(int turns) {
                            i);
     }
     std::sort(order.begin(), order.end());
-    // Two halves, to see what few rays are off by: the black and the white squares of a chessboard.
-    // In each of them every stretch of that order has one turn.
+    // Two halves, to estimate the error of few rays: the black and white squares of a chessboard.
+    // In each half, every stretch of that order takes one turn.
     turns_ = turns;
     turn_.assign(count, 0);
     half_.assign(count, 0);
@@ -211,7 +211,7 @@ void PixelShader::background(const EyeRay& ray, double* stokes) const {
 PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
                              PixelMemory& memory) const {
     const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
-    // Sums of the two halves of the rays, of what they see of the stone and beside it.
+    // Two halves of the rays: sums of what they see of the stone and beside it.
     memory.stone.assign(2 * values, 0.0);
     memory.behind.assign(2 * values, 0.0);
     PixelSums sums;
@@ -297,8 +297,8 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
     }
     if (halved_ && sums.counted > 0)
         sums.halves_apart = (std::abs(apart[0]) + std::abs(apart[1]) + std::abs(apart[2])) / 6;
-    // Every ray is chosen at random: the mean of two independent halves has a quarter of their
-    // difference's variance, which is that much, edges within the pixel included.
+    // With objects, every ray is random: the mean of two independent halves has a quarter of their
+    // difference's variance, including edges within the pixel.
     if (has_objects_ && halved_) sums.variance = 0.25 * luminance_apart * luminance_apart;
     return sums;
 }

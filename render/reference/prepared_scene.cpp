@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// Crystals: a path splits in two at every hit while it carries more than this.
+// Crystals: a path that carries more than this splits in two at every hit.
 constexpr double k_split_weight = 0.02;
 constexpr double k_roulette_weight = 1e-3;
 constexpr double k_cut_with_objects = 0.1, k_roulette_with_objects = 0.01;
@@ -28,7 +28,7 @@ void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
     }
 }
 
-// Mean luminance of the stone's pixels in a small, shallow picture; 0 when no ray meets the stone.
+// Mean luminance of the stone's pixels in a small, shallow picture; 0 if no ray hits the stone.
 double pilot_mean(const Scene& scene, PreparedScene& prepared) {
     const PathLimits before = prepared.limits;
     prepared.limits.depth = 16;
@@ -49,7 +49,7 @@ double pilot_mean(const Scene& scene, PreparedScene& prepared) {
     return hits > 0 ? sum / hits : 0;
 }
 
-// Depth and seed as the scene has them; nothing is cut.
+// The scene's depth and seed, without cutting.
 PathLimits uncut_limits(const RenderSettings& settings, const OpticalSetup& setup) {
     PathLimits limits;
     limits.seed = settings.seed;
@@ -58,7 +58,7 @@ PathLimits uncut_limits(const RenderSettings& settings, const OpticalSetup& setu
     return limits;
 }
 
-// As far as the scene says, or its tolerance.
+// Sets the limits by the scene, or else by its tolerance.
 void set_limits(const Scene& scene, PreparedScene& prepared) {
     const RenderSettings& settings = scene.settings;
     PathLimits& limits = prepared.limits;
@@ -77,21 +77,21 @@ void set_limits(const Scene& scene, PreparedScene& prepared) {
     }
     const double mean = pilot_mean(scene, prepared);
     const double brightest = prepared.surroundings->max_radiance();
-    // What is cut sees at most the brightest light. Half of what that allows, because the pilot's
-    // mean is itself a few per cent off.
+    // A cut path would see at most the brightest light. Use half of the weight that this permits,
+    // because the pilot's mean has an error of a few per cent.
     limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
                                                   : settings.tolerance;
     limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
     limits.split_weight = std::max(k_split_weight, limits.cut_weight);
-    // Trees that branch play roulette instead of being cut: that costs no accuracy but noise, which
-    // a light of great radiance must not make as dear as it makes cutting.
+    // Trees that branch play Russian roulette instead of being cut. It causes noise but no bias.
+    // The weight has a lower limit, because very bright lights would make it too expensive.
     limits.roulette = branch;
     if (branch) limits.cut_weight = std::max(limits.cut_weight, k_roulette_weight);
 }
 
-// The fewest wavelengths whose colours differ from those of the finest set by less than the
-// tolerance, root mean square over some pixels and relative to their mean. Seen on paths of a few
-// faces, which are where the light is.
+// Finds the fewest wavelengths whose colours differ from the finest set's by less than the
+// tolerance, as a root mean square over some pixels relative to their mean. It uses paths of a few
+// faces, which carry most of the light.
 OpticalSetup setup_for_tolerance(const Scene& scene) {
     OpticalSetup setup = make_optical_setup(scene);
     if (!(scene.settings.tolerance > 0) || !chose_spectrum(scene, setup)) return setup;

@@ -1,6 +1,6 @@
 #pragma once
-// A scene made ready to be drawn, in this order: its optical setup, the surroundings at the setup's
-// wavelengths, and how far paths are followed. Engines and pilots all draw one of these.
+// A scene prepared for drawing: its optical setup, the surroundings at its wavelengths, and the
+// limits of paths. Engines and pilots draw from it.
 
 #include <memory>
 
@@ -11,14 +11,14 @@
 namespace culet {
 
 struct PreparedScene {
-    /// What the scene leaves open follows from its tolerance: as few wavelengths as colours allow,
-    /// and weights that may be cut, relative to the mean of a small, shallow picture.
+    /// Derives open settings from the scene's tolerance: as few wavelengths as colours allow, and
+    /// the cut weight, relative to the mean of a small, shallow picture.
     explicit PreparedScene(const Scene& scene);
-    /// `nodes`: wavelengths where a spectrum is called for and the scene names none. `limits` as
-    /// they are, but for what the setup decides (polarised, roulette).
+    /// `nodes`: number of wavelengths if a spectrum is needed and the scene gives none. `limits`
+    /// stay, except for what the setup decides (polarised, roulette).
     PreparedScene(const Scene& scene, int nodes, const PathLimits& limits);
 
-    /// Another camera: `anew` is its setup, at the wavelengths that were chosen.
+    /// Changes the camera; `anew` is its setup at the same wavelengths.
     void look(const Scene& scene, OpticalSetup anew);
 
     OpticalSetup setup;
@@ -27,9 +27,9 @@ struct PreparedScene {
     PathLimits limits;
 };
 
-/// How far the paths of a stone are followed where things stand around it: light is sampled at
-/// random there, and what is cut is to be less than that noise. A tenth of the tolerance is left,
-/// relative to the light that such a path would see; trees that branch play roulette.
+/// Limits of paths in scenes with objects. Their light is sampled at random, so what is cut must be
+/// less than the noise: a path stops at a tenth of the tolerance, relative to the light that it
+/// would see. Trees that branch play Russian roulette.
 PathLimits limits_with_objects(const Scene& scene, const OpticalSetup& setup);
 
 }  // namespace culet

@@ -18,10 +18,10 @@ namespace culet {
 
 namespace {
 
-// One ray may cost what a picture's may not: the whole tree of a crystal to depth 18.
+// Allows the whole tree of a crystal to depth 18: too slow for a picture, not for one ray.
 constexpr int k_most_splits = 1 << 18;
 
-// Keeps every leaf; paths of different wavelengths through the same facets and modes become one.
+// Keeps every exit. Paths of different wavelengths through the same facets and modes are merged.
 class Record {
 public:
     Record(const Scene& scene, const Surroundings& surroundings, int nodes,
@@ -58,11 +58,11 @@ public:
     void remainder(const NodeWeights& weight) { add(result_.remainder, weight); }
     void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
     void cut(const NodeWeights& weight) { add(result_.cut, weight); }
-    void roulette(const NodeWeights&) {}  // a probe cuts
+    void roulette(const NodeWeights&) {}  // probes cut instead
     void choice_begins() { estimates_.begin(seen()); }
     void choice_ends(bool second) { estimates_.end(second, seen()); }
 
-    // What the eye sees: behind its analyser, if there is one.
+    // Applies the analyser, if there is one.
     void finish(const EyeOptics& optics) {
         for (int i = 0; i < nodes_; ++i) {
             const Stokes row = response(optics, result_.wavelengths_nm[i]);
@@ -77,7 +77,8 @@ public:
 
 private:
     ProbedPath& path_of(const Vec3& at, const Vec3& direction, const PathTrace& trace) {
-        // How many leaves there will be is not known: the fraction stays at 0, but a stop is heard.
+        // The number of exits is unknown, so the progress stays at 0; the call only checks for a
+        // stop.
         if (progress_ && ++leaves_ % 4096 == 0 && !progress_(0)) throw Interrupted();
         std::vector<int> facets(trace.facets.begin(), trace.facets.begin() + trace.length);
         const std::string modes(trace.modes.begin(), trace.modes.begin() + trace.length - 1);
@@ -181,8 +182,8 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
 
 std::string probe_json(const ProbeResult& result) {
     using Json = nlohmann::ordered_json;
-    // One number a path, so that weights + remainder + absorbed + cut = 1; beside it each
-    // wavelength's own.
+    // The mean over wavelengths, so that weights + remainder + absorbed + cut = 1; each
+    // wavelength's value is beside it.
     const auto mean = [](const std::vector<double>& values) {
         double sum = 0;
         for (double value : values) sum += value;

@@ -1,5 +1,5 @@
 #pragma once
-// Which facets make this flash: the light paths behind one ray.
+// Lists the light paths behind one ray: which facets make a flash.
 
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@
 namespace culet {
 
 struct ProbedPath {
-    std::vector<std::string> facets;  ///< in the order that the eye ray meets them
+    std::vector<std::string> facets;  ///< in the order in which the eye ray hits them
     std::string modes;                ///< of each segment between them (PathTrace)
-    std::vector<double> weight;  ///< per wavelength; 0 where this wavelength takes another path
-    /// At the eye, of unpolarised light of radiance 1 that comes this way: mean over wavelengths,
-    /// in the eye's frame (x to the right of the picture).
+    std::vector<double> weight;       ///< per wavelength; 0 if this wavelength takes another path
+    /// At the eye, for unpolarised light of radiance 1 along this path: mean over wavelengths, in
+    /// the eye's frame (x to the picture's right).
     Stokes stokes{};
     Vec3 exit_direction{0, 0, 0};
     std::string light;  ///< what it sees
@@ -28,23 +28,23 @@ struct ProbeResult {
     std::vector<double> remainder, absorbed, cut;  ///< per wavelength
     int depth = 0;
     bool hit = false;
-    /// Of the light that reaches the eye along this ray, mean over wavelengths.
+    /// Stokes parameters of the light that reaches the eye, mean over wavelengths.
     Stokes stokes{};
-    /// Standard error of the mean radiance from paths chosen at random; 0: none were.
+    /// Standard error of the mean radiance from random choices; 0 without any.
     double standard_error = 0;
-    /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
+    /// Largest |sum of powers - 1| at a crystal's face before normalisation.
     double worst_imbalance = 0;
-    bool sampled = false;  ///< a crystal's tree grew too large: from there on one wave was followed
+    bool sampled = false;  ///< a crystal's tree grew too large, so only one wave was followed from
+                           ///< there
 };
 
-/// Here `tolerance` of the scene's settings is a weight: paths below it are cut. Depth as in the
-/// settings (0: 1000). Throws InputError (a ray that starts inside the stone, and as `render`) and
-/// Interrupted.
+/// The scene's `tolerance` is the weight below which paths are cut here. Depth 0 means 1000. Throws
+/// InputError (for a ray that starts inside the stone, or like `render`) and Interrupted.
 ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress = {});
 
-/// The ellipse that light's field runs through. Angles in radians.
+/// Polarisation ellipse of light. Angles in radians.
 struct PolarisationEllipse {
-    double degree = 0;       ///< polarised share, 0..1
+    double degree = 0;       ///< polarised part, 0..1
     double azimuth = 0;      ///< of the long axis, from x counter-clockwise, in [0, pi)
     double ellipticity = 0;  ///< atan of short over long axis; > 0 right-handed
 };

@@ -1,4 +1,4 @@
-// The engine "reference": rays and all their paths, pixel by pixel.
+// The engine "reference": traces every pixel's rays and all their paths.
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -36,7 +36,7 @@ int samples_of(const Scene& scene, const OpticalSetup& setup) {
     return setup.on(Effects::aperture) ? k_pupil_samples : k_samples;
 }
 
-// Shades every pixel of one window onto the film, tile by tile.
+// Shades one window's pixels onto the film, tile by tile.
 PixelSums shade_picture(const Scene& scene, const PreparedScene& prepared, Film& film,
                         const PixelShader& shader, const Progress& progress) {
     const Camera& camera = scene.camera;
@@ -59,7 +59,7 @@ PixelSums shade_picture(const Scene& scene, const PreparedScene& prepared, Film&
         for (int y = y0; y < std::min(y0 + k_tile, camera.height); ++y) {
             for (int column = 0; column < x1 - x0; ++column) {
                 if (!listener.goes_on()) return;
-                // To and fro, so that each pixel is next to the one before.
+                // Alternate the direction, so that successive pixels are neighbours.
                 const int x = (y - y0) % 2 == 0 ? x0 + column : x1 - 1 - column;
                 const std::uint64_t number =
                     static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(camera.width) +
@@ -80,7 +80,7 @@ PixelSums shade_picture(const Scene& scene, const PreparedScene& prepared, Film&
     });
     if (listener.stopped()) throw Interrupted();
     if (meter != nullptr) meter->require_not_over();
-    // In the order of the tiles: the same bytes whatever the threads did.
+    // Sum in the order of tiles, so the result does not depend on threads.
     PixelSums whole;
     for (const PixelSums& sum : sums) whole += sum;
     return whole;
@@ -136,7 +136,7 @@ public:
         const auto start = std::chrono::steady_clock::now();
         require_renderable(whole);
         Scene scene = whole;
-        // The two windows of a dichroscope are one view, seen twice.
+        // A dichroscope's two windows show the same view.
         if (whole.camera.optics.two_windows) scene.camera.width /= 2;
         const PreparedScene prepared(scene);
         const PixelShader shader(scene, prepared, samples_of(scene, prepared.setup));

@@ -7,7 +7,8 @@ namespace culet {
 
 namespace {
 
-// Offset from the pixel's middle, in filter radii, below which the share `u` of a filter lies.
+// Quantile of a filter: the offset from the pixel's middle, in filter radii, below which the part
+// `u` lies.
 double filtered(PixelFilter filter, double u) {
     switch (filter) {
         case PixelFilter::box:
@@ -15,7 +16,7 @@ double filtered(PixelFilter filter, double u) {
         case PixelFilter::tent:
             return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
         case PixelFilter::gaussian: {
-            // Cut off at two standard deviations. Bisection: monotonic, and done once a picture.
+            // Truncated at two standard deviations. Bisection suffices: it runs once per picture.
             const double whole = std::erf(std::numbers::sqrt2);
             double low = -1, high = 1;
             for (int i = 0; i < 60; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where in a pixel and in the pupil its eye rays start.
+// Sample points of eye rays in the pixel and the pupil.
 
 #include <vector>
 
@@ -7,14 +7,14 @@
 
 namespace culet {
 
-/// x, y in pixels from the pixel's corner, distributed as the filter (so that every sample weighs
-/// the same); a point of the unit disc of the pupil.
+/// x, y: pixels from the pixel's corner, distributed like the filter, so all samples have the same
+/// weight. pupil_x, pupil_y: in the unit disc.
 struct SamplePoint {
     double x = 0.5, y = 0.5, pupil_x = 0, pupil_y = 0;
 };
 
-/// The same in every pixel and every run. Square counts are a regular grid in the pixel, others
-/// an additive recurrence with the generalised golden ratio (Roberts 2018); so is the pupil.
+/// The same in every pixel and run. Square counts form a regular grid in the pixel. Other counts,
+/// and the pupil, use an additive recurrence with the generalised golden ratio (Roberts 2018).
 std::vector<SamplePoint> sample_pattern(int count, bool pupil, PixelFilter filter,
                                         double filter_radius);
 
