@@ -14,8 +14,7 @@ namespace culet {
 
 namespace {
 
-// IEC 61966-2-1: XYZ of linear sRGB; the inverse is computed, so that the two agree to the last
-// bit.
+// IEC 61966-2-1. The inverse is computed, so that the two agree to the last bit.
 Eigen::Matrix3d xyz_from_rgb() {
     Eigen::Matrix3d m;
     m << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;
@@ -28,9 +27,9 @@ const Eigen::Matrix3d& rgb_from_xyz() {
 
 constexpr Rgb k_luminance{0.2126, 0.7152, 0.0722};
 
-// Weight of each node in the integral over the observer's range of D65 x colour matching function x
-// the spectrum that is linear between nodes and held beyond them: sums on the observer's own 1 nm
-// grid.
+// Weight of each node in the integral of D65 x colour matching function x spectrum over the
+// observer's range. The spectrum is linear between nodes and constant beyond them; sums use the
+// observer's 1 nm grid.
 Eigen::MatrixXd xyz_weights(const std::vector<double>& nm) {
     const Eigen::Index count = static_cast<Eigen::Index>(nm.size());
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(3, count);
@@ -54,11 +53,11 @@ Eigen::MatrixXd xyz_weights(const std::vector<double>& nm) {
     return weights;
 }
 
-// Nodes whose values are free: all of a short list, an even choice of a long one, with linear
-// interpolation between them. Keeps the solve small, and the spectra as smooth as a light's are.
+// Largest number of free nodes: an even choice of a longer list, with linear interpolation between.
+// This keeps the solve small and the spectra smooth.
 constexpr Eigen::Index k_most_free = 33;
 
-// Row i: the shares of the free values in node i; every row sums to 1.
+// Row i: weights of the free values at node i; each row sums to 1.
 Eigen::MatrixXd interpolation(const std::vector<double>& nm) {
     const Eigen::Index n = static_cast<Eigen::Index>(nm.size());
     const Eigen::Index free = std::min(n, k_most_free);
@@ -75,8 +74,8 @@ Eigen::MatrixXd interpolation(const std::vector<double>& nm) {
     return shares;
 }
 
-// The smallest x'N x / 2 under A x = b, by Lagrange multipliers, and what it becomes when values of
-// x are held one after another: one factorization serves them all.
+// Minimises x'N x / 2 under A x = b with Lagrange multipliers, and again with some values of x
+// fixed; one factorization serves all.
 class LeastUnder {
 public:
     LeastUnder(const Eigen::MatrixXd& normal, const Eigen::MatrixXd& A, const Eigen::VectorXd& b)
@@ -90,7 +89,7 @@ public:
         free_ = inverse.topRightCorner(all, rows) * b;
         give_ = inverse.topLeftCorner(all, all);
     }
-    /// With H x = h, too; nothing where that, or A x = b, cannot be.
+    /// Adds the constraints H x = h. Returns nothing if the constraints are contradictory.
     std::optional<Eigen::VectorXd> with(const Eigen::MatrixXd& H, const Eigen::VectorXd& h) const {
         Eigen::VectorXd x = free_;
         if (H.rows() > 0) {
@@ -109,16 +108,16 @@ private:
     Eigen::VectorXd b_, free_;
 };
 
-// The smoothest three spectra that add up to 1 and integrate to red, green and blue: least squares
-// of first differences under linear constraints, with values held at 0 where they would fall below
-// as long as the integrals stay exact. Where they cannot be (two nodes, or all of them where the
-// eye sees nothing), the sum stays 1 and the integrals are met as nearly as may be.
+// Finds the three smoothest spectra that sum to 1 and integrate to red, green and blue: least
+// squares of first differences under linear constraints. Values that would be negative are fixed at
+// 0 while the integrals can stay exact. If they cannot be exact (two nodes, or all nodes where the
+// eye sees nothing), the sum stays 1 and the integrals are approximated.
 std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_weight,
                                                     const std::vector<double>& nm) {
     const Eigen::MatrixXd shares = interpolation(nm);
     const Eigen::MatrixXd weight = product(rgb_weight, shares);
     const Eigen::Index n = weight.cols();
-    // Unknown are red and blue, less the third that each would be of grey light; green is the rest.
+    // The unknowns are red and blue, less a third each (grey light); green is the rest.
     constexpr double k_third = 1.0 / 3;
     const auto primaries_of = [&](const Eigen::VectorXd& unknown) {
         Eigen::MatrixXd values(n, 3);
@@ -134,14 +133,14 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         differences(i, i + 1) -= 1;
         differences(i + 1, i) -= 1;
     }
-    // A sum of squares of each of the three.
+    // Sum of squares of all three primaries.
     const auto of_all_three = [&](const Eigen::MatrixXd& square) {
         Eigen::MatrixXd normal(2 * n, 2 * n);
         normal << 2 * square, square, square, 2 * square;
         return normal;
     };
     const Eigen::MatrixXd roughness = of_all_three(differences);
-    // Of grey light each integral is 1, and a third for each.
+    // Grey light of a third each already integrates to a third per colour.
     const auto wanted = [&](int primary) {
         return Eigen::Vector3d(Eigen::Vector3d::Unit(primary).array() - k_third);
     };
@@ -165,7 +164,8 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         const auto unknown = smoothest.with(H, Eigen::VectorXd::Constant(rows, -k_third));
         if (!unknown) break;
         const Eigen::MatrixXd values = primaries_of(*unknown);
-        // With few nodes a hold can push another value further below 0: the mildest one is kept.
+        // With few nodes, fixing a value can push another further below 0: keep the solution with
+        // the least negative value.
         if (best.size() == 0 || values.minCoeff() > best.minCoeff()) best = values;
         std::pair<Eigen::Index, Eigen::Index> worst;
         if (values.minCoeff(&worst.first, &worst.second) >= -1e-12) break;
@@ -173,8 +173,7 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         held.push_back(worst);
     }
     if (best.size() == 0) {
-        // The integrals weigh so much more than smoothness that it only settles what they leave
-        // open.
+        // Weight of smoothness, so small that it only determines what the integrals leave open.
         constexpr double k_smoothness = 1e-6;
         Eigen::VectorXd pull(2 * n);
         pull << weight.transpose() * (wanted(0) - wanted(1)),
@@ -203,7 +202,7 @@ WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm)
     }
     const Eigen::MatrixXd xyz = xyz_weights(wavelengths_nm_);
     Eigen::MatrixXd rgb = rgb_from_xyz() * xyz;
-    // Flat 1 is white by definition: the tables' D65 and sRGB's differ in the fourth digit.
+    // Flat 1 is white by definition; the tables' D65 and sRGB's differ in the fourth digit.
     for (int c = 0; c < 3; ++c) rgb.row(c) /= rgb.row(c).sum();
     for (Eigen::Index i = 0; i < count; ++i)
         rgb_weight_.push_back({rgb(0, i), rgb(1, i), rgb(2, i)});
@@ -215,7 +214,7 @@ WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm, std::vector<Rgb
 }
 
 const std::array<std::vector<double>, 3>& WavelengthSet::primaries() const {
-    // A plan tries the same few sets again and again, and most scenes have no coloured light.
+    // Cached: a plan tries the same few sets repeatedly. Lazy: most scenes have no coloured light.
     static std::mutex mutex;
     static std::map<std::vector<Rgb>, std::array<std::vector<double>, 3>> found;
     const std::lock_guard<std::mutex> lock(mutex);
@@ -234,8 +233,7 @@ const std::array<std::vector<double>, 3>& WavelengthSet::primaries() const {
 }
 
 Rgb WavelengthSet::rgb_of(const double* radiance) const {
-    // Summed as white plus differences from the first node, so that a flat spectrum is grey to the
-    // bit.
+    // Sum differences from the first node, so that a flat spectrum is grey to the bit.
     const double base = radiance[0];
     Rgb rgb{base, base, base};
     for (std::size_t i = 1; i < rgb_weight_.size(); ++i) {
@@ -246,7 +244,7 @@ Rgb WavelengthSet::rgb_of(const double* radiance) const {
 
 std::vector<double> WavelengthSet::spectrum_of(const Rgb& rgb) const {
     std::vector<double> radiance(wavelengths_nm_.size(), rgb[1]);
-    // Green plus differences: a grey light is flat to the bit, because the primaries add up to 1.
+    // Start from green: a grey light is flat to the bit, because the primaries sum to 1.
     if (rgb[0] == rgb[1] && rgb[2] == rgb[1]) return radiance;
     const std::array<std::vector<double>, 3>& of = primaries();
     for (std::size_t i = 0; i < radiance.size(); ++i)

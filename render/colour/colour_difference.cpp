@@ -37,7 +37,7 @@ Lab lab_from_linear_srgb(double red, double green, double blue) {
     const double x = 0.4124 * red + 0.3576 * green + 0.1805 * blue;
     const double y = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
     const double z = 0.0193 * red + 0.1192 * green + 0.9505 * blue;
-    // The white of these very rows, so that equal channels are exactly grey.
+    // White computed from these rows, so that equal channels are exactly grey.
     const double fx = lab_curve(x / 0.9505), fy = lab_curve(y), fz = lab_curve(z / 1.0890);
     return {116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)};
 }
@@ -51,7 +51,7 @@ double ciede2000(const Lab& first, const Lab& second) {
     const double chroma1 = std::hypot(a1, first.b), chroma2 = std::hypot(a2, second.b);
     const double hue1 = hue_deg(a1, first.b), hue2 = hue_deg(a2, second.b);
 
-    // Differences (8 to 11); hue the short way round.
+    // Differences (8 to 11); hue by the shorter arc.
     const bool grey = chroma1 * chroma2 == 0;
     double hue_step = grey ? 0 : hue2 - hue1;
     if (hue_step > 180) hue_step -= 360;

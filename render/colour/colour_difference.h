@@ -1,5 +1,5 @@
 #pragma once
-// How different two colours look: CIELAB and CIEDE2000.
+// Perceived colour differences: CIELAB and CIEDE2000.
 
 #include <array>
 

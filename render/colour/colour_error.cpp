@@ -11,7 +11,7 @@ namespace {
 
 constexpr double k_white_over_mean = 5;
 
-// Mean, and its standard error.
+// Mean and standard error.
 struct Moments {
     double sum = 0, squares = 0;
 

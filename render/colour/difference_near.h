@@ -1,12 +1,13 @@
 #pragma once
-// CIEDE2000 near one colour, for least squares.
+// Local linear form of CIEDE2000, for least squares.
 
 #include <array>
 
 namespace culet {
 
-/// Near one colour: CIEDE2000 is the length of this matrix (by rows: lightness, chroma, hue) times
-/// a small change of linear sRGB. Without the turn of blue hues and G, which sharpen it little.
+/// CIEDE2000 of a small change of linear sRGB is about the length of this matrix (rows: lightness,
+/// chroma, hue) times the change. It omits the rotation of blue hues and G, which matter little
+/// here.
 using DifferenceNear = std::array<std::array<double, 3>, 3>;
 DifferenceNear difference_near(double red, double green, double blue);
 

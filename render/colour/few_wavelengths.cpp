@@ -21,11 +21,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double k_step = 0.25, k_longest = 5;  // of single ways, in widths
+constexpr double k_step = 0.25, k_longest = 5;  // of single paths, in widths
 constexpr std::array k_spread{0.25, 0.5, 1.0, 2.0, 4.0};
-// Ways along one principal ray are rare in a picture; most light has been along all of them.
+// Weights. Paths along one principal ray are rare in a picture; most light has gone along all of
+// them.
 constexpr double k_of_one_ray = 0.1, k_of_primaries = 3;
-// What the colours leave open stays near what it is at the wavelengths themselves.
+// Regularisation: what the colours do not determine stays near its value at the wavelengths.
 constexpr double k_near_shares = 0.1, k_near_absorption = 0.01;
 constexpr double k_least_per_width = 1e-3;
 constexpr int k_most_steps = 60;
@@ -40,7 +41,7 @@ MatrixXd shares_of(const WavelengthSet& set) {
     return shares;
 }
 
-// The whole spectrum in steps of 5 nm, as the finest pictures have it.
+// In steps of 5 nm, like the finest pictures.
 const WavelengthSet& whole_spectrum() {
     static const WavelengthSet set = [] {
         std::vector<double> nm;
@@ -50,16 +51,16 @@ const WavelengthSet& whole_spectrum() {
     return set;
 }
 
-// Light that went a way of one length, or ways spread exponentially about it.
+// Light after a path of one length, or of lengths spread exponentially about it.
 struct Way {
-    Index ray;  // -1: a share of each
+    Index ray;  // -1: all rays mixed
     double mm;
     bool spread;
     double weight;
     Vector3d colour;
     Matrix3d metric, of_primaries;
 
-    // exp(-K mm), or its mean over the lengths; the slope is over the logarithm of K.
+    // exp(-K mm), or its mean over the lengths; the slope is with respect to log K.
     double transmitted(double absorption, double* slope = nullptr) const {
         const double depth = absorption * mm, part = spread ? 1 / (1 + depth) : std::exp(-depth);
         if (slope != nullptr) *slope = -depth * part * (spread ? part : 1);
@@ -76,8 +77,8 @@ struct Way {
     }
 };
 
-// Unknown are the logarithms of absorptions, ray by ray, and the shares of all wavelengths but the
-// last, colour by colour.
+// The unknowns are the logarithms of absorptions, ray by ray, and the weights of all wavelengths
+// but the last, colour by colour.
 class Fit {
 public:
     Fit(const MatrixXd& fine_absorption, const WavelengthSet& few, const MatrixXd& start,
@@ -132,11 +133,11 @@ public:
         return of;
     }
 
-    // What is to be small, and its slopes over the unknowns.
+    // Residuals, and their Jacobian.
     VectorXd off(const VectorXd& x, MatrixXd& slopes) const {
         const Index each = primaries_ ? 12 : 3, all = static_cast<Index>(ways_.size());
         const MatrixXd K = absorption(x), M = shares(x);
-        // The light of each primary at the wavelengths: three of them leave no choice.
+        // Light of each primary at the wavelengths: three wavelengths determine it.
         const MatrixXd light = primaries_ ? MatrixXd(inverse3(M)) : MatrixXd();
         VectorXd rows = VectorXd::Zero(each * all + x.size());
         slopes = MatrixXd::Zero(rows.size(), x.size());
@@ -169,7 +170,7 @@ private:
     Index share_at(Index colour, Index node) const {
         return rays_ * nodes_ + colour * (nodes_ - 1) + node;
     }
-    // Of scale M (seen . lit), where `lit` is 1 or a column of `light`, the inverse of M.
+    // Jacobian of scale M (seen . lit), where `lit` is 1 or a column of `light`, the inverse of M.
     void fill(Eigen::Ref<MatrixXd> slopes, const Way& way, const MatrixXd& K, const MatrixXd& M,
               const VectorXd& seen, const VectorXd& lit, const Matrix3d& scale,
               const MatrixXd* light) const {
@@ -183,7 +184,7 @@ private:
         }
         const Index last = nodes_ - 1;
         for (Index c = 0; c < 3; ++c) {
-            // The inverse moves against the matrix.
+            // d(M^-1) = -M^-1 dM M^-1.
             const Vector3d turned = light != nullptr
                                         ? Vector3d(scale * (M * seen.cwiseProduct(light->col(c))))
                                         : Vector3d(Vector3d::Zero());
@@ -200,7 +201,7 @@ private:
     std::vector<Way> ways_;
 };
 
-// Levenberg and Marquardt's, from x; the squares that are left.
+// Levenberg-Marquardt from x; returns the remaining sum of squares.
 double least_squares(const Fit& fit, VectorXd& x) {
     MatrixXd slopes, tried_slopes;
     VectorXd off = fit.off(x, slopes);
@@ -239,7 +240,7 @@ FewWavelengths fitted(const std::vector<Spectrum>& absorption, const std::vector
         return values;
     };
     const MatrixXd of_fine = of_rays(fine), at_nodes = of_rays(nm);
-    // The mean over what is nearest to each wavelength.
+    // Mean over the fine wavelengths nearest to each wavelength.
     MatrixXd means = at_nodes;
     VectorXd counts = VectorXd::Ones(means.cols());
     for (std::size_t f = 0; f < fine.size(); ++f) {
@@ -252,7 +253,7 @@ FewWavelengths fitted(const std::vector<Spectrum>& absorption, const std::vector
         counts[nearest] += 1;
     }
     means = means * counts.cwiseInverse().asDiagonal();
-    // Either start may end in a valley of its own: the lower one is taken.
+    // The two starts may lead to different local minima: take the lower.
     FewWavelengths result;
     double least = std::numeric_limits<double>::infinity();
     for (const MatrixXd& start : {means, at_nodes}) {
@@ -277,7 +278,7 @@ FewWavelengths fitted(const std::vector<Spectrum>& absorption, const std::vector
 
 const FewWavelengths& few_wavelengths(const std::vector<Spectrum>& absorption_per_mm,
                                       const std::vector<double>& wavelengths_nm, double width_mm) {
-    constexpr double k_steps = 4;  // of an octave
+    constexpr double k_steps = 4;  // steps per octave
     const double width = std::exp2(std::round(k_steps * std::log2(width_mm)) / k_steps);
     std::vector<double> key{width};
     key.insert(key.end(), wavelengths_nm.begin(), wavelengths_nm.end());

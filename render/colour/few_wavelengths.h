@@ -1,11 +1,11 @@
 #pragma once
-// What a few wavelengths of a coloured stone stand for.
+// Fits a few wavelengths to the whole spectrum of a coloured stone.
 //
-// The transmittance at three wavelengths says little about a stone's colour: its bands of
-// absorption lie between them. As Guy and Soler (Graphics Gems Revisited, 2004, equation 9) weigh
-// absorption for each primary of a screen, each wavelength gets the absorption, and each red, green
-// and blue the shares of wavelengths, with which the colour of light that went through the stone is
-// that of the whole spectrum, as nearly as can be for all lengths of a path at once.
+// The transmittance at three wavelengths says little about a stone's colour, because its absorption
+// bands lie between them. Guy and Soler (Graphics Gems Revisited, 2004, equation 9) weight
+// absorption for each primary of a screen. Similarly, each wavelength here gets a fitted
+// absorption, and red, green and blue get fitted weights of the wavelengths. Light through the
+// stone then has nearly the colour of the whole spectrum, for all path lengths at once.
 
 #include <vector>
 
@@ -14,21 +14,21 @@
 
 namespace culet {
 
-/// Sets of so many wavelengths are fitted; more show a spectrum as it is.
+/// Numbers of wavelengths that are fitted; larger sets sample the spectrum directly.
 constexpr int k_least_fitted = 3, k_most_fitted = 15;
 
 struct FewWavelengths {
-    /// Of each wavelength: its share in linear sRGB. The shares of each colour sum to 1.
+    /// Weight of each wavelength in linear sRGB. The weights of each colour sum to 1.
     std::vector<Rgb> rgb_weight;
-    /// For each principal ray, at each wavelength.
+    /// [principal ray][wavelength]
     std::vector<std::vector<double>> absorption_per_mm;
 };
 
-/// The least squares of the differences in colour (a local CIEDE2000) of daylight after ways of up
-/// to five widths along one principal ray and along all of them, and after ways that are spread
-/// exponentially about up to four widths; with three wavelengths of the light of each primary as
-/// well. `absorption_per_mm`: of each principal ray, one to three. The width counts in steps of a
-/// fifth, so that stones of nearly one size have one result, which is kept.
+/// Least squares of colour differences (a local CIEDE2000) of daylight after paths of up to five
+/// widths along one principal ray and along all of them, and after paths spread exponentially about
+/// up to four widths. With three wavelengths, the light of each primary is fitted too.
+/// `absorption_per_mm`: of each principal ray, one to three. The width is rounded to a quarter of
+/// an octave (19 %), so stones of similar size share one cached result.
 const FewWavelengths& few_wavelengths(const std::vector<Spectrum>& absorption_per_mm,
                                       const std::vector<double>& wavelengths_nm, double width_mm);
 

@@ -52,7 +52,7 @@ const std::vector<NamedColour>& named_colours() {
     return all;
 }
 
-// Every 5 nm, the finest step of the catalogue's spectra: the sums are exact for such spectra.
+// 5 nm is the finest step of the catalogue's spectra, so sums are exact for them.
 const WavelengthSet& visible() {
     static const WavelengthSet set = [] {
         std::vector<double> nm;
@@ -84,8 +84,8 @@ StoneColour body_colour(const Material& material, double width_mm) {
     }
     colour.rgb = visible().rgb_of(light.data());
     colour.lab = lab_from_linear_srgb(colour.rgb[0], colour.rgb[1], colour.rgb[2]);
-    // What nobody tells from colourless has no name of a colour (2.3 is just noticeable: M. Mahy et
-    // al., Color Res. Appl. 19, 105, 1994).
+    // Colours not distinguishable from colourless get no colour name (2.3 is just noticeable: M.
+    // Mahy et al., Color Res. Appl. 19, 105, 1994).
     if (ciede2000(colour.lab, Lab{100, 0, 0}) > 2.3) colour.name = colour_name(colour.lab);
     return colour;
 }

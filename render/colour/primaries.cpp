@@ -24,7 +24,7 @@ glm::dvec3 xyz_at(const std::array<double, 2>& xy) {
     return {xy[0], xy[1], 1 - xy[0] - xy[1]};
 }
 
-// Bradford's responses of the eye (Lam 1985; ICC.1:2010, annex E.3).
+// Bradford cone responses (Lam 1985; ICC.1:2010, annex E.3).
 glm::dmat3 adapted(const glm::dvec3& from_white, const glm::dvec3& to_white) {
     const glm::dmat3 cone = glm::transpose(
         glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));

@@ -1,5 +1,5 @@
 #pragma once
-// Red, green, blue and white of a picture's numbers, and the way from them to sRGB's.
+// Colour primaries of picture files, and conversion to sRGB.
 
 #include <array>
 #include <optional>
@@ -12,7 +12,7 @@ namespace culet {
 using Primaries = std::array<std::array<double, 2>, 4>;
 
 /// IEC 61966-2-1; Rec. ITU-R BT.2020-2; SMPTE EG 432-1 with D65 (Display P3); Adobe RGB (1998),
-/// 4.3.1; the tristimulus values X, Y, Z themselves.
+/// 4.3.1; the tristimulus values X, Y, Z.
 inline constexpr Primaries k_srgb_primaries{
     {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}}},
     k_rec2020_primaries{{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}}},
@@ -20,12 +20,12 @@ inline constexpr Primaries k_srgb_primaries{
     k_adobe_rgb_primaries{{{0.64, 0.33}, {0.21, 0.71}, {0.15, 0.06}, {0.3127, 0.3290}}},
     k_xyz_primaries{{{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}}};
 
-/// Row by row, the matrix from linear light in `primaries` to linear sRGB. White becomes white
-/// (1, 1, 1), by the Bradford transform (Lindbloom; ICC.1:2010, annex E) where it is another one
-/// than D65; X, Y, Z are turned as they are. Nothing: the four do not span colours.
+/// Matrix, row by row, from linear light in `primaries` to linear sRGB. White becomes (1, 1, 1),
+/// with the Bradford transform (Lindbloom; ICC.1:2010, annex E) if it is not D65; X, Y, Z are
+/// converted without it. Nothing: the four do not span colours.
 std::optional<std::array<double, 9>> srgb_from(const Primaries& primaries);
 
-/// R, G, B of pixels in linear light, in place; what cannot be followed becomes a note.
+/// Converts pixels in linear light in place. Primaries that cannot be used become a note.
 void turn_to_srgb(const Primaries& primaries, std::vector<float>& rgb,
                   std::vector<std::string>& notes);
 

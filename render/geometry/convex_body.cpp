@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t k_block = 8;  // planes
 
-// Of the stone's size: far above what rounding does to a point on a facet, and so little that next
-// to no ray comes so near an edge.
+// Margin of confirmation, relative to the stone's size: far above the rounding of a point on a
+// facet, and small enough that almost no ray passes an edge so closely.
 constexpr double k_margin = 1e-9;
-// In stone's sizes: from farther away rounding comes near the margin.
+// Farthest start of a ray, in sizes of the stone; beyond it rounding approaches the margin.
 constexpr double k_far = 1e5;
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
@@ -34,8 +34,8 @@ ConvexBody::ConvexBody(const Solid& solid) {
     find_near_planes(solid);
 }
 
-// The part of a facet's plane that is inside all others: a square cut by each. Empty when the facet
-// does not show.
+// Outline of a facet: a square in its plane clipped by all other planes. Empty if the facet is
+// redundant.
 std::vector<Vec3> ConvexBody::outline(int facet, const Vec3& middle, double reach) const {
     const Vec3& n = normal(facet);
     const Vec3 u = perpendicular_to(n), v = glm::cross(n, u);
@@ -100,7 +100,7 @@ void ConvexBody::find_near_planes(const Solid& solid) {
             four.facet[i] = facet;
         };
         if (loop.empty() || !whole) {
-            // Never confirmed.
+            // This facet is never confirmed as a guess.
             add({0, 0, 0}, -k_infinite, static_cast<int>(f));
             continue;
         }
@@ -130,7 +130,7 @@ bool ConvexBody::surely_on_facet(int facet, const Vec3& point) const {
     return std::min(least0[0], least0[1]) > margin_;
 }
 
-// Of a facet and the planes that come near it, the one that a ray meets first.
+// Returns the one that a ray hits first, of a facet and the planes near it.
 int ConvexBody::nearest_about(int facet, const Vec3& origin, const Vec3& direction) const {
     const std::size_t f = static_cast<std::size_t>(facet);
     int nearest = facet;
@@ -152,7 +152,7 @@ int ConvexBody::nearest_about(int facet, const Vec3& origin, const Vec3& directi
     return nearest;
 }
 
-// Of the planes from `start` on: how much a ray runs towards them, and how far below them it
+// For `size` planes from `start`: how fast a ray runs towards each, and how far below it the ray
 // starts.
 void ConvexBody::measure(std::size_t start, std::size_t size, const Vec3& origin,
                          const Vec3& direction, double* towards, double* below) const {
@@ -194,7 +194,7 @@ std::optional<BodyHit> ConvexBody::entry(const Vec3& origin, const Vec3& directi
         double t[k_block], b[k_block], distance[k_block];
         const std::size_t size = std::min(k_block, count - start);
         measure(start, size, origin, direction, t, b);
-        // Of a ray along a plane no distance is looked at; nothing over nothing would be no number.
+        // The distance of a ray along a plane is not used; avoid 0/0.
         for (std::size_t i = 0; i < size; ++i) distance[i] = b[i] / (t[i] == 0 ? 1 : t[i]);
         for (std::size_t i = 0; i < size; ++i) {
             if (t[i] < 0) {
@@ -224,7 +224,7 @@ std::optional<BodyHit> ConvexBody::entry(const Vec3& origin, const Vec3& directi
 }
 
 BodyHit ConvexBody::exit(const Vec3& origin, const Vec3& direction, int guess) const {
-    // From facet to facet towards the nearest; where that does not end soon, by looking at all.
+    // Walk from facet to facet towards the nearest; if that takes too long, search all.
     constexpr int k_most_steps = 8;
     for (int step = 0; guess >= 0 && step < k_most_steps; ++step) {
         const std::size_t f = static_cast<std::size_t>(guess);
@@ -243,8 +243,7 @@ BodyHit ConvexBody::exit(const Vec3& origin, const Vec3& direction, int guess) c
 }
 
 BodyHit ConvexBody::exit_of_all(const Vec3& origin, const Vec3& direction) const {
-    // The largest of towards/below is the nearest plane; both are positive for the planes that
-    // count.
+    // The nearest plane has the largest towards/below. Both are positive for the planes that count.
     BodyHit hit;
     double best = k_infinite;
     const std::size_t count = offset_.size();

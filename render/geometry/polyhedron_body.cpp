@@ -16,10 +16,10 @@ namespace culet {
 
 namespace {
 
-// Of the stone's size: above what rounding does to corners, below what a ray could see.
+// Relative to the stone's size: above the rounding of corners, below anything visible.
 constexpr double k_flat = 1e-12;
 
-// Working memory of one thread, so that a ray allocates nothing. `step` is all 0 between rays.
+// A thread's buffers, so that rays allocate nothing. `step` is all 0 between rays.
 struct Scratch {
     std::vector<double> x, y;
     std::vector<unsigned char> side;
@@ -42,8 +42,8 @@ Scratch& scratch() {
     return mine;
 }
 
-// Exact sign of a.x b.y - a.y b.x: rounding keeps order, so that only equal products need their
-// rounding errors compared.
+// Exact sign of a.x b.y - a.y b.x. Rounding preserves order, so rounding errors are compared only
+// for equal products.
 int turn(double ax, double ay, double bx, double by) {
     const double left = ax * by, right = ay * bx;
     if (left != right) return left > right ? 1 : -1;
@@ -57,7 +57,7 @@ bool comes_before(const LineCrossing& a, const LineCrossing& b) {
     return a.facet < b.facet;
 }
 
-// Bits of a projected vertex; `k_right_shift` brings one to the place of the other.
+// Flags of a projected vertex. Shifted right by `k_right_shift`, k_right becomes k_above.
 constexpr unsigned k_above = 1, k_right = 2, k_right_shift = 1;
 
 }  // namespace
@@ -69,7 +69,7 @@ PolyhedronBody::PolyhedronBody(const Solid& solid) {
         for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(vertex[axis]);
     }
 
-    // Uses of each edge: facets along it from the lower to the higher vertex, and back.
+    // Facets along each edge, from the lower to the higher vertex and back.
     std::map<std::pair<int, int>, std::pair<std::vector<int>, std::vector<int>>> uses;
     std::vector<std::vector<int>> facets_at(solid.vertices.size());
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -106,7 +106,7 @@ PolyhedronBody::PolyhedronBody(const Solid& solid) {
             [&](const Vec3& vertex) { return height_above(facet.plane, vertex) <= margin; }));
     }
 
-    // Where more than two facets share an edge, which are paired makes no difference to a ray.
+    // If more than two facets share an edge, their pairing makes no difference to a ray.
     for (const auto& [ends, facets] : uses) {
         const auto& [along, against] = facets;
         if (along.size() != against.size()) {
@@ -133,8 +133,8 @@ PolyhedronBody::PolyhedronBody(const Solid& solid) {
     }
 }
 
-// The facet's plane says where, kept within the facet's own extent along the line: a facet seen
-// edge-on has no better answer.
+// Distance to the facet's plane, clamped to the facet's extent along the line: a facet seen edge-on
+// has no better answer.
 double PolyhedronBody::distance_to(std::size_t facet, const Vec3& origin,
                                    const Vec3& direction) const {
     const double inverse_length = 1 / glm::dot(direction, direction);
@@ -154,7 +154,7 @@ double PolyhedronBody::distance_to(std::size_t facet, const Vec3& origin,
     return std::min(distance, last * inverse_length);
 }
 
-// How far the line passes beside the facet's outline.
+// Distance between the line and the facet's outline, across the line.
 double PolyhedronBody::miss_of(std::size_t facet, const Vec3& origin, const Vec3& direction) const {
     const Vec3 along = glm::normalize(direction);
     const auto across = [&](int vertex) {
@@ -175,14 +175,14 @@ double PolyhedronBody::miss_of(std::size_t facet, const Vec3& origin, const Vec3
     return miss;
 }
 
-// All crossings in order. The crossing of `from` has distance 0, whatever its plane says.
+// Returns all crossings in order. The crossing of `from` gets distance 0 exactly.
 std::span<const LineCrossing> PolyhedronBody::trace(const Vec3& origin, const Vec3& direction,
                                                     int from) const {
     Scratch& work = scratch();
     const std::size_t vertex_count = coordinates_[0].size();
     work.fit(vertex_count, edges_.size(), normals_.size());
 
-    // Shear the line onto the axis that it follows most; the other two then lie across it.
+    // Shear the line onto its dominant axis; the other two axes lie across it.
     const Vec3 size = glm::abs(direction);
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     const int right = (axis + 1) % 3, up = (axis + 2) % 3;
@@ -203,7 +203,7 @@ std::span<const LineCrossing> PolyhedronBody::trace(const Vec3& origin, const Ve
             static_cast<unsigned char>((y[v] >= 0 ? k_above : 0u) | (x[v] > 0 ? k_right : 0u));
     }
 
-    // Edges that may cross the half-axis to the right.
+    // Collect edges that may cross the half-axis to the right.
     std::size_t candidate_count = 0;
     int* candidates = work.candidates.data();
     const Edge* edges = edges_.data();
@@ -214,8 +214,8 @@ std::span<const LineCrossing> PolyhedronBody::trace(const Vec3& origin, const Ve
         candidate_count += (low ^ high) & ((low | high) >> k_right_shift) & k_above;
     }
 
-    // What an edge adds to the winding of one facet it takes from the other's. Seen along the
-    // line, an outline that winds counter-clockwise is left.
+    // An edge adds opposite amounts to the windings of its two facets. Along the line, a
+    // counter-clockwise outline is left.
     const int out = direction[axis] > 0 ? -1 : 1;
     work.touched.clear();
     for (std::size_t i = 0; i < candidate_count; ++i) {
@@ -260,7 +260,7 @@ std::optional<BodyHit> PolyhedronBody::entry(const Vec3& origin, const Vec3& dir
         const int before = std::exchange(depth, depth + crossing.step);
         if (before <= 0 && depth > 0) entered = &crossing;
         if (before > 0 && depth <= 0 && crossing.distance > entered->distance) {
-            // A stretch inside from `entered` to `crossing`.
+            // The ray is inside from `entered` to `crossing`.
             if (entered->distance >= 0) return BodyHit{entered->facet, entered->distance};
             if (crossing.distance > 0) return std::nullopt;
         }
@@ -274,7 +274,7 @@ BodyHit PolyhedronBody::exit(const Vec3& origin, const Vec3& direction, int from
 
 std::optional<BodyHit> PolyhedronBody::reentry(const Vec3& origin, const Vec3& direction,
                                                int from) const {
-    // Away from a plane behind which all of the stone lies.
+    // It runs away from a plane with the whole stone behind it.
     if (from >= 0 && outermost_[static_cast<std::size_t>(from)] &&
         glm::dot(normal(from), direction) > 0)
         return std::nullopt;
@@ -283,7 +283,8 @@ std::optional<BodyHit> PolyhedronBody::reentry(const Vec3& origin, const Vec3& d
 
 namespace {
 
-// The crossings from `next` on until the ray is no longer `inside`; it is at depth `depth` before.
+// Follows the crossings from `next` on until the ray is no longer `inside`; `depth` is its depth
+// before.
 std::optional<BodyHit> follow(std::span<const LineCrossing> crossings, std::size_t next, int depth,
                               bool inside) {
     for (; next < crossings.size(); ++next) {
@@ -297,7 +298,7 @@ std::optional<BodyHit> follow(std::span<const LineCrossing> crossings, std::size
 
 }  // namespace
 
-// Where a ray that runs inside (or outside) of the stone comes to the surface.
+// Finds where a ray that runs inside (or outside) the stone hits the surface.
 std::optional<BodyHit> PolyhedronBody::run(const Vec3& origin, const Vec3& direction, int from,
                                            bool inside) const {
     const auto found = trace(origin, direction, from);
@@ -307,7 +308,7 @@ std::optional<BodyHit> PolyhedronBody::run(const Vec3& origin, const Vec3& direc
         if (found[i].facet != from) continue;
         if ((found[i].step > 0) != inside) break;
         if ((depth > 0) == inside) return follow(found, i + 1, depth, inside);
-        // Rounding swapped this crossing with the one that the ray comes to at once.
+        // Rounding swapped this crossing with an almost equally near one.
         while (i-- > 0) {
             if ((found[i].step > 0) != inside) return BodyHit{found[i].facet, 0};
         }
@@ -316,9 +317,9 @@ std::optional<BodyHit> PolyhedronBody::run(const Vec3& origin, const Vec3& direc
     return run_from_beside(origin, direction, from, inside, found);
 }
 
-// The ray does not pass through the facet that it starts on. Where it starts is as good as on the
-// right side, or rounding put it to the wrong side; then the shortest move that brings it back
-// decides: forwards, backwards or sideways over the edge of a facet that it runs against.
+// The ray does not pass through the facet on which it starts. Either its start is on the right
+// side, or rounding put it on the wrong side. In the latter case the shortest move back decides:
+// forwards, backwards, or sideways over the edge of a facet that it runs against.
 std::optional<BodyHit> PolyhedronBody::run_from_beside(
     const Vec3& origin, const Vec3& direction, int from, bool inside,
     std::span<const LineCrossing> crossings) const {
@@ -346,7 +347,7 @@ std::optional<BodyHit> PolyhedronBody::run_from_beside(
         }
         break;
     }
-    // Move lengths are compared in lengths of the direction.
+    // Moves are compared in lengths of the direction.
     const double inverse_length = 1 / glm::length(direction);
     double nearest = std::numeric_limits<double>::infinity();
     const auto move_over_edges = [&](const std::vector<int>& facets) {
@@ -370,7 +371,7 @@ std::optional<BodyHit> PolyhedronBody::run_from_beside(
 }
 
 bool PolyhedronBody::contains(const Vec3& point) const {
-    // Along all three axes: a point on a facet is seen to be on it from one of them.
+    // Along all three axes, because at least one shows that a point lies on a facet.
     for (int axis = 0; axis < 3; ++axis) {
         Vec3 direction{0, 0, 0};
         direction[axis] = 1;

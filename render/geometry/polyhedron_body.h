@@ -1,14 +1,14 @@
 #pragma once
-// Where a ray meets a closed stone that need not be convex: hearts, notches, carved stones, facets
-// with any outline. Watertight without an epsilon.
+// Intersection of rays with a closed stone that need not be convex: hearts, notches, carved stones,
+// facets with any outline. Watertight without an epsilon.
 //
-// Along a ray every vertex is projected once, and every edge is judged once for the two facets that
-// share it, with an exact sign (after the idea of Woop, Benthin and Wald, Watertight Ray/Triangle
-// Intersection, JCGT 2(1), 2013). So what is intersected is exactly a closed surface, whose
-// vertices differ from the stone's by the rounding of one projection: the steps (+1 in, -1 out) of
-// a line through it add up to 0, always, also along edges and through vertices, where half-open
-// rules act like an infinitesimal shift of the ray. Whether a facet is entered or left is read from
-// the winding of its projected outline and not from its normal.
+// For each ray every vertex is projected once, and every edge is tested once for the two facets
+// that share it, with an exact sign (after Woop, Benthin and Wald, Watertight Ray/Triangle
+// Intersection, JCGT 2(1), 2013). The ray thus meets an exactly closed surface, whose vertices
+// differ from the stone's by the rounding of one projection. The steps (+1 in, -1 out) of a line
+// through it always sum to 0, also along edges and through vertices, where half-open rules act like
+// an infinitesimal shift of the ray. The winding of a facet's projected outline, not its normal,
+// tells whether it is entered or left.
 //
 // Cost: a few nanoseconds for each vertex and edge.
 
@@ -25,45 +25,45 @@ namespace culet {
 struct LineCrossing {
     int facet = -1;
     int step = 0;  ///< +1 into the stone, -1 out of it (more for an outline wound repeatedly)
-    double distance = 0;  ///< from the origin in lengths of the direction; negative behind it
+    double distance = 0;  ///< from the origin, in lengths of the direction; negative behind it
 };
 
-/// The facets of a closed solid that need not be convex. Directions need not be unit; distances
-/// count in lengths of the direction and are never negative. Rays may start on edges and vertices.
+/// A closed solid that need not be convex. Directions need not be unit; distances are in lengths of
+/// the direction and never negative. Rays may start on edges and vertices.
 class PolyhedronBody {
 public:
-    /// Throws InputError when the facets do not close up, edge by edge.
+    /// Throws InputError if the facets do not close, edge by edge.
     explicit PolyhedronBody(const Solid& solid);
 
-    /// The facet through which a ray from outside enters first; nothing when it misses, only
-    /// touches, or starts inside.
+    /// Facet through which a ray from outside first enters; nothing if it misses, only touches, or
+    /// starts inside.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const;
 
-    /// From a point on facet `from` (-1: from anywhere inside), running inwards: where it leaves.
-    /// A start that rounding put outside is taken as moved in by the shortest way, so that a corner
-    /// becomes two hits, the second at distance 0. Returns a facet for every start whatever.
+    /// Facet through which a ray leaves that runs inwards from a point on facet `from` (-1: from
+    /// anywhere inside). A start that rounding put outside is moved in by the shortest way, so a
+    /// corner becomes two hits, the second at distance 0. Returns a facet for every start.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const;
 
-    /// From a point on facet `from` (-1: from anywhere outside), running outwards: where it enters
-    /// again; nothing when it goes free. Corners as in `exit`.
+    /// Facet through which a ray enters again that runs outwards from a point on facet `from` (-1:
+    /// from anywhere outside); nothing if it escapes. Corners as in `exit`.
     std::optional<BodyHit> reentry(const Vec3& origin, const Vec3& direction, int from) const;
 
-    /// Points on the surface do not count as inside; within rounding of it either answer may come.
+    /// False on the surface; within rounding of it, either answer is possible.
     bool contains(const Vec3& point) const;
 
     const Vec3& normal(int facet) const { return normals_[static_cast<std::size_t>(facet)]; }
-    /// The point moved onto the facet's plane.
+    /// Projects the point onto the facet's plane.
     Vec3 on_facet(int facet, const Vec3& point) const;
 
-    /// All crossings of the line, backwards too, in order of distance; at equal distance entering
-    /// before leaving, then the lower facet. The steps add up to 0.
+    /// All crossings of the line, in both directions, ordered by distance. At equal distance
+    /// entering comes before leaving, then the lower facet. The steps sum to 0.
     std::vector<LineCrossing> crossings(const Vec3& origin, const Vec3& direction) const;
 
 private:
-    /// An edge from the lower to the higher vertex, once for each pair of facets that share it.
+    /// An edge from its lower to its higher vertex, once for each pair of facets that share it.
     struct Edge {
         int low, high;
-        int along, against;  ///< the facets whose outlines run from low to high and back
+        int along, against;  ///< facets whose outlines run from low to high, and from high to low
     };
 
     std::span<const LineCrossing> trace(const Vec3& origin, const Vec3& direction, int from) const;
@@ -80,9 +80,10 @@ private:
     std::vector<double> offsets_;
     std::vector<Edge> edges_;
     std::vector<std::vector<int>> corners_;         ///< of each facet
-    std::vector<std::vector<int>> vertex_sharers_;  ///< facets that share a vertex with each facet
+    std::vector<std::vector<int>> vertex_sharers_;  ///< per facet: the facets that share a vertex
+                                                    ///< with it
     std::vector<int> all_;                          ///< all facets
-    std::vector<bool> outermost_;  ///< facets behind whose planes the whole stone lies
+    std::vector<bool> outermost_;  ///< facets with the whole stone behind their planes
 };
 
 }  // namespace culet

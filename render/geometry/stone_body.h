@@ -1,5 +1,5 @@
 #pragma once
-// Where a ray meets a stone, convex or not.
+// Intersection of rays with a stone, convex or not.
 
 #include <optional>
 
@@ -24,11 +24,11 @@ public:
                                  EntryGuess& last) const {
         return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction, last);
     }
-    /// From facet `from` inwards.
+    /// Inwards from facet `from`.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const {
         return any_ ? any_->exit(origin, direction, from) : convex_.exit(origin, direction);
     }
-    /// From facet `from` outwards: a stone that is not convex may be met again.
+    /// Outwards from facet `from`; a non-convex stone may be hit again.
     std::optional<BodyHit> reentry(const Vec3& origin, const Vec3& direction, int from) const {
         return any_ ? any_->reentry(origin, direction, from) : std::nullopt;
     }

@@ -76,7 +76,7 @@ bool ColourProfile::is_srgb() const {
     if (channels_ == 4) return false;
     for (int step = 0; step <= 16; ++step) {
         for (std::size_t c = 0; c < channels_; ++c) {
-            // A grey scale, and one of each channel alone.
+            // Test greys, and each channel alone.
             for (const bool alone : {false, true}) {
                 std::array<float, 3> samples{}, rgb{};
                 if (alone)
@@ -97,7 +97,7 @@ bool ColourProfile::is_srgb() const {
 
 void ColourProfile::linear(const float* samples, std::size_t pixels, float* rgb) const {
     std::vector<float> meant;
-    if (channels_ == 4) {  // the library counts inks in per cent
+    if (channels_ == 4) {  // the library uses per cent for inks
         meant.assign(samples, samples + 4 * pixels);
         for (float& v : meant) v *= 100;
     }

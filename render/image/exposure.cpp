@@ -10,15 +10,15 @@ namespace culet {
 
 namespace {
 
-// Glints are far brighter than the rest and few: photographers let them burn out.
+// Part of the stone's pixels that may exceed white: glints, which photographers let burn out.
 constexpr double k_share_over_white = 0.02;
-// Of a pixel, what the stone must fill to count as its light.
+// Smallest coverage of a pixel that counts as the stone.
 constexpr float k_covered = 0.5f;
 
 constexpr std::uint32_t k_shift = 16;
 constexpr std::size_t k_buckets = std::size_t{1} << 15;
 
-// Bits of a number that is not negative, whose order is that of the numbers.
+// Bits of a non-negative number, which sort like the number.
 std::uint32_t order_of(float number) {
     std::uint32_t bits = 0;
     const float positive = number > 0 ? number : 0;
@@ -29,8 +29,7 @@ std::uint32_t order_of(float number) {
 }  // namespace
 
 double exposure_for_stone(const Picture& picture) {
-    // Counted by the upper half of their bits, which order positive numbers, so that only those of
-    // one bucket need be sorted.
+    // Count by the upper half of the bits, so that only one bucket must be sorted.
     std::vector<std::size_t> counts(k_buckets);
     std::size_t all = 0;
     const auto each = [&picture](const auto& visit) {

@@ -1,13 +1,13 @@
 #pragma once
-// How bright a picture is shown, for whom it is about the stone.
+// Automatic exposure for pictures of stones.
 
 #include "render/image/picture.h"
 
 namespace culet {
 
-/// The factor on linear light with which the stone is neither dull nor burnt out: of the stone's
-/// pixels (`coverage`; without it all that are not black) one in fifty is over white in some
-/// colour, and what lies about it does not count. A picture without light: 1.
+/// Returns the factor on linear light at which 2 % of the stone's pixels exceed white in some
+/// colour, so that the stone is neither dull nor burnt out. Pixels beside the stone do not count
+/// (by `coverage`; without it, black pixels). Returns 1 for a picture without light.
 double exposure_for_stone(const Picture& picture);
 
 }  // namespace culet

@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-// `red`, `r` and `R` are one.
+// Maps `red`, `r` and `R` to one name.
 std::string base_name(std::string name) {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -29,7 +29,7 @@ std::string list_of(const std::vector<std::string>& names) {
     return names.size() > 8 ? list + ", ..." : list.empty() ? "none" : list;
 }
 
-// The channels of one layer, by their base names.
+// A layer's channels by their base names.
 using Layer = std::map<std::string, std::string>;
 
 bool has(const Layer& layer, std::initializer_list<const char*> names) {

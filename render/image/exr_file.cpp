@@ -16,11 +16,11 @@ namespace {
 
 constexpr long long k_most_exr_pixels = 1LL << 28;
 constexpr long long k_most_samples = 1LL << 31;  // over all channels
-constexpr long long k_tightest_exr = 20000;      // pixels a byte
+constexpr long long k_tightest_exr = 20000;      // pixels per byte
 constexpr unsigned k_most_tile_side = 8192;
 
-// The size a header states is checked before the library makes room for it: pictures, tiles and
-// offset tables of a hostile header would take gigabytes.
+// Checks stated sizes before the library allocates: a hostile header's pictures, tiles and offset
+// tables would take gigabytes.
 std::array<long long, 2> check_window(const Imath::Box2i& window, std::size_t bytes,
                                       const std::filesystem::path& file) {
     const long long width = static_cast<long long>(window.max.x) - window.min.x + 1;
@@ -31,7 +31,7 @@ std::array<long long, 2> check_window(const Imath::Box2i& window, std::size_t by
                                            "read",
                                            width, height));
     }
-    // No codec packs a picture this tightly: the file is cut off.
+    // No codec packs this tightly: the file is cut off.
     if (width * height / k_tightest_exr > static_cast<long long>(bytes)) {
         throw InputError(file, fmt::format("is an EXR of {} x {} pixels in {} bytes: it is cut off",
                                            width, height, bytes));
@@ -58,9 +58,9 @@ void check_header(const Imf::Header& header, std::size_t bytes, const std::files
     }
 }
 
-// The library allocates what an attribute claims before it reads it: the claims of all headers are
-// held against the file first (OpenEXR file layout: name, type, size, value; an empty name ends a
-// header, and in a file of parts an empty header ends them).
+// The library allocates what an attribute claims before reading it, so check the claims of all
+// headers first (OpenEXR file layout: name, type, size, value; an empty name ends a header; in a
+// multi-part file an empty header ends them).
 void check_attributes(const std::string& bytes, const std::filesystem::path& file) {
     constexpr unsigned k_multi_part = 0x10, k_deep = 0x08;  // bits 12 and 11 of the version field
     const InputError cut_off(file, "is an EXR whose header is cut off");
@@ -102,8 +102,7 @@ void check_attributes(const std::string& bytes, const std::filesystem::path& fil
 }  // namespace
 
 bool ExrStream::read(char c[], int n) {
-    // Compared without adding: a place near 2^64, as a broken offset table gives, must not
-    // wrap.
+    // Compare without adding: a broken offset table may give a place near 2^64, which would wrap.
     if (n < 0 || at_ > bytes_.size() || static_cast<std::uint64_t>(n) > bytes_.size() - at_) {
         throw std::runtime_error("the file ends too early");
     }

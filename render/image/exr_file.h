@@ -1,5 +1,5 @@
 #pragma once
-// An EXR's bytes in memory, checked before the library reads them.
+// Checks an EXR's bytes in memory before OpenEXR reads them.
 
 #include <ImathBox.h>
 #include <ImfIO.h>
@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// The library reads from files or from a stream of ours.
+/// An input stream over the bytes.
 class ExrStream : public Imf::IStream {
 public:
     ExrStream(const std::string& bytes, const char* name) : Imf::IStream(name), bytes_(bytes) {}
@@ -28,8 +28,8 @@ struct ExrWindow {
 };
 ExrWindow size_of(const Imath::Box2i& window);
 
-/// Throws InputError: deep, of several parts, cut off; windows and tiles that would take far more
-/// memory than the file can fill.
+/// Throws InputError for files that are deep, multi-part or cut off, and for windows and tiles that
+/// would take far more memory than the file can fill.
 void check_exr(const std::string& bytes, const std::filesystem::path& file);
 
 }  // namespace culet

@@ -14,7 +14,7 @@ namespace {
 // In the order of `ToneMap`.
 constexpr std::array k_tone_maps{"none", "reinhard", "filmic", "gamma2"};
 
-// Brighter than this nothing differs from it in any picture, and sums stay finite.
+// Upper limit that keeps sums finite; brighter light looks the same in every picture.
 constexpr float k_brightest = 1e30f;
 
 double mapped(double v, ToneMap map) {
@@ -24,7 +24,7 @@ double mapped(double v, ToneMap map) {
         case ToneMap::filmic:
             return v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14);
         case ToneMap::gamma2:
-            // What sRGB encodes as the root.
+            // sRGB encodes this as the square root.
             return srgb_decoded(std::sqrt(std::min(v, 1.0)));
         case ToneMap::none:
             break;

@@ -9,9 +9,10 @@ namespace culet {
 
 namespace {
 
-constexpr int k_fine = 9;  // points across a pixel next to the light, whose spread is steep
+constexpr int k_fine = 9;  // sample points across pixels next to the light, where the spread is
+                           // steep
 
-// What one pixel gets of another's light, by their distance in columns and rows.
+// Part of one pixel's light that another gets, by their distance in columns and rows.
 double weight(int x, int y, double degrees_per_pixel) {
     const double radians = degrees_per_pixel * std::numbers::pi / 180;
     const int fine = std::max(std::abs(x), std::abs(y)) <= 4 ? k_fine : 1;
@@ -25,7 +26,7 @@ double weight(int x, int y, double degrees_per_pixel) {
     return sum * radians * radians / (fine * fine);
 }
 
-// The sum over all pixels of the picture of weight times value, at each pixel.
+// Convolution: the sum over all pixels of weight times value, at each pixel.
 cv::Mat spread(const cv::Mat& values, const cv::Mat& kernel_spectrum) {
     cv::Mat padded = cv::Mat::zeros(kernel_spectrum.size(), CV_64F);
     values.copyTo(padded(cv::Rect(0, 0, values.cols, values.rows)));
@@ -45,7 +46,7 @@ double scattered_by_the_eye(double degrees) {
 void add_glare(std::vector<float>& rgb, const PictureSize& size, double strength,
                double degrees_per_pixel) {
     const int width = size.width, height = size.height;
-    // Around the corner of an area that has room for all distances, so that nothing wraps.
+    // The kernel wraps around the corner of an area large enough for all distances.
     cv::Mat kernel =
         cv::Mat::zeros(cv::getOptimalDFTSize(2 * height), cv::getOptimalDFTSize(2 * width), CV_64F);
     for (int y = 1 - height; y < height; ++y) {
@@ -56,7 +57,7 @@ void add_glare(std::vector<float>& rgb, const PictureSize& size, double strength
         }
     }
     cv::dft(kernel, kernel);
-    // What a pixel gives is what the others get: w (theirs - own), summed over all of them.
+    // A pixel loses what the others get from it: w (theirs - own), summed over all.
     const cv::Mat given = spread(cv::Mat::ones(height, width, CV_64F), kernel);
     double most = 0;
     cv::minMaxLoc(given, nullptr, &most);

@@ -1,6 +1,6 @@
 #pragma once
-// Light that the eye scatters: Spencer, Shirley, Zimmerman & Greenberg 1995, "Physically-based
-// glare effects for digital images", the photopic point spread.
+// Scattering of light in the eye: the photopic point spread function of Spencer, Shirley, Zimmerman
+// & Greenberg 1995, "Physically-based glare effects for digital images".
 
 #include <vector>
 
@@ -10,12 +10,12 @@ struct PictureSize {
     int width = 0, height = 0;
 };
 
-/// Of the light of a point, what is seen `degrees` beside it, per steradian and without its sharp
-/// image: 0.478 f1 + 0.138 f2 of the paper.
+/// Scattered part of a point's light per steradian, `degrees` from it: 0.478 f1 + 0.138 f2 of the
+/// paper, without the sharp image.
 double scattered_by_the_eye(double degrees);
 
-/// Scatters `strength` times what the mean eye does. `rgb`: 3 a pixel, linear. Light stays within
-/// the picture: its sum is kept, and an even picture is unchanged.
+/// Adds `strength` times the mean eye's scattering. `rgb`: 3 values per pixel, linear. Light stays
+/// within the picture: the sum is kept, and uniform pictures do not change.
 void add_glare(std::vector<float>& rgb, const PictureSize& size, double strength,
                double degrees_per_pixel);
 

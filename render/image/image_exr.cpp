@@ -27,7 +27,7 @@ namespace culet {
 
 namespace {
 
-// `S0.589,300nm` (Fichet et al. 2021): the wavelength, or nothing for any other channel.
+// Returns the wavelength of `S0.589,300nm` (Fichet et al. 2021), or nothing for another channel.
 std::optional<double> wavelength_of(std::string name) {
     if (!name.starts_with("S0.") || !name.ends_with("nm")) return std::nullopt;
     name = name.substr(3, name.size() - 5);
@@ -39,7 +39,7 @@ std::optional<double> wavelength_of(std::string name) {
     return nm;
 }
 
-// The place of a window's first pixel, had the plane one at (0, 0).
+// Address that pixel (0, 0) would have, given the address of the window's first pixel.
 template <class Value>
 Value* origin_of(Value* plane, const Imath::Box2i& window, std::size_t stride) {
     const std::ptrdiff_t before =
@@ -49,7 +49,7 @@ Value* origin_of(Value* plane, const Imath::Box2i& window, std::size_t stride) {
                                     static_cast<std::uintptr_t>(before));
 }
 
-// Channels of the data window into planes.
+// Reads channels of the data window into planes.
 class ExrPlanes {
 public:
     ExrPlanes(Imf::InputFile& input, const std::filesystem::path& file)
@@ -81,7 +81,7 @@ private:
     Imf::FrameBuffer frame_;
 };
 
-// Luminance and colour differences of half the size, as the library filters them; it keeps 11 bits.
+// Luminance and half-size colour differences, filtered by the library, which keeps 11 bits.
 void read_chroma(const std::string& bytes, const std::filesystem::path& file, Picture& picture) {
     ExrStream stream(bytes, file.c_str());
     Imf::RgbaInputFile input(stream, 0);
@@ -98,7 +98,7 @@ void read_chroma(const std::string& bytes, const std::filesystem::path& file, Pi
 }
 
 void add_further_planes(const Imf::ChannelList& channels, ExrPlanes& planes, Picture& picture) {
-    // Channels come sorted by name, wavelengths are wanted by number.
+    // Channels are sorted by name, wavelengths must be by number.
     std::map<double, std::string> spectral;
     for (auto c = channels.begin(); c != channels.end(); ++c) {
         if (const auto nm = wavelength_of(c.name())) spectral.emplace(*nm, c.name());
@@ -118,7 +118,7 @@ void add_further_planes(const Imf::ChannelList& channels, ExrPlanes& planes, Pic
     for (Picture::Plane& plane : picture.planes) planes.add(plane.channel, plane.values.data(), 1);
 }
 
-// The data window as a part of the display window, which is the picture.
+// Places the data window in the display window, which is the picture.
 void place_window(const Imf::Header& header, const std::filesystem::path& file, ReadPicture& read) {
     const Imath::Box2i data = header.dataWindow(), shown = header.displayWindow();
     if (data == shown) return;

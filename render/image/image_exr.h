@@ -1,5 +1,5 @@
 #pragma once
-// OpenEXR files.
+// Reads and writes OpenEXR files.
 
 #include <array>
 #include <filesystem>
@@ -9,22 +9,22 @@
 
 namespace culet {
 
-/// Planes of a Picture with the variance of R, G and B.
+/// Planes of a Picture with the variances of R, G and B.
 inline constexpr std::array k_variance_channels{"variance.R", "variance.G", "variance.B"};
 
-/// Colours (exr_channels.h), A and spectral planes of the file's bytes; 16-bit, 32-bit float and
-/// integer channels. The `chromaticities` and `adoptedNeutral` attributes are followed; the picture
-/// is the display window, 0 where the data window has no pixels. Memory is taken only for what the
-/// file can hold. Throws InputError naming `file`.
+/// Reads colours (exr_channels.h), A and spectral planes; channels of 16- and 32-bit floats and
+/// integers. Applies the attributes `chromaticities` and `adoptedNeutral`. The picture is the
+/// display window, 0 outside the data window. Allocates only what the file can hold. Throws
+/// InputError naming `file`.
 ReadPicture read_exr(const std::string& bytes, const std::filesystem::path& file);
 
-/// Channels R, G, B, A when coverage is known, S0.589,300nm for spectral planes and S1 to S3 for
-/// their polarisation (Fichet et al. 2021), standard_error.Y where paths were chosen at random, and
-/// further planes by their names. R, G, B, A as the picture's samples are held, others as floats.
+/// Writes R, G, B, A (if coverage is known), S0.589,300nm for spectral planes and S1 to S3 for
+/// their polarisation (Fichet et al. 2021), standard_error.Y if paths were random, and further
+/// planes by name. R, G, B, A are held as Picture::samples says, others as floats.
 void write_exr(const Picture& picture, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::string>>& text);
 
-/// The library's message, for an error's line.
+/// Shortens OpenEXR's message to one line.
 std::string one_line(const char* what);
 
 }  // namespace culet

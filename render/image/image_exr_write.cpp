@@ -17,14 +17,14 @@ namespace culet {
 
 namespace {
 
-// The layout writes the decimal point as a comma: a point would start a layer.
+// The layout uses a decimal comma, because a point would start a layer.
 std::string channel_of(std::size_t stokes, double nm) {
     std::string text = fmt::format("{:.3f}", nm);
     std::replace(text.begin(), text.end(), '.', ',');
     return fmt::format("S{}.{}nm", stokes, text);
 }
 
-// The channels of a file on their way into it.
+// Collects the channels to write.
 class Channels {
 public:
     explicit Channels(const Picture& picture) : picture_(picture) {}
@@ -32,7 +32,7 @@ public:
     void add(const std::string& name, const std::vector<float>& plane) {
         insert(name, Imf::FLOAT, plane.data(), sizeof(float));
     }
-    // As the picture's samples are held. The plane is copied.
+    // Stored as Picture::samples says. The plane is copied.
     void add_colour(const std::string& name, std::vector<float> plane) {
         if (picture_.samples == Picture::Samples::half) {
             const auto& kept = halves_.emplace_back(plane.begin(), plane.end());

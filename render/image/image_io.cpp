@@ -31,7 +31,7 @@ DecodedPixels decoded(const std::string& format, const std::string& bytes,
 
 std::string hdr_of(const Picture& picture) {
     std::vector<float> rgb(picture.rgb.size());
-    // The format's shared exponent ends below 2^127; NaN and negative become 0.
+    // The format ends below 2^127; NaN and negative values become 0.
     std::transform(picture.rgb.begin(), picture.rgb.end(), rgb.begin(),
                    [](float v) { return std::min(std::max(0.0f, v), 1.6e38f); });
     return encode_hdr(picture.width, picture.height, rgb);

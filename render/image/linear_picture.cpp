@@ -16,13 +16,13 @@ namespace culet {
 
 namespace {
 
-// Whole numbers as parts of white; floats as they are.
+// White: the largest whole number, or 1 for floats.
 template <class Value>
 constexpr double k_white_of = std::is_integral_v<Value>
                                   ? static_cast<double>(std::numeric_limits<Value>::max())
                                   : 1;
 
-// The light of a value by itself, without primaries.
+// Linear light of a value, without primaries.
 template <class Value>
 class Linear {
 public:
@@ -58,7 +58,7 @@ std::vector<float> coverage_of(const std::vector<Value>& samples) {
     return coverage;
 }
 
-// Alpha taken out again, as far as whole numbers hold it.
+// Undoes premultiplication by alpha, within the precision of whole numbers.
 template <class Value>
 void divide_by_alpha(std::vector<Value>& samples) {
     if constexpr (std::is_integral_v<Value>) {
@@ -83,7 +83,7 @@ void take_pixels(const std::vector<Value>& samples, std::size_t channels,
     }
 }
 
-// Inks without a profile: what is left of white behind two filters, in sRGB's encoding.
+// Inks without a profile: white times the transmission of two filters, in the sRGB encoding.
 template <class Value>
 void take_inks(const std::vector<Value>& samples, std::vector<float>& rgb) {
     for (std::size_t i = 0; i < rgb.size(); ++i) {
@@ -95,9 +95,9 @@ void take_inks(const std::vector<Value>& samples, std::vector<float>& rgb) {
     }
 }
 
-// What each value of a channel alone adds to the light. A profile of curves and a matrix is the sum
-// of its channels, and a table of them is far faster than the library. A profile of another kind is
-// not `exact`.
+// Contribution of each value of each channel to the light. A profile of curves and a matrix is the
+// sum over its channels, and tables are far faster than the library. Other profiles are not
+// `exact`.
 template <class Value>
 class ProfileTables {
 public:
@@ -112,7 +112,7 @@ public:
         profile.linear(alone.data(), colours * k_levels, table_.data());
         const std::array<float, 3> black{table_[0], table_[1], table_[2]};
         for (std::size_t i = 3 * k_levels; i < table_.size(); ++i) table_[i] -= black[i % 3];
-        // Held against the library at colours of all channels.
+        // Check against the library at colours of all channels.
         for (std::size_t probe = 0; probe < 125 && exact_; ++probe) {
             const std::array<std::size_t, 3> fifths{probe % 5, probe / 5 % 5, probe / 25};
             std::array<Value, 3> values{};
@@ -168,8 +168,8 @@ void take_by_profile(const std::vector<Value>& samples, std::size_t channels, st
     }
 }
 
-// The profile to be followed, or nothing: there is none, it is sRGB's, or it does not fit, which is
-// noted.
+// Returns the profile to apply; nothing if there is none, it is sRGB's, or it does not fit (which
+// is noted).
 std::optional<ColourProfile> profile_for(SampleMeaning& meaning, std::size_t colours, bool whole) {
     if (meaning.profile.empty()) return std::nullopt;
     ColourProfile profile(meaning.profile, colours);
@@ -179,7 +179,7 @@ std::optional<ColourProfile> profile_for(SampleMeaning& meaning, std::size_t col
         if (meaning.not_photometric.empty()) meaning.not_photometric = profile.trouble();
         return std::nullopt;
     }
-    // Values are decoded by one profile alone.
+    // The profile alone decodes the values.
     meaning.exponent = 0;
     meaning.primaries = k_srgb_primaries;
     if (whole && profile.is_srgb()) {

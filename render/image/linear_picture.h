@@ -1,5 +1,5 @@
 #pragma once
-// From a codec's samples to linear light, as the file says (codecs/sample_meaning.h).
+// Converts a codec's samples to linear light by their meaning (codecs/sample_meaning.h).
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace culet {
 
-/// A note when pixels are not square.
+/// Adds a note if pixels are not square.
 void note_pixel_aspect(double aspect, std::vector<std::string>& notes);
 
-/// Linear light of samples. A profile that does not fit them is named in a note.
+/// Returns linear light. Adds a note for a profile that does not fit the samples.
 ReadPicture linear_picture(DecodedPixels pixels, const std::string& format);
 
 }  // namespace culet

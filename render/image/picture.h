@@ -11,34 +11,35 @@
 
 namespace culet {
 
-/// Channels of an EXR with the luminance's levels in pictures of an uncertain stone
-/// (uncertainty/picture_uncertainty.h): two and one standard deviations below, and above.
+/// EXR channels of luminance quantiles in pictures of an uncertain stone
+/// (uncertainty/picture_uncertainty.h): two and one standard deviations below the median, and
+/// above.
 inline constexpr std::array<const char*, 4> k_band_channels{"p02.Y", "p16.Y", "p84.Y", "p98.Y"};
 
-/// Rows run from the top, columns from the left. Linear scene radiance in sRGB primaries (white
-/// D65).
+/// Linear scene radiance in sRGB primaries (white D65). Rows run from the top, columns from the
+/// left.
 struct Picture {
     int width = 0, height = 0;
-    std::vector<float> rgb;  ///< 3 a pixel
-    std::vector<float>
-        coverage;  ///< share of the pixel that the stone fills, 0..1; empty: not known
+    std::vector<float> rgb;       ///< 3 values per pixel
+    std::vector<float> coverage;  ///< part of the pixel that the stone covers, 0..1; empty: unknown
     std::vector<double> wavelengths_nm;        ///< of `spectral`; empty: no spectral planes
-    std::vector<std::vector<float>> spectral;  ///< radiance relative to D65, a plane a wavelength
-    /// Stokes S1, S2, S3 (eye_coherency.h), likewise; empty: not known.
+    std::vector<std::vector<float>> spectral;  ///< radiance relative to D65, one plane per
+                                               ///< wavelength
+    /// Stokes S1, S2, S3 (optics/stokes.h), in planes like `spectral`; empty: unknown.
     std::array<std::vector<std::vector<float>>, 3> polarised;
-    /// Further planes by the name of their channel in an EXR: `variance.R`, `saturated`, ...
+    /// Further planes by their EXR channel's name: `variance.R`, `saturated`, ...
     struct Plane {
         std::string channel;
         std::vector<float> values;
     };
     std::vector<Plane> planes;
-    /// How an EXR holds R, G, B and A: in 32 or in 16 bits (binary16, to 65504).
+    /// Storage of R, G, B and A in EXRs: 32-bit or 16-bit floats (binary16, to 65504).
     enum class Samples { single, half } samples = Samples::single;
-    /// Texts of an EXR that was read whose key begins with `culet:`.
+    /// Texts read from an EXR whose key begins with `culet:`.
     std::vector<std::pair<std::string, std::string>> text;
-    /// Set on a picture of all directions (environment_layout.h), so that other programs know.
+    /// Set on pictures of all directions (environment_layout.h) and written as an attribute.
     enum class Environment { none, lat_long, cube } environment = Environment::none;
-    /// One standard deviation of the luminance from paths chosen at random; empty: none were.
+    /// One standard deviation of the luminance from random paths; empty: none.
     std::vector<float> standard_error;
 
     std::size_t pixels() const {

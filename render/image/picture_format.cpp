@@ -53,7 +53,7 @@ std::string picture_format(std::string_view bytes) {
 
 std::string other_picture_format(std::string_view bytes) {
     if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "WebP";
-    // ISO/IEC 14496-12, 4.3: the brand behind the first box's size and name.
+    // ISO/IEC 14496-12, 4.3: the brand follows the first box's size and name.
     if (bytes.size() >= 12 && bytes.substr(4, 4) == "ftyp") {
         const std::string_view brand = bytes.substr(8, 4);
         if (brand == "avif" || brand == "avis") return "AVIF";

@@ -1,5 +1,5 @@
 #pragma once
-// The format of a picture file, by its first bytes.
+// Recognises picture formats by a file's first bytes.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@ namespace culet {
 /// PNG, JPEG, TIFF, EXR, HDR or PFM; empty: none of them.
 std::string picture_format(std::string_view bytes);
 
-/// Of a picture that is not read here: "HEIC", "WebP", ...; empty: none that is known.
+/// Name of a format that is not read: "HEIC", "WebP", ...; empty: unknown.
 std::string other_picture_format(std::string_view bytes);
 
 }  // namespace culet

@@ -24,16 +24,16 @@ std::uint8_t encoded(float shown) {
     return static_cast<std::uint8_t>(std::lround(255 * srgb_encoded(static_cast<double>(shown))));
 }
 
-// The byte of a positive number, which only grows with it, whatever the tone map: a table by the
-// upper half of the number's bits, and where the next bytes begin. A power for each value would
-// cost more than the picture.
+// The byte of a positive number, which is monotonic for every tone map. It uses a table by the
+// upper half of the number's bits, and the numbers where bytes begin. A power per value would cost
+// more than the picture.
 class ByteTable {
 public:
     explicit ByteTable(ToneMap map) {
         std::uint32_t bits = 0;
         begin_[0] = 0;
         for (int byte = 1; byte < 256; ++byte) {
-            std::uint32_t low = bits, high = k_infinity;  // the first number with this byte or more
+            std::uint32_t low = bits, high = k_infinity;  // first number with this byte or more
             while (low < high) {
                 const std::uint32_t middle = low + (high - low) / 2;
                 if (byte_of(number_of(middle), map) >= byte) {
@@ -52,7 +52,7 @@ public:
         }
     }
 
-    /// Of light that is not negative and finite.
+    /// For finite light >= 0.
     std::uint8_t operator()(float lit) const {
         const auto bits = bits_of(lit);
         std::size_t byte = first_[bits >> k_shift];

@@ -1,5 +1,5 @@
 #pragma once
-// A picture as 8-bit sRGB, as PNG files and pages show it.
+// A picture as 8-bit sRGB for PNG files and web pages.
 
 #include <cstdint>
 #include <vector>
@@ -8,9 +8,8 @@
 
 namespace culet {
 
-/// R, G and B of each pixel, or R, G, B and A where `with_alpha`: what `as_shown` gives, encoded
-/// and rounded. Alpha is the stone's coverage where `look.alpha` asks for it and it is known, else
-/// 255.
+/// R, G and B of each pixel, or R, G, B and A if `with_alpha`: `as_shown`, encoded and rounded.
+/// Alpha is the stone's coverage if known and `look.alpha` is set, else 255.
 std::vector<std::uint8_t> shown_bytes(const Picture& picture, const PngLook& look, bool with_alpha);
 
 }  // namespace culet

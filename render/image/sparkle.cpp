@@ -7,11 +7,11 @@ namespace culet {
 
 namespace {
 
-// A streak falls to 1/e along this share of the picture's longer side.
+// Length over which a streak falls to 1/e, as a part of the picture's longer side.
 constexpr double k_length = 0.02;
 
-// Falls off on both sides with a constant ratio: one way along each diagonal, then back.
-// Down the picture: step 1 to the right, -1 to the left.
+// Spreads exponentially along one diagonal, one way and then back. `step`: 1 to the lower right, -1
+// to the lower left.
 std::vector<double> streaked(const std::vector<double>& bright, const PictureSize& size, int step,
                              double ratio) {
     const int width = size.width, height = size.height;
@@ -29,7 +29,7 @@ std::vector<double> streaked(const std::vector<double>& bright, const PictureSiz
                 back[at(x, y)] += ratio * back[at(x + step, y + 1)];
         }
     }
-    // The sum over a whole streak is 1.
+    // Normalise the whole streak to 1.
     const double whole = (1 + ratio) / (1 - ratio);
     for (std::size_t i = 0; i < forth.size(); ++i)
         forth[i] = (forth[i] + back[i] - bright[i]) / whole;

@@ -1,5 +1,5 @@
 #pragma once
-// Streaks of bright points along two directions, as a star filter makes them.
+// Streaks around bright points along two directions, like a star filter's.
 
 #include <vector>
 
@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Adds the light above 1 once more, spread along both diagonals; `strength`: the energy that is
-/// added over that of the light above 1, where the streaks end within the picture. `rgb`: 3 a
-/// pixel, linear.
+/// Adds a copy of the light above 1, spread along both diagonals. `strength`: added energy relative
+/// to the light above 1, for streaks that end within the picture. `rgb`: 3 values per pixel,
+/// linear.
 void add_sparkle(std::vector<float>& rgb, const PictureSize& size, double strength);
 
 }  // namespace culet

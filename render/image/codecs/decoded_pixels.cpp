@@ -11,9 +11,9 @@ namespace culet {
 namespace {
 
 constexpr double k_most_pixels = 268435456.0;  // 2^28
-constexpr double k_tightest = 20000;           // pixels a byte, more than any codec packs
+constexpr double k_tightest = 20000;           // pixels per byte, more than any codec packs
 
-// Where column x of row y comes from, in pixels of the stored picture (TIFF 6.0, tag 274).
+// Index in the stored picture of column x of row y (TIFF 6.0, tag 274).
 std::size_t stored_place(int orientation, std::size_t x, std::size_t y, std::size_t stored_width,
                          std::size_t stored_height) {
     const bool transposed = orientation >= 5;
@@ -25,7 +25,7 @@ std::size_t stored_place(int orientation, std::size_t x, std::size_t y, std::siz
     return row * stored_width + column;
 }
 
-// In strips of columns, which stay in the processor's cache: rows of the result are columns of the
+// Works in strips of columns that fit the cache, since rows of the result may be columns of the
 // stored picture.
 template <std::size_t k_channels, class Sample>
 std::vector<Sample> turned_samples(const std::vector<Sample>& from, int orientation,

@@ -26,7 +26,7 @@ std::string text_of(const ExifEntry* entry) {
 }  // namespace
 
 ExifFields::ExifFields(std::string_view bytes) {
-    // libexif reads a JPEG from its start, or an EXIF block; a TIFF is one without its mark.
+    // libexif reads a JPEG from its start, or an EXIF block: a TIFF after the mark "Exif".
     std::string block;
     constexpr std::size_t k_most = 60000;
     if (bytes.starts_with("II*") || bytes.starts_with("MM")) {
@@ -36,7 +36,7 @@ ExifFields::ExifFields(std::string_view bytes) {
     ExifData* const data = exif_data_new();
     if (data == nullptr) return;
     data_.reset(data, exif_data_unref);
-    // Or else the library adds the tags that the standard demands, with values of its own.
+    // Otherwise libexif adds the standard's mandatory tags with its own values.
     exif_data_unset_option(data, EXIF_DATA_OPTION_FOLLOW_SPECIFICATION);
     exif_data_load_data(data, reinterpret_cast<const unsigned char*>(bytes.data()),
                         static_cast<unsigned>(std::min<std::size_t>(bytes.size(), 1u << 30)));

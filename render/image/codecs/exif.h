@@ -1,6 +1,5 @@
 #pragma once
-// A file's EXIF data (EXIF 2.3, CIPA DC-008), read by libexif, which holds them against their own
-// lengths.
+// A file's EXIF data (EXIF 2.3, CIPA DC-008), read by libexif, which checks lengths.
 
 #include <memory>
 #include <string>
@@ -10,18 +9,17 @@ namespace culet {
 
 class ExifFields {
 public:
-    /// Of a JPEG from its start, of a TIFF, or of a block that begins with "Exif" or as a TIFF
-    /// does. Damaged data count as none.
+    /// `bytes`: a JPEG from its start, a TIFF, or a block that begins with "Exif" or like a TIFF.
+    /// Damaged data count as none.
     explicit ExifFields(std::string_view bytes);
 
-    /// Of a tag (EXIF_TAG_...), whatever its format, not of the thumbnail's; NaN when there is
-    /// none.
+    /// Value of a tag (EXIF_TAG_...) in any format, ignoring the thumbnail's tags; NaN if missing.
     double number(int tag) const;
-    /// At most 80 characters, those beyond ASCII as `?`.
+    /// At most 80 characters; non-ASCII ones become `?`.
     std::string text(int tag) const;
-    /// 1 to 8 as in the standard; 1 where it is not said.
+    /// 1 to 8 as in the standard; 1 if missing.
     int orientation() const;
-    /// The colours are those of Adobe RGB (DCF 2.0's optional colour space, `R03`).
+    /// True for Adobe RGB (DCF 2.0's optional colour space, `R03`).
     bool adobe_rgb() const;
 
 private:

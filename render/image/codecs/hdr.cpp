@@ -12,7 +12,7 @@
 #include "stone/text/text_scan.h"
 
 // Radiance pictures: G. Ward, Real Pixels, in Graphics Gems II (1991), and the format's reference,
-// `filefmts` of Radiance. A pixel is three mantissas of 8 bits and one exponent, R, G, B, E.
+// `filefmts` of Radiance. A pixel has three 8-bit mantissas and one exponent: R, G, B, E.
 
 namespace culet {
 
@@ -20,7 +20,7 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-// Rows of these widths may be packed: the mark of a packed row holds its width in 15 bits.
+// Rows of these widths may be packed, since a packed row's mark holds the width in 15 bits.
 bool may_be_packed(std::size_t width) {
     return width >= 8 && width <= 0x7fff;
 }
@@ -49,7 +49,7 @@ public:
         return result;
     }
 
-    // A row of any kind: packed by parts, or pixels among which the older run-length code stands.
+    // Reads a row: packed by parts, or pixels with the older run-length code.
     void row(std::vector<Rgbe>& row) {
         const bool packed = may_be_packed(row.size()) && bytes_.size() >= 4 && bytes_[0] == 2 &&
                             bytes_[1] == 2 && (bytes_[2] & 0x80) == 0;
@@ -61,8 +61,8 @@ public:
     }
 
 private:
-    // The four parts of a row one after the other, each in runs: over 128, so many times less 128
-    // the next byte; else so many bytes.
+    // The row's four parts follow each other in runs. A count over 128 repeats the next byte (count
+    // - 128) times; a smaller count precedes that many literal bytes.
     void unpack_row(std::vector<Rgbe>& row) {
         for (std::size_t part = 0; part < 4; ++part) {
             for (std::size_t x = 0; x < row.size();) {
@@ -79,8 +79,8 @@ private:
         }
     }
 
-    // 1, 1, 1, n: the pixel before, n times more; each such mark behind another counts 256 times as
-    // much.
+    // 1, 1, 1, n repeats the previous pixel n times; each directly following mark counts 256 times
+    // as much as the last.
     void unpack_old_row(std::vector<Rgbe>& row) {
         unsigned shift = 0;
         for (std::size_t x = 0; x < row.size();) {
@@ -103,8 +103,7 @@ private:
     const std::filesystem::path& file_;
 };
 
-// Colours from 0 to 1 come back as they were, unlike in Ward's own programs, which add a half to
-// each mantissa.
+// Colours from 0 to 1 are read back exactly; Ward's own programs add a half to each mantissa.
 void add_pixel(const Rgbe& from, std::vector<float>& to) {
     const float unit = from[3] == 0 ? 0 : std::ldexp(1.0f, from[3] - (128 + 8));
     for (std::size_t c = 0; c < 3; ++c) to.push_back(static_cast<float>(from[c]) * unit);
@@ -149,11 +148,11 @@ void pack_values(const std::vector<std::uint8_t>& values, std::string& bytes) {
 
 struct HdrHeader {
     SampleMeaning meaning;
-    std::size_t line = 0, lines = 0;  ///< pixels a row as stored, rows
-    int orientation = 1;              ///< as EXIF counts
+    std::size_t line = 0, lines = 0;  ///< pixels per stored row, and rows
+    int orientation = 1;              ///< numbered as in EXIF
 };
 
-// The numbers behind the name of a line; at least `count`.
+// Returns the numbers after a line's name; at least `count`.
 std::vector<double> numbers_in(std::string_view text, std::size_t count, std::size_t line,
                                const std::filesystem::path& file) {
     std::vector<double> numbers;
@@ -167,8 +166,8 @@ std::vector<double> numbers_in(std::string_view text, std::size_t count, std::si
     return numbers;
 }
 
-// EXPOSURE, COLORCORR and PIXASPECT stand as often as a program has changed the picture: all of
-// them multiply (filefmts). Lines that begin with a blank tell of the pictures it was made from.
+// EXPOSURE, COLORCORR and PIXASPECT occur once per program that changed the picture, and all
+// multiply (filefmts). Lines that begin with a blank describe source pictures.
 void read_hdr_line(std::string_view line, std::size_t number, HdrHeader& header, bool& format,
                    const std::filesystem::path& file) {
     const auto numbers = [&](std::size_t count) { return numbers_in(line, count, number, file); };
@@ -201,20 +200,20 @@ void read_hdr_line(std::string_view line, std::size_t number, HdrHeader& header,
         for (std::size_t c = 0; c < 3; ++c)
             meaning.factor[c] = float(double(meaning.factor[c]) / by[c]);
     } else if (line.starts_with("PIXASPECT=")) {
-        meaning.pixel_aspect /= positive(1)[0];  // Radiance counts height over width
+        meaning.pixel_aspect /= positive(1)[0];  // Radiance uses height over width
     } else if (line.starts_with("GAMMA=")) {
         meaning.exponent = positive(1)[0];
     } else if (line.starts_with("PRIMARIES=")) {
         const std::vector<double> xy = numbers(8);
-        // Photoshop writes zeros for primaries that it does not know.
+        // Photoshop writes zeros for unknown primaries.
         if (std::all_of(xy.begin(), xy.end(), [](double v) { return v == 0; })) return;
         if (meaning.primaries == k_xyz_primaries) return;
         for (std::size_t i = 0; i < 8; ++i) meaning.primaries[i / 2][i % 2] = xy[i];
     }
 }
 
-// `-Y rows +X columns`: two axes with the sense in which they run, the slower one first; +Y is up.
-// The eight orders are those of EXIF's orientations.
+// `-Y rows +X columns`: two signed axes, the slower one first; +Y is up. The eight orders are those
+// of EXIF's orientations.
 void read_hdr_size(std::string_view line, HdrHeader& header, const std::filesystem::path& file) {
     const std::string text(line.substr(0, 128));
     std::array<char, 4> order{};

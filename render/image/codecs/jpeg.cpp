@@ -23,8 +23,8 @@ namespace culet {
 
 namespace {
 
-// libjpeg leaves by longjmp, which runs no destructors: functions that call setjmp hold plain
-// values only, everything else lives in their callers.
+// libjpeg exits by longjmp, which runs no destructors. Functions that call setjmp therefore hold
+// plain values only; everything else is in their callers.
 struct JpegInput {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
@@ -45,9 +45,9 @@ struct JpegInput {
     std::longjmp(input->leave, 1);
 }
 
-// libjpeg goes on after damage and fills in grey. A photograph that is half there is no
-// measurement: it is refused. Of the other warnings, cameras' files cause some (bytes between
-// segments), and nothing is missing.
+// libjpeg continues after damage and fills in grey. Half a photograph is not a measurement, so it
+// is refused. Other warnings are ignored: cameras cause some (bytes between segments) with no data
+// missing.
 void judge_jpeg_warning(j_common_ptr info, int level) {
     if (level >= 0) return;
     switch (info->err->msg_code) {
@@ -76,7 +76,7 @@ bool read_jpeg_head(JpegInput& input, const std::string& bytes) {
     return true;
 }
 
-// To the end of the file.
+// Reads to the end of the file.
 bool read_jpeg_rows(JpegInput& input, JSAMPROW first, std::size_t row_bytes) {
     if (setjmp(input.leave) != 0) return false;
     const int components = input.info.num_components;
@@ -112,7 +112,7 @@ std::string_view exif_block(const jpeg_decompress_struct& info) {
     return {};
 }
 
-// ICC.1:2010, annex B.4: parts of a profile, each with its number and their count.
+// Joins a profile's numbered parts (ICC.1:2010, annex B.4).
 std::string icc_profile(const jpeg_decompress_struct& info, std::vector<std::string>& notes) {
     using namespace std::string_view_literals;
     constexpr std::size_t k_head = 14;
@@ -132,7 +132,7 @@ std::string icc_profile(const jpeg_decompress_struct& info, std::vector<std::str
     return {};
 }
 
-// Without a profile EXIF may name Adobe RGB, or say that the colours are none of its own list.
+// Without a profile, EXIF may name Adobe RGB, or say that the colours are uncalibrated.
 SampleMeaning meaning_of_jpeg(const jpeg_decompress_struct& info, const ExifFields& exif) {
     constexpr int k_uncalibrated = 0xffff, k_adobe = 2;
     SampleMeaning meaning;
@@ -169,7 +169,7 @@ DecodedPixels decode_jpeg(const std::string& bytes, const std::filesystem::path&
         throw InputError(file,
                          fmt::format("has {} channels; expected grey, RGB or CMYK", components));
     }
-    // The markers are gone with the last row.
+    // Read the markers before the last row: they are freed with it.
     const ExifFields exif(exif_block(input.info));
     DecodedPixels result;
     result.meaning = meaning_of_jpeg(input.info, exif);
@@ -177,7 +177,7 @@ DecodedPixels decode_jpeg(const std::string& bytes, const std::filesystem::path&
                       row = width * static_cast<std::size_t>(components);
     std::vector<std::uint8_t> samples(row * height);
     if (!read_jpeg_rows(input, samples.data(), row)) throw jpeg_refusal(input, file);
-    // Adobe's programs, which sign their files, store the complements of inks.
+    // Adobe's programs, which mark their files, store inks as complements.
     if (components == 4 && input.info.saw_Adobe_marker) {
         for (std::uint8_t& v : samples) v = static_cast<std::uint8_t>(255 - v);
     }

@@ -10,9 +10,8 @@
 #include "render/image/codecs/codecs.h"
 #include "stone/text/errors.h"
 
-// Portable float maps (P. Debevec): `PF` (R, G, B) or `Pf` (grey), columns and rows, a scale that
-// is negative where numbers are little endian and by which values are multiplied; then rows from
-// the bottom.
+// Portable float maps (P. Debevec): `PF` (R, G, B) or `Pf` (grey), columns, rows, and a scale that
+// multiplies the values and is negative for little endian; then rows from the bottom.
 
 namespace culet {
 
@@ -20,7 +19,7 @@ namespace {
 
 constexpr std::string_view k_blanks = " \t\r\n";
 
-// The next word of the header, and one blank behind it.
+// Takes the header's next word and one blank after it.
 std::string_view next_word(std::string_view& rest) {
     rest.remove_prefix(std::min(rest.find_first_not_of(k_blanks), rest.size()));
     const std::size_t end = std::min(rest.find_first_of(k_blanks), rest.size());
@@ -52,7 +51,7 @@ DecodedPixels decode_pfm(const std::string& bytes, const std::filesystem::path& 
     }
     const std::size_t channels = kind == "PF" ? 3 : 1;
     const std::size_t row = columns * channels, row_bytes = row * sizeof(float);
-    // Lines may end in CR LF, of which one blank is taken.
+    // Lines may end in CR LF, of which only one blank has been taken.
     if (rest.starts_with('\n') && rest.size() == rows * row_bytes + 1) rest.remove_prefix(1);
     if (rest.size() / row_bytes < rows) throw InputError(file, "is a PFM that is cut off");
     std::vector<float> samples(row * rows);

@@ -18,8 +18,8 @@ namespace culet {
 
 namespace {
 
-// libpng leaves by longjmp, which runs no destructors: functions that call setjmp hold plain
-// values only, everything else lives in their callers.
+// libpng exits by longjmp, which runs no destructors. Functions that call setjmp therefore hold
+// plain values only; everything else is in their callers.
 struct PngInput {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -40,13 +40,13 @@ struct PngInput {
     png_longjmp(png, 1);
 }
 
-// A chunk of colours that the library leaves out is not to be left out silently.
+// Keeps warnings about colour chunks that libpng ignores.
 void keep_png_warning(png_structp png, png_const_charp what) {
     auto* input = static_cast<PngInput*>(png_get_error_ptr(png));
     const std::string_view text = what;
     const bool of_colours = text.starts_with("iCCP") || text.starts_with("gAMA") ||
                             text.starts_with("cHRM") || text.starts_with("sRGB");
-    // The library knows some profiles of sRGB by their errors, and takes them as meant.
+    // libpng recognises some faulty sRGB profiles and treats them as sRGB.
     if (!of_colours || input->warning[0] != '\0' || text.find("sRGB profile") != text.npos) return;
     std::snprintf(input->warning.data(), input->warning.size(), "%s", what);
 }
@@ -62,21 +62,21 @@ void give_png_bytes(png_structp png, png_bytep to, png_size_t count) {
     input->left -= count;
 }
 
-// The header: what stands before the pixels.
+// Reads the header: all before the pixels.
 bool read_png_head(PngInput& input) {
     png_structp png = input.png;
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_read_fn(png, &input, give_png_bytes);
-    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size has its own
+    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // check_size has its own limits
     png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-    // This libpng does not know the chunk by itself.
+    // This libpng does not know the chunk.
     static const png_byte k_cicp[]{'c', 'I', 'C', 'P', 0};
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, k_cicp, 1);
     png_read_info(png, input.info);
     return true;
 }
 
-// What the rows are to be turned into: 8 or 16 bits, no palette, no grey with alpha.
+// Requests rows of 8 or 16 bits, without palettes, and with grey with alpha expanded.
 bool prepare_png_rows(PngInput& input) {
     png_structp png = input.png;
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -93,7 +93,7 @@ bool prepare_png_rows(PngInput& input) {
     return true;
 }
 
-// To the end of the file, whose checksums are looked at on the way.
+// Reads to the end of the file and checks the checksums.
 bool read_png_rows(PngInput& input, png_bytepp rows) {
     if (setjmp(png_jmpbuf(input.png)) != 0) return false;
     png_read_image(input.png, rows);
@@ -120,7 +120,7 @@ std::vector<Sample> png_samples(PngInput& input, std::size_t row_samples, std::s
     return samples;
 }
 
-// ITU-T H.273, tables 2 and 3, as far as they are linear light, a power or sRGB.
+// ITU-T H.273, tables 2 and 3, for linear light, powers and sRGB.
 SampleMeaning meaning_of_cicp(const png_unknown_chunk& chunk, const std::filesystem::path& file) {
     SampleMeaning meaning;
     if (chunk.size != 4) throw InputError(file, "is a PNG with a damaged cICP chunk");
@@ -145,7 +145,7 @@ SampleMeaning meaning_of_cicp(const png_unknown_chunk& chunk, const std::filesys
     return meaning;
 }
 
-// Of chunks that contradict each other the first of this order counts (PNG, third edition, 4.3).
+// If chunks contradict each other, the first in this order counts (PNG, third edition, 4.3).
 SampleMeaning meaning_of_png(const PngInput& input, const std::filesystem::path& file) {
     SampleMeaning meaning;
     png_unknown_chunkp chunks = nullptr;
@@ -164,8 +164,8 @@ SampleMeaning meaning_of_png(const PngInput& input, const std::filesystem::path&
         if (png_get_cHRM(input.png, input.info, &xy[3][0], &xy[3][1], &xy[0][0], &xy[0][1],
                          &xy[1][0], &xy[1][1], &xy[2][0], &xy[2][1]) != 0)
             meaning.primaries = xy;
-        // Programs write 1/2.2 for sRGB itself (PNG, 11.3.2.5), and libpng takes what is within 5 %
-        // of it as that.
+        // Programs write 1/2.2 for sRGB (PNG, 11.3.2.5), and libpng treats values within 5 % as
+        // that.
         if (png_get_gAMA(input.png, input.info, &gamma) != 0 && gamma > 0 &&
             std::abs(gamma * 2.2 - 1) > 0.05) {
             meaning.exponent = 1 / gamma;
@@ -179,7 +179,7 @@ SampleMeaning meaning_of_png(const PngInput& input, const std::filesystem::path&
     return meaning;
 }
 
-// pHYs without a unit gives the shape of a pixel: pixels a length across and down.
+// pHYs without a unit gives the pixel's shape: pixels per length across and down.
 void add_png_frame(const PngInput& input, SampleMeaning& meaning, int& orientation) {
     png_uint_32 across = 0, down = 0, length = 0;
     int unit = 0;

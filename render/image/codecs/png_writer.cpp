@@ -14,7 +14,7 @@ namespace culet {
 
 namespace {
 
-// As with PngInput, what has a destructor stays out of the functions that call setjmp.
+// Objects with destructors stay out of functions that call setjmp (see PngInput).
 struct PngOutput {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -57,8 +57,8 @@ bool write_png(PngOutput& output, const PngRows& picture) {
     png_structp png = output.png;
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_write_fn(png, &output, take_png_bytes, nothing_to_flush);
-    // Runs of the quickest deflate, behind the average of left and above: a picture of 1000 x 1000
-    // takes 40 to 85 ms and 0.6 to 1 MB, a tenth less than behind `left` in the same time. Level 6
+    // Run-length deflate at the fastest level after the `average` filter: a picture of 1000 x 1000
+    // takes 40 to 85 ms and 0.6 to 1 MB, a tenth less than with `left` in the same time. Level 6
     // takes five to ten times as long for a twelfth less.
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_AVG);
     png_set_compression_level(png, Z_BEST_SPEED);
@@ -72,8 +72,8 @@ bool write_png(PngOutput& output, const PngRows& picture) {
     return true;
 }
 
-// PNG specification 11.3.4.3 and 11.3.4.5: a tEXt chunk is in Latin-1; text beyond ASCII stands in
-// an iTXt chunk, in UTF-8.
+// A tEXt chunk is in Latin-1; other text needs an iTXt chunk in UTF-8 (PNG specification 11.3.4.3
+// and 11.3.4.5).
 std::vector<png_text> png_texts(std::vector<std::pair<std::string, std::string>>& text) {
     std::vector<png_text> result;
     for (auto& [key, value] : text) {
@@ -96,7 +96,7 @@ std::string encode_png(int width, int height, int channels, std::span<const std:
     check(width > 0 && height > 0 && (channels == 1 || channels == 3 || channels == 4) &&
               samples.size() == row * static_cast<std::size_t>(height),
           "a picture to be packed as PNG has all its samples");
-    // libpng writes from what it takes as not constant.
+    // libpng's interface is not const-correct; it does not modify the rows.
     auto* first = const_cast<png_bytep>(samples.data());
     std::vector<png_bytep> rows(static_cast<std::size_t>(height));
     for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = first + y * row;

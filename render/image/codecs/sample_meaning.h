@@ -1,6 +1,6 @@
 #pragma once
-// What the values of a picture file mean, as the file itself says it. The codecs gather it; it is
-// followed, or said, in one place for every format: linear_picture.h.
+// The meaning of a picture file's values, as the file states it. Codecs collect it;
+// linear_picture.h applies it, or notes it, for every format.
 
 #include <array>
 #include <string>
@@ -10,21 +10,22 @@
 
 namespace culet {
 
-/// Of Adobe RGB (1998), 4.3.4.2.
+/// Adobe RGB (1998), 4.3.4.2.
 inline constexpr double k_adobe_rgb_exponent = 2.19921875;
 
 struct SampleMeaning {
-    std::string colours = "sRGB";  ///< their name, for the record
-    std::string profile;           ///< an ICC profile, before what follows; empty: none
-    double exponent = 0;  ///< light = value^exponent; 0: sRGB's curve, of floats the value itself
-    std::array<float, 3> factor{1, 1, 1};  ///< of the light of R, G, B, before the primaries
+    std::string colours = "sRGB";  ///< name for reports
+    std::string profile;           ///< ICC profile, which overrides what follows; empty: none
+    double exponent = 0;  ///< light = value^exponent; 0: sRGB's curve, or the value itself for
+                          ///< floats
+    std::array<float, 3> factor{1, 1, 1};  ///< on the light of R, G, B, before the primaries
     Primaries primaries = k_srgb_primaries;
-    bool grey = false;        ///< of R, G, B, A: R, G, B are three times one grey
+    bool grey = false;        ///< of R, G, B, A: R, G and B are equal
     bool inks = false;        ///< four channels are cyan, magenta, yellow, black; 0: no ink
-    bool multiplied = false;  ///< whole numbers: colours are multiplied by alpha
+    bool multiplied = false;  ///< for whole numbers: colours are premultiplied by alpha
     double pixel_aspect = 1;  ///< width over height of a pixel
     std::vector<std::string> notes;
-    std::string not_photometric;  ///< why values do not stand for light; empty: they do
+    std::string not_photometric;  ///< why values are not proportional to light; empty: they are
 };
 
 }  // namespace culet

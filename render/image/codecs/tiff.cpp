@@ -18,15 +18,15 @@ namespace {
 
 struct TiffLayout {
     std::uint32_t width = 0, height = 0;
-    std::uint16_t samples = 1;  ///< a pixel
-    std::uint16_t bits = 1;     ///< a sample
+    std::uint16_t samples = 1;  ///< per pixel
+    std::uint16_t bits = 1;     ///< per sample
     std::uint16_t format = SAMPLEFORMAT_UINT;
     std::uint16_t colours = PHOTOMETRIC_RGB;
     std::uint16_t orientation = ORIENTATION_TOPLEFT;
-    std::optional<std::uint16_t> further;  ///< what the last sample is (EXTRASAMPLE_...)
-    bool planes = false;                   ///< each channel by itself
+    std::optional<std::uint16_t> further;  ///< kind of the last sample (EXTRASAMPLE_...)
+    bool planes = false;                   ///< channels are stored separately
     bool tiles = false;
-    std::uint32_t block_width = 0, block_height = 0;  ///< of a tile, or a strip of rows
+    std::uint32_t block_width = 0, block_height = 0;  ///< of a tile, or of a strip of rows
 };
 
 TiffLayout tiff_layout(TIFF* tiff) {
@@ -66,7 +66,7 @@ bool is_grey(const TiffLayout& layout) {
            layout.colours == PHOTOMETRIC_LOGL;
 }
 
-// Samples as they are stored, of whatever arrangement in the file; of grey with alpha, grey.
+// Reads samples as stored, in any arrangement of the file; of grey with alpha, only the grey.
 template <class Stored>
 bool read_tiff_blocks(TIFF* tiff, const TiffLayout& layout, std::size_t channels,
                       std::vector<Stored>& samples) {
@@ -103,8 +103,8 @@ bool read_tiff_blocks(TIFF* tiff, const TiffLayout& layout, std::size_t channels
     return true;
 }
 
-// What the library itself makes of palettes, luminance with colour differences and fewer bits: R,
-// G, B of 8 bits, as it is stored.
+// Lets libtiff convert palettes, luminance with colour differences, and fewer bits to R, G, B of 8
+// bits.
 bool read_tiff_colours(TIFF* tiff, const TiffLayout& layout, std::size_t channels,
                        std::vector<std::uint8_t>& samples) {
     std::vector<std::uint32_t> raster(std::size_t{layout.width} * layout.height);
@@ -120,7 +120,7 @@ bool read_tiff_colours(TIFF* tiff, const TiffLayout& layout, std::size_t channel
     return true;
 }
 
-// Of grey with alpha, both as four channels.
+// Expands grey with alpha to four channels.
 template <class Sample>
 std::vector<Sample> with_grey_thrice(const std::vector<Sample>& pairs) {
     std::vector<Sample> samples;
@@ -162,8 +162,8 @@ void take_tiff_samples(TIFF* tiff, const TiffInput& input, const TiffLayout& lay
     result.samples = std::move(kept);
 }
 
-// Tags 34675 (ICC), 318 and 319 (white and primaries), 301 (transfer function), 282 and 283 (pixels
-// a length); TIFF 6.0.
+// Reads the tags 34675 (ICC), 318 and 319 (white and primaries), 301 (transfer function), 282 and
+// 283 (pixels per length); TIFF 6.0.
 SampleMeaning meaning_of_tiff(TIFF* tiff, const TiffLayout& layout, std::size_t channels) {
     SampleMeaning meaning;
     std::uint32_t bytes = 0;
@@ -201,7 +201,7 @@ SampleMeaning meaning_of_tiff(TIFF* tiff, const TiffLayout& layout, std::size_t 
     return meaning;
 }
 
-// A header's tiles must not take more than its picture does.
+// Refuses tiles that take more memory than the picture.
 void check_tiles(const TiffLayout& layout, const TiffInput& input,
                  const std::filesystem::path& file) {
     const double block = static_cast<double>(layout.block_width) * layout.block_height;
@@ -209,7 +209,7 @@ void check_tiles(const TiffLayout& layout, const TiffInput& input,
     if (block == 0 || block > 4 * picture + 1024.0 * 1024) throw tiff_refusal(input, file);
 }
 
-// Channels to be read: grey 1, or 2 with alpha; colours 3, or 4 with alpha; inks 4.
+// Channels to read: grey 1, or 2 with alpha; colours 3, or 4 with alpha; inks 4.
 std::size_t tiff_channels(const TiffLayout& layout, const std::filesystem::path& file) {
     const bool inks = layout.colours == PHOTOMETRIC_SEPARATED;
     const std::size_t least = is_grey(layout) || layout.colours == PHOTOMETRIC_PALETTE ? 1

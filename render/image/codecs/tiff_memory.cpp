@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-constexpr tmsize_t k_most_tiff_memory = tmsize_t{1} << 31;  // in one piece, by the library
+constexpr tmsize_t k_most_tiff_memory = tmsize_t{1} << 31;  // libtiff's largest single allocation
 
 tmsize_t give_tiff_bytes(thandle_t handle, void* to, tmsize_t count) {
     auto* input = static_cast<TiffInput*>(handle);
@@ -43,8 +43,8 @@ toff_t tiff_size(thandle_t handle) {
     return static_cast<TiffInput*>(handle)->bytes->size();
 }
 
-// The file as it lies in memory, which the library only reads. Without it libtiff 4.5 refuses
-// uncompressed tiles whose bytes are no multiple of 1024 (it compares them with its buffer's size).
+// Maps the file in memory, which libtiff only reads. Without it libtiff 4.5 refuses uncompressed
+// tiles whose bytes are no multiple of 1024 (it compares them with its buffer's size).
 int map_tiff(thandle_t handle, void** base, toff_t* size) {
     const auto* input = static_cast<TiffInput*>(handle);
     *base = const_cast<char*>(input->bytes->data());

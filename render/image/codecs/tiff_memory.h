@@ -1,5 +1,5 @@
 #pragma once
-// A TIFF's bytes in memory, opened by libtiff, which says nothing to anybody.
+// Opens a TIFF's bytes in memory with libtiff, without its output on stderr.
 
 #include <tiffio.h>
 
@@ -13,7 +13,7 @@
 
 namespace culet {
 
-// A file in memory, and the first complaint of the library about it.
+// A file in memory, and libtiff's first complaint about it.
 struct TiffInput {
     const std::string* bytes = nullptr;
     std::uint64_t at = 0;
@@ -22,10 +22,10 @@ struct TiffInput {
 
 using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
-/// Null for what is no TIFF. `input` outlives it.
+/// Returns null if it is not a TIFF. `input` must outlive the result.
 OpenTiff opened_tiff(TiffInput& input);
 
-/// With the library's complaint.
+/// Returns an error with libtiff's complaint.
 InputError tiff_refusal(const TiffInput& input, const std::filesystem::path& file);
 
 }  // namespace culet
