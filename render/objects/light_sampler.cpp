@@ -13,7 +13,7 @@ namespace culet {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-// Lobes wider than that of a diffuse surface are left to it.
+// Least exponent of lobes that are sampled; wider ones are left to the surface.
 constexpr double k_narrow_lobe = 2;
 constexpr int k_sky_height = 128;
 
@@ -23,20 +23,20 @@ double brightness(const LightColour& colour) {
     return 1;
 }
 
-// The direction with that cosine to `axis`, and azimuth about it.
+// The direction with this cosine to `axis` and this azimuth about it.
 Vec3 about(const Vec3& axis, double cosine, double azimuth) {
     const Vec3 x = perpendicular_to(axis), y = glm::cross(axis, x);
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
     return glm::normalize(sine * (std::cos(azimuth) * x + std::sin(azimuth) * y) + cosine * axis);
 }
 
-// 1 - cosine of the angle that a ball fills from `distance`, without the difference.
+// 1 - cosine of the angle that a ball subtends from `distance`, without cancellation.
 double cap_height(double radius, double distance) {
     const double sine = radius / distance;
     return sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
 }
 
-// About that of an area seen from afar; at most half of all directions.
+// Approximately, for an area seen from afar; at most half of all directions.
 double solid_angle(const Vec3& to, double area) {
     return area / std::max(glm::dot(to, to), area / (2 * k_pi));
 }
@@ -78,7 +78,7 @@ double LightSampler::density(const Flat& flat, const Vec3& from, const Vec3& dir
     const double distance = glm::dot(flat.center - from, flat.normal) / rate;
     if (!(distance > 0) || !std::isfinite(distance)) return 0;
     const Vec3 at = from + distance * direction - flat.center;
-    // Coordinates along u and v, which need not be at right angles.
+    // Coordinates along u and v, which need not be perpendicular.
     const Vec3 across = glm::cross(flat.u, flat.v);
     const double scale = 1 / glm::dot(across, across);
     const double a = glm::dot(glm::cross(at, flat.v), across) * scale,
@@ -118,7 +118,7 @@ std::optional<Vec3> LightSampler::sample(const Sky& sky, const Vec3&, Random& ra
     const double top = std::cos(k_pi * row / sky.height),
                  bottom = std::cos(k_pi * (row + 1) / sky.height);
     const double z = top + random.uniform() * (bottom - top);
-    // EnvironmentMap's frame.
+    // In EnvironmentMap's frame.
     const double azimuth = (0.5 - (column + random.uniform()) / sky.width) * 2 * k_pi;
     const double across = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
     return Vec3{across * std::cos(azimuth), across * std::sin(azimuth), z};

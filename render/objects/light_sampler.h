@@ -1,6 +1,5 @@
 #pragma once
-// Directions towards the lights: for surfaces that see light from everywhere, of which the lights
-// are a small part.
+// Samples directions towards the lights, for surfaces lit from everywhere by small lights.
 
 #include <optional>
 #include <vector>
@@ -10,31 +9,31 @@
 
 namespace culet {
 
-/// Chooses directions by a mixture of densities, one a light. What shines from everywhere or from
-/// half of it is left to the surface's own choice of directions. May be asked from any thread.
+/// Chooses directions by a mixture of densities, one per light. Lights that cover the whole sphere
+/// or half of it are left to the surface's own sampling. Thread-safe.
 class LightSampler {
 public:
     explicit LightSampler(const Scene& scene);
 
     bool empty() const { return parts_.empty(); }
-    /// Nothing: the light chosen cannot be aimed at from here.
+    /// Nothing: the chosen light is not visible from here.
     std::optional<Vec3> sample(const Vec3& from, Random& random) const;
-    /// Of `sample`, per solid angle.
+    /// Density of `sample`, per solid angle.
     double density(const Vec3& from, const Vec3& direction) const;
 
 private:
-    /// Anything in a ball (as the cone that it fills).
+    /// Anything in a ball, sampled as the cone that the ball subtends.
     struct Ball {
         Vec3 center;
         double radius;
     };
-    /// A flat light, by its area.
+    /// A flat light, sampled by area.
     struct Flat {
-        Vec3 center, normal, u, v;  ///< half-extents, or two radii of a disc at right angles
+        Vec3 center, normal, u, v;  ///< half-extents, or two perpendicular radii of a disc
         bool round;
         double area;
     };
-    /// A ring of directions about an axis.
+    /// A ring of directions around an axis.
     struct Ring {
         Vec3 axis;
         double from_cosine, to_cosine;  ///< from > to
@@ -43,10 +42,10 @@ private:
         Vec3 axis;
         double exponent;
     };
-    /// The brightness of an environment, by cells of equal angles.
+    /// An environment's brightness, in cells of equal angles.
     struct Sky {
         int width = 0, height = 0;
-        std::vector<double> sums;     ///< of the shares, up to and with each cell
+        std::vector<double> sums;     ///< cumulative probabilities, up to and including each cell
         std::vector<double> density;  ///< per solid angle, in each cell
     };
     using Part = std::variant<Ball, Flat, Ring, Lobe, Sky>;
@@ -67,7 +66,7 @@ private:
     void add_emitters(const std::vector<SceneObject>& objects, const Vec3& about);
 
     std::vector<Part> parts_;
-    std::vector<double> share_;  ///< that each is chosen with
+    std::vector<double> share_;  ///< probability of choosing each part
 };
 
 }  // namespace culet

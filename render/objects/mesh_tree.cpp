@@ -12,11 +12,11 @@ namespace culet {
 
 namespace {
 
-// Rounding of points in the unit sphere to single precision, and of Embree's few steps with them: a
-// ray that starts on one triangle may meet the next one that near only by rounding.
+// Smallest distance of a hit in the unit sphere. Below it, a ray that starts on one triangle may
+// hit a neighbour only by the rounding of single precision and of Embree's few operations.
 constexpr float k_nearest = 8 * 0x1p-24f;
 
-// What the ray starts on, for the filter.
+// The ray's start, for the filter.
 struct Context {
     RTCIntersectContext embree;
     unsigned object, triangle;
@@ -95,7 +95,7 @@ MeshTree::MeshTree(const std::vector<SceneObject>& objects) {
 std::optional<TriangleHit> MeshTree::nearest(const Vec3& origin, const Vec3& direction, int object,
                                              int triangle) const {
     if (!embree_) return std::nullopt;
-    // Into the sphere around all meshes, where single precision has all its digits.
+    // Start in the sphere around all meshes, where single precision is most accurate.
     const Vec3 from_center = origin - center_;
     const double b = glm::dot(from_center, direction);
     const Vec3 nearest = from_center - b * direction;
@@ -138,7 +138,8 @@ std::optional<TriangleHit> MeshTree::nearest(const Vec3& origin, const Vec3& dir
     const double rate = glm::dot(hit.normal, direction);
     const double exact = glm::dot(hit.normal, at(0) - origin) / rate;
     const double single = skipped + radius_ * static_cast<double>(ray.ray.tfar);
-    // Along the triangle's plane it has no digits: then it may lie beyond all meshes.
+    // Along the triangle's plane the exact distance is ill-conditioned and may lie beyond all
+    // meshes.
     hit.distance = exact >= skipped && exact <= half - b ? exact : single;
     hit.shading = hit.normal;
     if (!mesh.corner_normals.empty()) {

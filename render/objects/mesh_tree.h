@@ -1,5 +1,5 @@
 #pragma once
-// Where rays meet the triangles of meshes, by Embree.
+// Intersection of rays with meshes, by Embree.
 
 #include <memory>
 #include <optional>
@@ -11,12 +11,13 @@ namespace culet {
 struct TriangleHit {
     double distance = 0;
     int object = 0, triangle = 0;
-    Vec3 normal{0, 0, 1};   ///< unit, by the order of the corners
-    Vec3 shading{0, 0, 1};  ///< the same, or where the mesh is smooth that of its corners' mean
+    Vec3 normal{0, 0, 1};   ///< unit, oriented by the order of the corners
+    Vec3 shading{0, 0, 1};  ///< the same, or interpolated from the corners' normals if the mesh is
+                            ///< smooth
 };
 
-/// The meshes among a scene's objects. Embree finds the triangle in single precision, relative to a
-/// sphere around all meshes; distance and normal are then those of its plane in double precision.
+/// The meshes of a scene's objects. Embree finds the triangle in single precision, relative to a
+/// sphere around all meshes. Distance and normal then come from its plane in double precision.
 class MeshTree {
 public:
     explicit MeshTree(const std::vector<SceneObject>& objects);
@@ -24,15 +25,15 @@ public:
     MeshTree(const MeshTree&) = delete;
     MeshTree& operator=(const MeshTree&) = delete;
 
-    /// The nearest, from `origin` along the unit `direction`. `object`, `triangle`: what the origin
-    /// lies on, and is not met; -1: nothing of these.
+    /// Nearest hit from `origin` along the unit `direction`. `object`, `triangle`: where the ray
+    /// starts; this triangle is not hit again (-1: none).
     std::optional<TriangleHit> nearest(const Vec3& origin, const Vec3& direction, int object = -1,
                                        int triangle = -1) const;
 
 private:
     struct Embree;
     std::unique_ptr<Embree> embree_;
-    std::vector<std::shared_ptr<const TriangleMesh>> meshes_;  // by object; none: other shapes
+    std::vector<std::shared_ptr<const TriangleMesh>> meshes_;  // by object; null: another shape
     Vec3 center_{0, 0, 0};
     double radius_ = 0;
 };

@@ -12,28 +12,29 @@ namespace culet {
 
 namespace {
 
-// Rays below this importance are followed in proportion to it.
+// Rays below this importance are followed with proportional probability.
 constexpr double k_threshold = 0.5;
-// From here on one in twenty ends, so that none goes on for ever between clear surfaces; of those
-// that the last depth cuts off, one in ten thousand would have come that far.
+// After k_sure_bounces one path in twenty ends at each hit, so that none continues forever between
+// clear surfaces. Only one in ten thousand of those would reach the last bounce.
 constexpr int k_sure_bounces = 8, k_last_bounce = 200;
 constexpr double k_goes_on = 0.95;
-// Both ways of a face of glass are followed for so many faces, then one, chosen by power.
+// Number of glass faces at which both reflection and refraction are followed; then one is chosen by
+// power.
 constexpr int k_split_bounces = 2;
 
 Vec3 mirrored(const Vec3& direction, const Vec3& n) {
     return glm::normalize(direction - 2 * glm::dot(direction, n) * n);
 }
 
-// The tangent of a face for a ray, unit; with the ray's direction it gives p.
+// Unit tangent of a face for a ray; with the ray's direction it gives p.
 Vec3 tangent(const Vec3& direction, const Vec3& n) {
     const Vec3 s = glm::cross(direction, n);
     const double length = glm::length(s);
     return length > 1e-14 ? s / length : perpendicular_to(direction);
 }
 
-// Stokes parameters that count from (s, p), counted from (u, v); both frames orthonormal and normal
-// to one ray.
+// Transforms Stokes parameters from the frame (s, p) to (u, v), both orthonormal and normal to the
+// ray.
 Stokes turned(const Stokes& light, const Vec3& s, const Vec3& p, const Vec3& u, const Vec3& v) {
     const double us = glm::dot(u, s), up = glm::dot(u, p), vs = glm::dot(v, s), vp = glm::dot(v, p);
     const double S = 0.5 * (light[0] + light[1]), P = 0.5 * (light[0] - light[1]);
@@ -175,7 +176,7 @@ void ObjectPaths::pass_on(const WorldRay& ray, WorldRay next, const Vec3& s, dou
 void ObjectPaths::reflect(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light) {
     const ReadySurface& surface = scene_.surfaces[static_cast<std::size_t>(hit.object)];
     Vec3 n = hit.shading;
-    // What a smoothed normal would send into the surface is reflected by its triangle.
+    // If the interpolated normal would reflect into the surface, use the triangle's.
     const double side = glm::dot(ray.direction, hit.normal) < 0 ? 1 : -1;
     if (!(side * glm::dot(mirrored(ray.direction, n), hit.normal) > 0)) n = hit.normal;
     if (glm::dot(ray.direction, n) > 0) n = -n;

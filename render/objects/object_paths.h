@@ -1,8 +1,8 @@
 #pragma once
-// Light paths among objects and stones, traced backwards from where light is asked for: the light
-// that arrives along a ray, as Stokes parameters. Path tracing (Kajiya 1986): polished surfaces and
-// stones pass light on as Fresnel's equations have it, polarised; rough ones by one direction
-// chosen at random and one aimed at the lights, weighted by both densities (Veach 1997, 9.2).
+// Light paths among objects and stones, traced backwards from where light is needed: the light that
+// arrives along a ray, as Stokes parameters. It is path tracing (Kajiya 1986). Polished surfaces
+// and stones transmit polarised light by Fresnel's equations. Rough surfaces take one random
+// direction and one aimed at the lights, weighted by both densities (Veach 1997, 9.2).
 
 #include <atomic>
 #include <memory>
@@ -17,43 +17,44 @@
 
 namespace culet {
 
-/// A scene made ready for one set of wavelengths. Does not change.
+/// A scene prepared for one set of wavelengths. Immutable, except for `spent_ns`.
 struct SceneWithObjects {
     SceneWithObjects(const Scene& scene, const WavelengthSet& wavelengths);
 
     ObjectWorld world;
     LightField lights;
     LightSampler sampler;
-    std::vector<ReadySurface> surfaces;  ///< of the objects
+    std::vector<ReadySurface> surfaces;  ///< per object
     struct ReadyStone {
         OpticalSetup setup;
         PathLimits limits;
     };
-    std::vector<ReadyStone> stones;  ///< as the world numbers them
+    std::vector<ReadyStone> stones;  ///< in the world's numbering
     bool polarised_lights = false;
     int nodes = 1;
     double brightest = 0;
-    double most_indirect = std::numeric_limits<double>::infinity();  ///< RenderSettings
+    double most_indirect =
+        std::numeric_limits<double>::infinity();  ///< RenderSettings::clamp_indirect
     std::uint64_t seed = 1;
-    /// Whole nanoseconds of price.h, so that their sum does not hang on the order of threads.
+    /// In whole nanoseconds of price.h, so that the sum does not depend on the order of threads.
     mutable std::atomic<long long> spent_ns{0};
 };
 
-/// A ray that asks for light: `direction` leads away from who asks. Its light's Stokes parameters
-/// count from `u`, `v`, orthonormal and normal to it.
+/// A ray that gathers light; `direction` leads away from the receiver. Stokes parameters of its
+/// light refer to `u`, `v`, orthonormal and normal to it.
 struct WorldRay {
     Vec3 origin, direction, u, v;
     RayStart start;
-    int medium = -1;        ///< the object of glass that it runs in
-    int depth = 0;          ///< surfaces and stones met so far
-    double importance = 1;  ///< largest share of its light that is used
+    int medium = -1;        ///< the glass object that it is in; -1: none
+    int depth = 0;          ///< surfaces and stones hit so far
+    double importance = 1;  ///< largest part of its light that is used
 };
 
-/// Stokes parameters at the nodes of a range, counted from its first.
+/// Stokes parameters at a range of nodes, indexed from its first.
 using ArrivingLight = std::array<NodeWeights, 4>;
 
-/// Of the wavelengths `first` .. `first + count - 1`, at most k_band_nodes. `planes`: 1 (S0 alone,
-/// everything taken as unpolarised) or 4.
+/// Traces the wavelengths `first` .. `first + count - 1`, at most k_band_nodes. `planes`: 1 (S0
+/// only, all light taken as unpolarised) or 4.
 class ObjectPaths {
 public:
     ObjectPaths(const SceneWithObjects& scene, int first, int count, int planes, Random& random)
@@ -63,8 +64,8 @@ public:
     ObjectPaths& operator=(const ObjectPaths&) = delete;
 
     void arriving(const WorldRay& ray, ArrivingLight& light);
-    /// The same of a ray of less importance than `threshold` with a chance in proportion to it.
-    /// Returns the factor that its light counts with; 0: it was not asked for.
+    /// Follows a ray whose importance is below `threshold` only with a proportional probability.
+    /// Returns the weight of its light; 0: it was not followed.
     double arriving_if_it_matters(WorldRay ray, double threshold, ArrivingLight& light);
 
 private:
@@ -82,14 +83,14 @@ private:
     void reflect(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
     void refract(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
     void through_stone(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
-    /// Adds what arrives along `next`, after the face that `face(node)` tells of, with its plane of
-    /// incidence normal to `s`; `share`: of the light that goes this way, at most.
+    /// Adds the light that arrives along `next` after the face `face(node)`, with plane of
+    /// incidence normal to `s`. `share`: largest part of the light that takes this path.
     template <class Face>
     void pass_on(const WorldRay& ray, WorldRay next, const Vec3& s, double share, double weight,
                  const Face& face, ArrivingLight& light);
     void absorb(const WorldRay& ray, double distance, ArrivingLight& light) const;
     void clear(ArrivingLight& light) const;
-    /// Weight with which a ray of that importance goes on; 0: it does not.
+    /// Russian roulette: returns the weight of a ray that continues; 0: it ends.
     double roulette(const WorldRay& ray, double threshold);
 
     const SceneWithObjects& scene_;

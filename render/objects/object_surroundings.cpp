@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// Follows from the ray alone: the same picture whatever the threads do.
+// Depends on the ray only, so pictures do not depend on threads.
 Random random_of(std::uint64_t seed, const Vec3& origin, const Vec3& direction) {
     std::uint64_t state = Random::mixed(seed);
     for (const double c : {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z})
@@ -20,7 +20,7 @@ Random random_of(std::uint64_t seed, const Vec3& origin, const Vec3& direction) 
     return Random(state);
 }
 
-// Ways out of the stone that weigh less are followed in proportion to what they weigh.
+// Exits of less weight are followed with proportional probability.
 constexpr double k_leaf_threshold = 0.25;
 
 }  // namespace

@@ -1,14 +1,14 @@
 #pragma once
-// A furnished scene as surroundings of the stone that it is about.
+// The surroundings of the main stone in a scene with objects.
 
 #include "render/objects/object_paths.h"
 #include "render/reference/surroundings.h"
 
 namespace culet {
 
-/// Rays start outside the stone, or on it where they leave it for good: it hides nothing of what
-/// they ask for at once, but what they meet sees it. What is chosen at random is fixed by the ray
-/// and the seed.
+/// Rays start outside the stone, or on it when they leave it for good. The stone does not hide
+/// anything from these rays, but objects that they hit see it. Random choices are determined by the
+/// ray and the seed.
 class ObjectSurroundings : public Surroundings {
 public:
     ObjectSurroundings(const Scene& scene, const WavelengthSet& wavelengths)
@@ -28,9 +28,9 @@ public:
 
 private:
     WorldRay ray(const Vec3& origin, const Vec3& direction, const Vec3& u, const Vec3& v) const;
-    /// What is seen first, if it is no light.
+    /// The nearest object or stone, if no light is nearer.
     WorldHit first_hit(const Vec3& origin, const Vec3& direction) const;
-    /// The light, and the factor that it counts with: 0 where it was left out by chance.
+    /// Returns the weight of the light; 0 if it was left out by chance.
     double ask(WorldRay ray, double weight, int first, int count, int planes,
                ArrivingLight& light) const;
     SceneWithObjects scene_;

@@ -26,7 +26,7 @@ ObjectWorld::ObjectWorld(const Scene& scene)
         double radius = 0;
         for (const Vec3& vertex : stone.solid.vertices)
             radius = std::max(radius, glm::length(vertex - center));
-        // Vertices of near-miss meets lie off the planes that are drawn.
+        // Vertices at near-miss meets lie off the planes that are drawn.
         const double off = planarity(stone.solid);
         stones_.push_back({StoneBody(stone.solid, stone.convex), center, radius + 2 * off});
     };

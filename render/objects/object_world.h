@@ -1,5 +1,5 @@
 #pragma once
-// All that stands in a scene: objects and stones, and where rays meet them.
+// The objects and stones of a scene, and their intersection with rays.
 
 #include <limits>
 #include <vector>
@@ -10,8 +10,7 @@
 
 namespace culet {
 
-/// What a ray starts on, if it is one of these: a part of an object, or a stone that it left for
-/// good.
+/// Where a ray starts: a part of an object, or a stone that it left for good.
 struct RayStart {
     int object = -1, part = -1;
     int stone = -1;
@@ -19,22 +18,22 @@ struct RayStart {
 
 struct WorldHit {
     double distance = std::numeric_limits<double>::infinity();
-    int object = -1, stone = -1;  ///< one of them; both -1: nothing is met
+    int object = -1, stone = -1;  ///< at most one is set; both -1: no hit
     int part = -1;                ///< triangle of a mesh, face of a box, facet of a stone
     Vec3 normal{0, 0, 1};         ///< unit, outwards
-    Vec3 shading{0, 0, 1};        ///< the same but where a mesh is smooth
+    Vec3 shading{0, 0, 1};        ///< the same, interpolated if a mesh is smooth
     bool met() const { return object >= 0 || stone >= 0; }
 };
 
-/// Keeps what it needs of the scene. Stone 0 is the one that the scene is about, if it has one; the
-/// others follow. May be asked from any thread.
+/// Copies what it needs of the scene. Stone 0 is the main stone, if there is one; the others
+/// follow. Thread-safe.
 class ObjectWorld {
 public:
     explicit ObjectWorld(const Scene& scene);
 
-    /// The nearest thing from `origin` along the unit `direction`.
+    /// Nearest hit from `origin` along the unit `direction`.
     WorldHit nearest(const Vec3& origin, const Vec3& direction, const RayStart& start) const;
-    /// Where that is, on the surface of an object to the last digits.
+    /// The point of the hit, on an object's surface to the last digits.
     Vec3 place(const WorldHit& hit, const Vec3& origin, const Vec3& direction) const;
 
     const std::vector<SceneObject>& objects() const { return objects_; }
@@ -50,7 +49,7 @@ private:
         bool apart_from(const Vec3& origin, const Vec3& direction) const;
     };
     std::vector<SceneObject> objects_;
-    std::vector<int> formulas_;  ///< objects that are no meshes
+    std::vector<int> formulas_;  ///< objects that are not meshes
     MeshTree meshes_;
     std::vector<PlacedStone> stones_;
     bool first_stone_ = false;

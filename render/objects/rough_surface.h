@@ -1,5 +1,5 @@
 #pragma once
-// How a surface that is not polished spreads light: diffuse, or microfacets of a metal.
+// Scattering by rough surfaces: diffuse, or a metal's microfacets.
 
 #include <optional>
 
@@ -9,22 +9,22 @@ namespace culet {
 
 class RoughSurface {
 public:
-    /// `side`: the surface's normal on the side that is seen; `shading`: that which light is spread
-    /// about; `towards`: to who sees it. All unit.
+    /// `side`: the surface's normal on the visible side; `shading`: the normal used for scattering;
+    /// `towards`: to the viewer. All unit.
     RoughSurface(const ReadySurface& surface, const Vec3& side, const Vec3& shading,
                  const Vec3& towards);
 
     bool reflects_to(const Vec3& direction) const;
-    /// What the values at all nodes share, for a direction that it reflects to.
+    /// Common to all nodes, for a direction towards which the surface reflects.
     struct Spread {
         double factor = 0;
         double half_cosine = 1;  ///< of incidence on the microfacets that reflect there
     };
     Spread spread(const Vec3& direction) const;
-    /// Radiance that is seen for one from there, per solid angle: with the cosine.
+    /// Reflected radiance per incident radiance and solid angle, including the cosine.
     double value(int node, const Spread& spread) const;
-    /// A direction, chosen with `density` per solid angle; nothing: into the surface, where no
-    /// light comes from.
+    /// Chooses a direction with `density` per solid angle; nothing if it points into the surface,
+    /// where no light comes from.
     std::optional<Vec3> sample(Random& random) const;
     double density(const Vec3& direction) const;
 

@@ -8,7 +8,7 @@ namespace culet {
 
 namespace {
 
-// Of the plane through `point`: nothing where the ray runs along or away from it.
+// Distance to the plane through `point`; nothing if the ray runs along or away from it.
 std::optional<double> distance_to_plane(const Vec3& point, const Vec3& normal, const Vec3& origin,
                                         const Vec3& direction) {
     const double rate = glm::dot(normal, direction), height = glm::dot(normal, point - origin);
@@ -30,7 +30,7 @@ std::optional<ShapeHit> nearest_on(const SphereShape& sphere, const Vec3& origin
     const double b = glm::dot(from_center, direction);
     double distance = 0;
     if (start >= 0) {
-        // On it: the other of the two roots.
+        // The ray starts on the sphere: take the other root.
         distance = -2 * b;
         if (!(distance > 0)) return std::nullopt;
     } else {
@@ -40,7 +40,7 @@ std::optional<ShapeHit> nearest_on(const SphereShape& sphere, const Vec3& origin
         if (!(below > 0)) return std::nullopt;
         const double half = std::sqrt(below);
         const double length = glm::length(from_center);
-        // c of t^2 + 2 b t + c = 0; neither root is a difference of near values.
+        // c of t^2 + 2 b t + c = 0; both roots are computed without cancellation.
         const double c = (length - sphere.radius) * (length + sphere.radius);
         if (c > 0) {
             if (!(b < 0)) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<ShapeHit> nearest_on(const BoxShape& box, const Vec3& origin, cons
         const int towards = rate > 0 ? 1 : 0;
         const double near = ((rate > 0 ? -half : half) - place) / rate,
                      far = ((rate > 0 ? half : -half) - place) / rate;
-        // Off its own face outwards: a box is not met again.
+        // A ray that leaves its own face outwards does not hit the box again.
         if (start == 2 * axis + towards) return std::nullopt;
         if (near > in) {
             in = near;
@@ -101,7 +101,7 @@ std::optional<ShapeHit> nearest_on(const BoxShape& box, const Vec3& origin, cons
         const Vec3& along = box.axes[static_cast<std::size_t>(face / 2)];
         return ShapeHit{distance, face % 2 == 1 ? along : -along, face};
     };
-    // From its surface inwards, whatever rounding says of the start.
+    // A ray that starts on the surface runs inwards, whatever the rounding.
     if (start >= 0)
         return out_face < 0 ? std::nullopt : std::optional(hit(std::max(out, 0.0), out_face));
     if (!(in < out) || !(out > 0)) return std::nullopt;

@@ -10,11 +10,11 @@ namespace culet {
 
 namespace {
 
-// Leaves of a stone's paths below that importance are followed in proportion to it: of a stone that
-// is seen directly, and of one whose light other surfaces spread.
+// Exits below this importance are followed with proportional probability: for a stone seen
+// directly, and for one whose light other surfaces scatter.
 constexpr double k_seen_threshold = 0.1, k_spread_threshold = 0.5;
 
-// The part of a band that lies in first .. first + count - 1.
+// The part of a band within first .. first + count - 1.
 Band part_of(const Band& band, int first, int count) {
     Band part = band;
     part.first = std::max(band.first, first);
@@ -24,7 +24,7 @@ Band part_of(const Band& band, int first, int count) {
     return part;
 }
 
-// Between one of the stones and itself.
+// Objects between parts of a stone.
 class AroundStone : public Obstacles {
 public:
     AroundStone(const SceneWithObjects& scene, int stone) : scene_(scene), stone_(stone) {}
@@ -40,7 +40,7 @@ private:
 
 }  // namespace
 
-// Asks what arrives where light leaves the stone.
+// Gathers the light that arrives at a stone's exits.
 class ObjectPaths::StoneSink {
 public:
     StoneSink(ObjectPaths& outer, const WorldRay& ray, int stone, const Band& band, double weight,
@@ -79,13 +79,13 @@ public:
     void remainder(const NodeWeights&) {}
     void absorbed(const NodeWeights&) {}
     void cut(const NodeWeights&) {}
-    // Of mean 0.
+    // They have mean 0.
     void roulette(const NodeWeights&) {}
     void choice_begins() {}
     void choice_ends(bool) {}
 
 private:
-    // What arrives goes to `in_`; the weight that it has, 0 where it is not asked for.
+    // Writes the arriving light to `in_` and returns its weight; 0: not followed.
     double ask(const Vec3& at, const Vec3& direction, const Vec3& u, const Vec3& v, double power,
                const NodeWeights& share) {
         const double most = *std::max_element(share.begin(), share.begin() + count_);
@@ -117,7 +117,7 @@ void ObjectPaths::through_stone(const WorldRay& ray, const WorldHit& hit, Arrivi
         if (band.first + band.count > first_ && band.first < first_ + count_)
             bands.push_back(&band);
     }
-    // Light that other surfaces spread is followed at one of the stone's wavelengths.
+    // Scattered light is followed at only one of the stone's bands, chosen at random.
     double weight = 1;
     if (ray.depth > 0 && bands.size() > 1) {
         weight = static_cast<double>(bands.size());

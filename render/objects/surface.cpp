@@ -13,12 +13,12 @@ namespace culet {
 
 namespace {
 
-// Squares of slopes are differences from 1 of cosines, which are rounded by 2^-52: of these three
-// digits are left. Flatter ones are a polished surface.
+// Smallest alpha. Squared slopes are computed as 1 - cosine, which is rounded by 2^-52, and this
+// leaves three digits. Smoother surfaces count as polished.
 constexpr double k_flattest = 0x1p-42;
 constexpr int k_once_cosines = 64, k_once_azimuths = 32, k_once_heights = 128;
 
-// Few wavelengths stand for some colours with values beyond `most`, or below 0.
+// A set of few wavelengths represents some colours by values above `most` or below 0: clamp them.
 std::vector<double> nodes_of(const SurfaceColour& colour, const WavelengthSet& wavelengths,
                              double most = std::numeric_limits<double>::infinity()) {
     LightColour light;
@@ -69,7 +69,7 @@ MuellerReflection ReadySurface::reflection(int node, double cosine) const {
     const auto i = static_cast<std::size_t>(node);
     if (std::isinf(k_[i])) return {};
     const std::complex<double> m(n_[i], k_[i]), square = m * m;
-    // The root whose imaginary part decays into the metal: that of a number above the real axis.
+    // The root whose wave decays into the metal has a positive imaginary part.
     const std::complex<double> q = std::sqrt(square - (1 - cosine) * (1 + cosine));
     const std::complex<double> r_s = (cosine - q) / (cosine + q),
                                r_p = (square * cosine - q) / (square * cosine + q);
@@ -86,12 +86,12 @@ double ReadySurface::reflectance(int node, double cosine) const {
 
 void ReadySurface::prepare_reflected_once() {
     for (int i = 0; i < k_once_cosines; ++i) {
-        // Finer towards grazing light, where it changes.
+        // Denser towards grazing light, where it changes most.
         const double root = (i + 0.5) / k_once_cosines, cosine = root * root;
         const Vec3 from{std::sqrt(1 - cosine * cosine), 0, cosine};
         double sum = 0;
         for (int b = 0; b < k_once_heights; ++b) {
-            // Finer where microfacets are steep: few are, but they lose most. v = 1 - w^3.
+            // Denser for steep microfacets, which are few but lose most. v = 1 - w^3.
             const double w = (b + 0.5) / k_once_heights, weight = 3 * w * w;
             for (int a = 0; a < k_once_azimuths; ++a) {
                 const Vec3 to =
@@ -116,7 +116,7 @@ namespace ggx {
 
 namespace {
 
-// Smith's Lambda: of the slopes that hide a direction, over the visible ones.
+// Smith's Lambda: hidden slopes relative to visible ones.
 double hidden(double alpha, const Vec3& direction) {
     const double z = direction.z * direction.z;
     return 0.5 * (std::sqrt(1 + alpha * alpha * (1 - z) / z) - 1);
@@ -126,7 +126,7 @@ double hidden(double alpha, const Vec3& direction) {
 
 double density(double alpha, const Vec3& half) {
     const double a2 = alpha * alpha, z = half.z * half.z;
-    // 1 + (a^2 - 1) z^2 without its cancellation for smooth surfaces.
+    // 1 + (a^2 - 1) z^2, without cancellation for smooth surfaces.
     const double base = a2 * z + (1 - z);
     return a2 / (std::numbers::pi * base * base);
 }

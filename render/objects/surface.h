@@ -1,5 +1,5 @@
 #pragma once
-// What a surface does to light: the materials of objects, made ready for one set of wavelengths.
+// Reflection by objects' materials, prepared for one set of wavelengths.
 
 #include <array>
 #include <vector>
@@ -12,8 +12,8 @@ namespace culet {
 
 enum class SurfaceKind { diffuse, rough_metal, metal, mirror, dielectric, emitter };
 
-/// Of light that a polished surface reflects, at one wavelength: what becomes of the Stokes
-/// parameters that count from the plane of incidence (s: +S1; Born & Wolf, 1.5 and 14.4).
+/// Reflection by a polished surface at one wavelength, for Stokes parameters relative to the plane
+/// of incidence (s: +S1; Born & Wolf, 1.5 and 14.4).
 struct MuellerReflection {
     double mean = 1;         ///< (R_s + R_p) / 2
     double difference = 0;   ///< (R_s - R_p) / 2
@@ -22,23 +22,24 @@ struct MuellerReflection {
 
 class ReadySurface {
 public:
-    /// `outside`: the refractive index around it.
+    /// `outside`: refractive index of the surroundings.
     ReadySurface(const SurfaceMaterial& material, const WavelengthSet& wavelengths, double outside);
 
     SurfaceKind kind = SurfaceKind::diffuse;
     std::vector<double> colour;  ///< at each node: albedo, or an emitter's radiance
-    double index = 1;            ///< of glass over that around it
+    double index = 1;            ///< of glass, relative to the outside
     std::vector<double> absorption;
-    double alpha = 0;  ///< of microfacets
+    double alpha = 0;  ///< roughness of the microfacets
 
     /// Of a metal at a node, for the cosine of incidence.
     MuellerReflection reflection(int node, double cosine) const;
     /// Mean of s and p, of a metal.
     double reflectance(int node, double cosine) const;
-    /// Of microfacets that reflect all, what leaves them after one reflection; the rest meets more.
+    /// Part of the light that leaves lossless microfacets after one reflection; the rest is
+    /// reflected again.
     double reflected_once(double cosine) const;
-    /// What a rough surface sends out more than light that is reflected `once`, because what meets
-    /// several microfacets is not lost (Turquin 2019, after Kulla & Conty 2017).
+    /// Factor on single reflection that restores the light from multiple reflections between
+    /// microfacets (Turquin 2019, after Kulla & Conty 2017). `once`: reflected_once.
     double gain(int node, double once) const {
         return 1 + normal_reflectance_[static_cast<std::size_t>(node)] * (1 - once) / once;
     }
@@ -46,19 +47,21 @@ public:
 private:
     void prepare_reflected_once();
     std::vector<double> n_, k_, normal_reflectance_;
-    std::vector<double> reflected_once_;  ///< by the cosine
+    std::vector<double> reflected_once_;  ///< by cosine
 };
 
-/// Microfacets of Trowbridge & Reitz (GGX), with Smith's height-correlated shadowing (Heitz 2014).
-/// Directions in the surface's frame, unit, z along the normal, both away from the surface.
+/// Trowbridge-Reitz microfacets (GGX) with Smith's height-correlated shadowing (Heitz 2014).
+/// Directions are unit, in the surface's frame with z along the normal; both point away from the
+/// surface.
 namespace ggx {
 double density(double alpha, const Vec3& half);
-/// Share of microfacets of that direction that are seen from it.
+/// Part of the microfacets facing a direction that are visible from it.
 double masking(double alpha, const Vec3& direction);
 double masking_and_shadowing(double alpha, const Vec3& a, const Vec3& b);
-/// A visible normal's reflection of `from` (Dupuy & Benyoub 2023); z may be below 0.
+/// Reflects `from` at a random visible normal (Dupuy & Benyoub 2023); the result's z may be below
+/// 0.
 Vec3 sample(double alpha, const Vec3& from, double u, double v);
-/// Its density per solid angle.
+/// Density of `sample` per solid angle.
 double sample_density(double alpha, const Vec3& from, const Vec3& to);
 }  // namespace ggx
 

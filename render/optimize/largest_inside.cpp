@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-using Point = Eigen::Vector4d;  // scale, then the shift over the stone's diameter
+using Point = Eigen::Vector4d;  // scale, then the shift relative to the stone's diameter
 
 struct Rows {
     Eigen::Matrix<double, Eigen::Dynamic, 4> a;
@@ -21,9 +21,9 @@ struct Rows {
 
 using Columns = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
 
-// How much of each of some independent columns makes up a point, but for what lies across them. By
-// Gram's and Schmidt's basis, each time twice, which is enough (Kahan, in Parlett 1980, 6.9): for
-// four numbers a column it takes less time than a general decomposition.
+// Coefficients of the least-squares combination of independent columns for a point. Gram-Schmidt,
+// twice for each column, is accurate enough (Kahan, in Parlett 1980, 6.9) and, for columns of four
+// numbers, faster than a general decomposition.
 Eigen::VectorXd shares_of(const Columns& columns, const Point& point) {
     const Eigen::Index count = columns.cols();
     Columns basis = columns;
@@ -48,22 +48,22 @@ Eigen::VectorXd shares_of(const Columns& columns, const Point& point) {
     return shares;
 }
 
-// Directions and multipliers below this are zero: rows and objective have entries of order one.
+// Zero for directions and multipliers; rows and objective have entries of order one.
 constexpr double k_zero = 1e-11;
 
-// The primal active-set method (Nocedal and Wright, Numerical Optimization, 2006, ch. 16.5, without
-// a quadratic term) from a feasible point. Bland's rule, lowest index first, excludes cycles.
+// Primal active-set method (Nocedal and Wright, Numerical Optimization, 2006, ch. 16.5, without a
+// quadratic term) from a feasible point. Bland's rule (lowest index first) prevents cycling.
 Point with_largest_scale(const Rows& rows, Point x) {
     const Point objective = Point::Unit(0);
     std::vector<Eigen::Index> active;
     const Eigen::Index most_steps = 100 * (rows.b.size() + 4);
     for (Eigen::Index step = 0; step < most_steps; ++step) {
-        // The objective as a sum of the active rows, and the rest that no active row hinders.
+        // Split the objective into a combination of active rows and a free direction.
         Columns normals(4, active.size());
         for (std::size_t k = 0; k < active.size(); ++k)
             normals.col(static_cast<Eigen::Index>(k)) = rows.a.row(active[k]).transpose();
         const Eigen::VectorXd multipliers = shares_of(normals, objective);
-        // A row joins only from beside all others: they are independent, and four leave nothing.
+        // A row joins only if it is independent of all active ones, so four leave no direction.
         Point along = Point::Zero();
         if (active.size() < 4) along = objective - normals * multipliers;
         if (along.norm() < k_zero) {

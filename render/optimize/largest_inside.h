@@ -1,5 +1,5 @@
 #pragma once
-// The largest copy of a convex solid that another holds.
+// Finds the largest copy of a convex solid inside another.
 
 #include "stone/solid/solid.h"
 
@@ -11,12 +11,12 @@ struct LargestInside {
     double volume = 0;  ///< of the copy, mm3
 };
 
-/// `cut` scaled and moved, not turned, as large as `stone` holds it: a linear program in the scale
-/// and the three shifts. Both solids are convex and bounded. Rounding may leave the scale wrong,
-/// and the copy outside of the stone, by 1e-11 of the scale and of the stone's diameter.
+/// Scales and moves `cut`, without rotation, to the largest size that fits into `stone`: a linear
+/// program in the scale and three shifts. Both solids are convex and bounded. By rounding, the
+/// scale may be off and the copy may protrude by 1e-11 of the scale and of the stone's diameter.
 LargestInside largest_inside(const Solid& cut, const Solid& stone);
 
-/// The copy.
+/// Returns the copy.
 Solid moved_inside(Solid cut, const LargestInside& inside);
 
 }  // namespace culet

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array k_tilts_deg{0.0, -10.0, 10.0, -20.0, 20.0, -30.0, 30.0};
 constexpr std::array k_part_names{"brilliance", "fire", "contrast", "tilt"};
-// Of the cone of fire's light, as grade's coarse figures.
+// Directions and faces for fire, as in grade's coarse figures.
 constexpr int k_fire_rings = 1, k_fire_ring = 2, k_fire_faces = 8;
 
 double weight_of(const MeritOptions& options, MeritPart part) {

@@ -1,5 +1,5 @@
 #pragma once
-// How good a cut is, as one number that varies continuously with its angles.
+// The merit of a cut: one number that varies continuously with its angles.
 
 #include <map>
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace culet {
 
-/// What a merit is made of; each part is a percentage.
+/// Parts of a merit, each a percentage.
 enum class MeritPart {
-    brilliance,  ///< light return over the tilts, the mean of the views
-    fire,        ///< share of light with red and blue at least 0.25 degrees apart (Fire::separated)
-    contrast,    ///< share of the crown that mirrors the viewer's head (ASET's blue)
-    tilt,        ///< light return at 20 degrees over that face up, at most 100
+    brilliance,  ///< light return, mean over the tilts
+    fire,        ///< part of the light with at least 0.25 degrees between red and blue
+                 ///< (Fire::separated)
+    contrast,    ///< part of the crown that reflects the viewer's head (ASET's blue)
+    tilt,        ///< light return at 20 degrees relative to face up, at most 100
 };
 inline constexpr int k_merit_part_count = 4;
 const char* name_of(MeritPart part);
@@ -32,11 +33,11 @@ struct Merit {
     double total = 0;                                ///< weighted mean
 };
 
-/// "brilliance", or parts with weights: "brilliance=2,fire=1". Throws InputError.
+/// Reads "brilliance", or weighted parts: "brilliance=2,fire=1". Throws InputError.
 std::array<double, k_merit_part_count> merit_weights(const std::string& text);
 
 /// `convex`: closed and convex, table up. The tilts are 0, 10, 20 and 30 degrees to both sides
-/// about the x axis, as GemRay's optimiser has them.
+/// about the x axis, as in GemRay's optimiser.
 Merit merit_of(const Solid& convex, const MeritOptions& options);
 
 }  // namespace culet

@@ -14,13 +14,13 @@ namespace culet {
 
 namespace {
 
-// Parts of all evaluations: of GemRay's search, and of one from the design itself. The rest starts
-// from the best of both, twice, so that the second leaves a fold that stopped the first.
+// Parts of all evaluations: for GemRay's search, and for a search from the design itself. The rest
+// is two restarts from the best so far, so that the second leaves a kink where the first stalled.
 constexpr double k_two_factors = 0.2, k_own_start = 0.35, k_first_rest = 0.25;
 constexpr double k_factor_step = 0.04, k_most_factor = 1.5;
 constexpr double k_first_step = 1.5, k_second_step = 0.5;  // degrees
 constexpr double k_enough_deg = 0.002;
-// What breaks a limit is worse than any cut within them; by how much says which way is out.
+// Penalties: breaking a limit is worse than any valid cut, and the excess guides the search back.
 constexpr double k_broken = 1e3, k_impossible = 1e6;
 
 class Search {
@@ -64,7 +64,7 @@ public:
     }
     int left() const { return std::max(10, options_.evaluations - evaluations_); }
     int evaluations() const { return evaluations_; }
-    // Of each set of tied tiers.
+    // In degrees, for each set of tied tiers.
     std::vector<double> best_deg() const {
         const double range = degrees(options_.limits.range);
         std::vector<double> deg;
@@ -82,7 +82,7 @@ public:
 private:
     using Steeper = std::function<std::vector<double>(const std::vector<double>&)>;
 
-    // Crown and pavilion made higher or lower by a factor.
+    // Multiplies the tangents of crown and pavilion angles by a factor each.
     std::vector<double> scaled(const std::vector<double>& factors) const {
         std::vector<double> steeper;
         for (const FacetTier& tier : design_.tiers()) {
@@ -93,7 +93,7 @@ private:
         return steeper;
     }
 
-    // Larger is better. Of a cut that breaks a limit: how far, below all that keep them.
+    // Larger is better. A cut that breaks a limit scores below all valid ones, by the excess.
     double score_of(const Solid& solid, const Merit& merit) const {
         if (!options_.recut) return merit.total;
         const double loss = 1 - largest_inside(solid, stone_).volume / volume(stone_);
@@ -109,7 +109,7 @@ private:
         const OptimizeLimits& limits = options_.limits;
         double by = std::max(0.0, limits.least_volume - volume(solid) / start_volume_);
         const double table = table_share(solid), was = table_share(design_.start());
-        // A start outside the limits may stay where it is.
+        // A start outside the limits may stay there.
         by += std::max(0.0, std::min(limits.least_table, was) - table) +
               std::max(0.0, table - std::max(limits.most_table, was));
         const double critical = std::asin(1 / options_.merit.index.n) + limits.over_critical;
@@ -153,7 +153,7 @@ private:
         try {
             return self.search->value_of((*self.steeper)(std::vector<double>(x, x + count)));
         } catch (...) {
-            // No exception may pass through C.
+            // Exceptions must not pass through NLopt's C code.
             self.error = std::current_exception();
             nlopt_force_stop(self.opt);
             return 0;

@@ -16,21 +16,21 @@ namespace culet {
 namespace {
 
 constexpr Vec3 k_up{0, 0, 1};
-// Gauss-Newton doubles the digits: from a miss of a thousandth four steps reach rounding.
+// Gauss-Newton converges quadratically: from a miss of 1e-3, four steps reach rounding error.
 constexpr int k_most_steps = 12;
-// Of the stone's size: rounding of offsets that are computed from some ten numbers.
+// Relative to the stone's size: rounding error of offsets computed from some ten numbers.
 constexpr double k_closed = 1e-13, k_not_above = 1e-10;
-// An angle is given up for an offset only where the meets tie it: a degree of angle counts as much
-// as the whole size of offset.
+// Degrees of angle that weigh as much as an offset of the whole size, so that an angle changes only
+// if meets tie it.
 constexpr double k_angle_weight = 60;
-// Meets that tie angles to each other are dependent equations: singular values this small, of the
-// largest, are theirs. Meets of real designs miss by up to 3e-4.
+// Smallest relative singular value. Meets that tie angles together are dependent equations with
+// values below it. Meets of real designs miss by up to 3e-4.
 constexpr double k_dependent = 1e-7;
-// Of the diameter: 0.04 mm of a stone of 8 mm, which a loupe shows. Ten times what readers of
-// designs take for a meet that misses (CutReading::meet_tolerance).
+// Relative to the diameter: 0.04 mm for a stone of 8 mm, visible with a loupe. It is ten times the
+// largest miss of a meet that readers of designs accept (CutReading::meet_tolerance).
 constexpr double k_least_edge = 0.005;
 
-// A facet's angle from the horizontal keeps its side: of the pavilion the normal looks down.
+// Sets a facet's angle from the horizontal; pavilion normals still point down.
 Vec3 tilted(const Vec3& normal, double angle) {
     const double level = std::hypot(normal.x, normal.y);
     const double side = normal.z < 0 ? -1 : 1;
@@ -38,7 +38,7 @@ Vec3 tilted(const Vec3& normal, double angle) {
             side * std::cos(angle)};
 }
 
-// How the normal changes with the angle.
+// Derivative of the normal with respect to the angle.
 Vec3 slope_of(const Vec3& normal) {
     const double level = std::hypot(normal.x, normal.y), side = normal.z < 0 ? -1 : 1;
     return {std::abs(normal.z) * normal.x / level, std::abs(normal.z) * normal.y / level,
@@ -100,7 +100,7 @@ void TierDesign::tie_tiers(const std::vector<std::vector<int>>& orbits) {
     for (std::size_t o = 0; o < orbits.size(); ++o) {
         for (const int f : orbits[o]) orbit_of[std::size_t(f)] = static_cast<int>(o);
     }
-    std::vector<std::set<int>> reached;  // orbits of each set
+    std::vector<std::set<int>> reached;  // orbits in each set
     for (std::size_t t = 0; t < tiers_.size(); ++t) {
         std::vector<int> together{static_cast<int>(t)};
         std::set<int> own;
@@ -148,7 +148,7 @@ TierDesign::Planes TierDesign::wanted(const std::vector<double>& steeper) const 
     }
     for (const Facet& facet : solid_.facets) planes.of.push_back(facet.plane);
     std::vector<bool> done(solid_.facets.size(), false);
-    // Where a corner has come to: at the height of what is turned already.
+    // New position of a corner: at the height of the facets already turned.
     const auto moved = [&](int corner) {
         Vec3 at = solid_.vertices[static_cast<std::size_t>(corner)];
         double sum = 0;
@@ -175,7 +175,7 @@ TierDesign::Planes TierDesign::wanted(const std::vector<double>& steeper) const 
             }
             plane.offset = glm::dot(plane.normal, moved(pivot));
         }
-        // Together, so that none of them follows another.
+        // Mark the orbit as a whole, so that no facet in it follows another.
         for (const int f : orbit) done[static_cast<std::size_t>(f)] = true;
     }
     for (std::size_t f = 0; f < planes.of.size(); ++f) {
@@ -195,7 +195,7 @@ std::optional<TierDesign::Planes> TierDesign::closed(Planes planes) const {
         rows += std::max<Eigen::Index>(0, static_cast<Eigen::Index>(facets.size()) - 3);
     double before = size_;
     for (int step = 0; step < k_most_steps; ++step) {
-        // Columns: angles in parts of the weight, offsets in parts of the size.
+        // Columns: angles in units of the weight, offsets in units of the size.
         Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows, 2 * count);
         Eigen::VectorXd misses(rows);
         Eigen::Index row = 0;
@@ -258,8 +258,8 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
         const Eigen::Vector3d corner = PivotedQr(normals).solve_one(offsets);
         result.vertices[v] = {corner.x(), corner.y(), corner.z()};
     }
-    // Convex, with the same neighbours: nothing above a plane, every outline still turns left, and
-    // no edge comes near to nothing.
+    // Require convexity and the same neighbours: nothing above a plane, every outline still turns
+    // left, and no edge is too short.
     for (const Facet& facet : result.facets) {
         for (const Vec3& corner : result.vertices) {
             if (!(height_above(facet.plane, corner) <= k_not_above * size_)) return std::nullopt;
@@ -270,7 +270,7 @@ std::optional<Solid> TierDesign::solid_of(const Planes& planes) const {
                        &b = result.vertices[std::size_t(facet.corners[(i + 1) % n])],
                        &c = result.vertices[std::size_t(facet.corners[(i + 2) % n])];
             if (!(glm::dot(glm::cross(b - a, c - b), facet.plane.normal) > 0)) return std::nullopt;
-            if (start_.facets.empty()) continue;  // the design's own meets are being closed
+            if (start_.facets.empty()) continue;  // closing the design's own meets
             const double was =
                 glm::length(start_.vertices[std::size_t(facet.corners[i])] -
                             start_.vertices[std::size_t(facet.corners[(i + 1) % n])]);

@@ -20,7 +20,7 @@ double drawn_normal(Random& random) {
     return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
-// Rows that make unit normal numbers into errors of all facets' three parameters.
+// Matrix, row by row, that transforms unit normals to errors of all facets' three parameters.
 Eigen::MatrixXd error_spread(const StoneUncertainty& uncertainty) {
     const Eigen::Index size = static_cast<Eigen::Index>(3 * uncertainty.facets.size());
     Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(size, size);
@@ -35,7 +35,7 @@ Eigen::MatrixXd error_spread(const StoneUncertainty& uncertainty) {
     }
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const Rows> covariance(uncertainty.covariance.data(), size, size);
-    // In units of each one's own sigma, so that angles and lengths weigh alike.
+    // In units of each sigma, so that angles and lengths have equal weight.
     Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
     Eigen::MatrixXd correlation = covariance;
     for (Eigen::Index i = 0; i < size; ++i) {

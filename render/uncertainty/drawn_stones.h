@@ -1,5 +1,5 @@
 #pragma once
-// Stones as they might be by the uncertainty of a fit.
+// Draws stones from the uncertainty of a fit.
 
 #include <cstdint>
 #include <optional>
@@ -11,43 +11,42 @@
 
 namespace culet {
 
-/// How sure one facet is: standard uncertainties of inclination and azimuth (radians) and of its
-/// distance from the stone's middle (the solid's unit). 0: known exactly.
+/// Standard uncertainties of one facet's inclination and azimuth (radians) and of its distance from
+/// the stone's middle (the solid's unit). 0: known exactly.
 struct FacetUncertainty {
     double inclination = 0, azimuth = 0, offset = 0;
 };
 
 struct StoneUncertainty {
     std::vector<FacetUncertainty> facets;  ///< in the solid's order
-    /// Covariance of all of them, row by row, three a facet; empty: facets are independent.
+    /// Covariance of all of them, row by row, three per facet; empty: facets are independent.
     std::vector<double> covariance;
-    /// Facets whose inclination or offset nobody knows, and which count as known exactly.
+    /// Number of facets with an unknown sigma of inclination or offset, which counts as 0.
     int unknown = 0;
     bool correlated() const { return !covariance.empty(); }
 };
 
-/// For the facets that `solid` has, out of those of its mesh, of which the planes may have left
-/// some no room. `covariance`: of all of the mesh's facets, row by row, three a facet, or empty.
-/// What is not finite is not known and counts as 0. Throws InputError where `solid` has a facet
-/// that is not in `names`.
+/// Selects the values for `solid`'s facets from those of its mesh; the planes may have cut away
+/// some of its facets. `covariance`: of all the mesh's facets, row by row, three per facet, or
+/// empty. Values that are not finite are unknown and count as 0. Throws InputError if `names` lacks
+/// a facet of `solid`.
 StoneUncertainty uncertainty_for(const Solid& solid, const std::vector<std::string>& names,
                                  const std::vector<FacetUncertainty>& sigmas,
                                  const std::vector<double>& covariance);
 
-/// Draws convex stones around `solid` (its up direction +z), normally distributed; the same ones
-/// for the same seed.
+/// Draws convex stones around `solid` (up is +z) from a normal distribution, reproducibly by seed.
 class StoneDraws {
 public:
-    /// `uncertainty`: of every facet of `solid`, which must outlive this.
+    /// `uncertainty`: of every facet of `solid`. `solid` must outlive this.
     StoneDraws(const Solid& solid, const StoneUncertainty& uncertainty, std::uint64_t seed);
-    /// Nothing where the drawn planes bound no stone.
+    /// Returns nothing if the drawn planes bound no stone.
     std::optional<Solid> next();
 
 private:
     const Solid& solid_;
     Vec3 middle_;
     std::vector<FacetAttitude> truth_;
-    std::vector<double> spread_;  // makes unit normal numbers into errors; row by row
+    std::vector<double> spread_;  // transforms independent unit normals to errors; row by row
     Random random_;
 };
 

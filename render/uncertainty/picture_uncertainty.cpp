@@ -16,8 +16,8 @@ namespace culet {
 
 namespace {
 
-// R, G, B and luminance of every pixel: mean and sum of squares as they come (Welford 1962); and
-// every luminance.
+// R, G, B and luminance of every pixel: running mean and sum of squares (Welford 1962), and all
+// luminances.
 class PixelSums {
 public:
     explicit PixelSums(std::size_t pixels) : mean_(4 * pixels), squares_(4 * pixels) {}
@@ -53,8 +53,8 @@ public:
     }
 
 private:
-    // One more number from the same source lies below the k-th of n sorted ones with probability
-    // k / (n + 1), whatever its distribution.
+    // Another sample of the same distribution lies below the k-th of n sorted ones with probability
+    // k / (n + 1), whatever the distribution.
     static float level(const std::vector<float>& sorted, double probability) {
         const double n = static_cast<double>(sorted.size());
         const double rank = std::clamp(probability * (n + 1) - 1, 0.0, n - 1);
@@ -69,7 +69,7 @@ private:
     int count_ = 0;
 };
 
-// Draws as the plan says, by the beams, and holds no picture against the truth anew.
+// Draws with the plan's settings by beams, without checking again against the reference.
 ScenePlan by_beams(const Scene& scene, ScenePlan plan) {
     if (!drawn_by_beams(plan.settings)) plan.settings.engine = k_beam_engine;
     plan.settings.check = Check::none;
