@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// glTF takes the logarithm of the colour: black would be opaque at every length.
+// Least value of a colour: glTF takes its logarithm, so black would be opaque at every length.
 constexpr double k_darkest = 1e-4;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// How a material looks in glTF.
+// The look of a material in glTF.
 
 #include <optional>
 #include <string>
@@ -11,12 +11,12 @@ namespace culet {
 
 struct GltfMaterial {
     GltfLook look;
-    std::vector<std::string> notes;  ///< what of the material glTF does not hold, one line each
+    std::vector<std::string> notes;  ///< what glTF cannot hold, one line each
 };
 
-/// Colour: that of the body (`body_colour`) after one way through a stone of that width, brought
-/// into 0..1 where it lies outside sRGB; glTF's is multiplied from length to length channel by
-/// channel, so that it is exact at this length, and of colourless materials there is none.
+/// The colour is `body_colour` after one path through a stone of that width, clamped to 0..1. glTF
+/// raises colours to the power of the length, channel by channel, so they are exact only at this
+/// length. Colourless materials have no colour.
 GltfMaterial gltf_material(const Material& material, double width_mm);
 
 }  // namespace culet

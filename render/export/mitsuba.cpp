@@ -25,13 +25,13 @@ std::string point(const Vec3& v) {
 std::string rgb(const char* name, const Rgb& c) {
     return fmt::format(R"(<rgb name="{}" value="{}, {}, {}"/>)", name, c[0], c[1], c[2]);
 }
-// Columns of a matrix, row by row.
+// A matrix with these columns, written row by row.
 std::string matrix(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& at) {
     return fmt::format(
         R"(<transform name="to_world"><matrix value="{} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 1"/></transform>)",
         x.x, y.x, z.x, at.x, x.y, y.y, z.y, at.y, x.z, y.z, z.z, at.z);
 }
-// A square of that half side, or a disc of that radius, that looks along `normal`.
+// Transforms a square or disc of half side or radius 1 to `size`, facing along `normal`.
 std::string turned_to(const Vec3& normal, double size, const Vec3& at) {
     const auto [u, v] = in_plane(normal);
     return matrix(size * u, size * v, normal, at);
@@ -45,10 +45,10 @@ std::string obj_text(const TriangleMesh& mesh) {
     return text;
 }
 
-// Along one side of the picture: a film whose middle is where the line of sight is.
+// For one axis of the picture: a larger film centred on the line of sight.
 struct FilmCut {
     int film = 0, offset = 0;
-    double lost = 0;  // pixels between the line of sight and that middle
+    double lost = 0;  // distance in pixels between the line of sight and the film's centre
 };
 FilmCut film_cut(double sight, int pixels) {
     const int twice = static_cast<int>(std::lround(2 * sight));
@@ -87,7 +87,7 @@ private:
     void camera() {
         const Camera& camera = scene_.camera;
         const bool parallel = camera.orthographic_width.has_value();
-        // The line of sight is the middle of a larger film, of which the picture is cut out.
+        // Mitsuba's line of sight is in the middle: use a larger film and crop the picture from it.
         const auto [sight_x, sight_y] = line_of_sight_in(camera);
         const FilmCut x = film_cut(sight_x, camera.width), y = film_cut(sight_y, camera.height);
         if (x.lost + y.lost > 1e-3) note("the place of the principal point within half a pixel");
@@ -133,7 +133,7 @@ private:
                      scene_.lights.constant);
             return;
         }
-        // Mitsuba's map has +y up, and its left edge at -z; y is turned up to z.
+        // Mitsuba's map has +y up and its left edge at -z; y is rotated to z.
         const auto direction = [](double column, double row) {
             const double phi = std::numbers::pi * column / k_map_height;
             const double theta = std::numbers::pi * row / k_map_height;
@@ -169,7 +169,7 @@ private:
              glowing(plane.radiance));
     }
 
-    // A mesh of its own file; corners are not rounded off.
+    // Writes a mesh to its own file, without smooth normals.
     std::string mesh(const TriangleMesh& mesh) {
         const std::string name = fmt::format("{}-mitsuba-{}.obj", stem_, result_.meshes.size() + 1);
         result_.meshes.emplace_back(name, obj_text(mesh));
@@ -183,7 +183,7 @@ private:
             index, scene_.immersion);
         const double most = std::max({absorption[0], absorption[1], absorption[2]});
         if (!(most > 0)) return text;
-        // Colours end at 1: the largest stands apart.
+        // Colours are limited to 1, so the largest value becomes the scale.
         const Rgb share{absorption[0] / most, absorption[1] / most, absorption[2] / most};
         return text + R"(<medium name="interior" type="homogeneous">)" + rgb("sigma_t", share) +
                R"(<rgb name="albedo" value="0, 0, 0"/>)" +
@@ -212,7 +212,7 @@ private:
     std::string shape(const BoxShape& s) { return mesh(triangles_of(s)); }
     std::string shape(const MeshShape& s) { return mesh(*s.mesh); }
 
-    // Both sides of what is open reflect.
+    // Open surfaces reflect on both sides.
     static std::string two_sided(const std::string& bsdf) {
         return R"(<bsdf type="twosided">)" + bsdf + "</bsdf>";
     }

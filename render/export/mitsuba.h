@@ -1,5 +1,5 @@
 #pragma once
-// A scene for Mitsuba 3 (XML), for a second opinion on its picture and for its other integrators.
+// Writes scenes for Mitsuba 3 (XML), to check pictures and to use its integrators.
 
 #include <string>
 
@@ -7,15 +7,15 @@
 
 namespace culet {
 
-/// Frame and lengths are the scene's. `stem`: of the scene's file; meshes and the map of the
-/// distant lights stand beside it under names that begin so.
+/// Keeps the scene's frame and lengths. `stem`: of the scene's file; meshes and the map of distant
+/// lights are written beside it, with names that start with it.
 ///
-/// Carried: stones as meshes of smooth dielectrics with the mean index at the sodium line (or at
-/// the scene's one wavelength) and an absorbing medium in RGB, cameras but for the lens, objects,
-/// near lights as area emitters, distant lights as a lat-long map. Left out with a note: double
-/// refraction, dispersion (Mitsuba's dielectric has one index), polarisation by the faces, spectra
-/// beyond RGB, the lens, that plane lights are not there from behind. Throws InputError as
-/// `refuse_instruments` does.
+/// Exported: stones as meshes of smooth dielectrics with the mean index at the sodium line (or at
+/// the scene's only wavelength) and an absorbing medium in RGB, cameras except the lens, objects,
+/// near lights as area emitters, distant lights as a lat-long map. Left out with a note:
+/// birefringence, dispersion (Mitsuba's dielectric has one index), polarisation by faces, spectra
+/// beyond RGB, the lens, the invisible back of plane lights. Throws InputError like
+/// `refuse_instruments`.
 ExportedScene mitsuba_scene(const Scene& scene, const std::string& stem);
 
 }  // namespace culet

@@ -12,8 +12,8 @@ namespace culet {
 
 namespace {
 
-// Where red, green and blue are read off a spectrum of absorption (as
-// Material::absorption_from_rgb has them).
+// Wavelengths at which red, green and blue absorption are read (as in
+// Material::absorption_from_rgb).
 constexpr std::array<double, 3> k_rgb_nm{610, 545, 465};
 
 }  // namespace

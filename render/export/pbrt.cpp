@@ -20,8 +20,8 @@ namespace {
 constexpr int k_map_side = 1024;
 constexpr int k_pbrt_depth = 100;
 constexpr int k_pbrt_samples = 256;
-// PBRT samples from 360 to 830 nm, and takes a spectrum for 0 where it has no value; culet's own
-// wavelengths lie between 380 and 780.
+// PBRT samples from 360 to 830 nm and uses 0 where a spectrum has no value; culet's wavelengths are
+// from 380 to 780.
 constexpr double k_first_nm = 360, k_last_nm = 830, k_step_nm = 10;
 constexpr double k_first_seen_nm = 380, k_last_seen_nm = 780;
 
@@ -31,7 +31,7 @@ std::string numbers(const Vec3& v) {
 std::string numbers(const Rgb& c) {
     return fmt::format("{} {} {}", c[0], c[1], c[2]);
 }
-// "spectrum NAME" with a value at each wavelength.
+// Writes "spectrum NAME" with a value at each wavelength.
 template <class At>
 std::string spectrum(const char* name, const At& at) {
     std::string text = fmt::format("\"spectrum {}\" [", name);
@@ -49,7 +49,7 @@ std::string triangle_mesh(const TriangleMesh& mesh) {
     for (const auto& t : mesh.triangles) fmt::format_to(out, "\n    {} {} {}", t[0], t[1], t[2]);
     return text + " ]";
 }
-// Its front is on the side of u x v.
+// It faces along u x v.
 std::string rectangle(const Vec3& middle, const InPlane& half) {
     const auto& [u, v] = half;
     TriangleMesh mesh;
@@ -78,11 +78,11 @@ private:
         const Camera& camera = scene_.camera;
         const RenderSettings& settings = scene_.settings;
         const bool parallel = camera.orthographic_width.has_value();
-        // PBRT's camera sees the world of a left hand: x is turned over.
+        // PBRT's camera uses a left-handed frame: mirror x.
         line("Scale -1 1 1");
         line("LookAt {}  {}  {}", numbers(camera.position), numbers(camera.look_at),
              numbers(camera.up));
-        // A pixel's side, in lengths or as a tangent: the window of 90 degrees has tangents.
+        // Side of a pixel, as a length or a tangent: the window of 90 degrees is in tangents.
         const double side = parallel ? *camera.orthographic_width / camera.width
                                      : 2 * std::tan(camera.fov / 2) / camera.height;
         const auto [sight_x, sight_y] = line_of_sight_in(camera);
@@ -113,7 +113,7 @@ private:
             name, distant_light_map(lights, k_map_side, k_map_side, [](double column, double row) {
                 return equal_area_direction(column / k_map_side, row / k_map_side);
             })};
-        // Texels have one solid angle.
+        // All texels have the same solid angle.
         const double texel = std::sqrt(4 * std::numbers::pi) / k_map_side;
         note_light_map(lights, degrees(texel), result_.notes);
         line("LightSource \"infinite\" \"string filename\" [ \"{}\" ]", name);
@@ -142,7 +142,7 @@ private:
         end();
     }
 
-    // A medium of this absorption inside what follows.
+    // Defines a medium of this absorption inside the following shapes.
     void fill(const std::string& absorption) {
         ++media_;
         line("  MakeNamedMedium \"medium-{}\" \"string type\" \"homogeneous\"", media_);
@@ -152,7 +152,7 @@ private:
     }
     void stone(const Stone& stone) {
         begin();
-        std::vector<std::string> of_rgb;  // PBRT takes the spectrum
+        std::vector<std::string> of_rgb;  // ignored: PBRT gets the spectrum
         const StoneOptics optics = optics_of(stone, scene_, of_rgb);
         if (optics.birefringent) note("double refraction: the mean index is written");
         if (optics.pleochroic) note("pleochroism: the mean absorption is written");
@@ -231,7 +231,7 @@ private:
 
 Vec3 equal_area_direction(double x, double y) {
     const double u = 2 * x - 1, v = 2 * y - 1;
-    const double to_edge = 1 - (std::abs(u) + std::abs(v));  // of the inner square: z = 0
+    const double to_edge = 1 - (std::abs(u) + std::abs(v));  // of the inner square, z = 0
     const double r = 1 - std::abs(to_edge);
     const double phi = (r == 0 ? 1 : (std::abs(v) - std::abs(u)) / r + 1) * std::numbers::pi / 4;
     const double level = r * std::sqrt(std::max(0.0, 2 - r * r));

@@ -19,11 +19,11 @@ namespace culet {
 
 namespace {
 
-// The stone's diameter in POV-Ray's units is from this to twice this: hits nearer than 1e-4, which
-// POV-Ray does not take, are then nearer than single precision tells apart.
+// The stone's diameter in POV-Ray's units is from this to twice this. Then the hits nearer than
+// 1e-4, which POV-Ray ignores, are below the resolution of single precision.
 constexpr double k_stone_size = 1024;
 constexpr int k_highest_level = 256;      // that POV-Ray accepts
-constexpr int k_depth_by_tolerance = 64;  // written where the tolerance decides
+constexpr int k_depth_by_tolerance = 64;  // used if the tolerance decides
 
 void refuse_what_has_no_picture(const Scene& scene) {
     refuse_instruments(scene, "POV-Ray");
@@ -76,7 +76,7 @@ private:
     void camera() {
         const Camera& camera = scene_.camera;
         const auto [forward, right, up] = axes_of(camera);
-        // Of the picture's plane; in POV-Ray's units for the orthographic camera.
+        // Width of the picture's plane; in POV-Ray's units for the orthographic camera.
         double width = 0;
         if (camera.orthographic_width) {
             width = *camera.orthographic_width * scale_;
@@ -84,7 +84,8 @@ private:
             width = 2 * std::tan(camera.fov / 2) * camera.width / camera.height;
         }
         const double height = width * camera.height / camera.width;
-        // POV-Ray's picture has `direction` in its middle, which is not where the line of sight is.
+        // POV-Ray's `direction` points to the picture's middle, which may not be on the line of
+        // sight.
         const auto [sight_x, sight_y] = line_of_sight_in(camera);
         const Vec3 to_middle = width * (0.5 - sight_x / camera.width) * right +
                                height * (sight_y / camera.height - 0.5) * up;
@@ -97,13 +98,13 @@ private:
         if (setup_.on(Effects::aperture)) note("the lens: the picture is that of a pinhole");
     }
 
-    // Distant lights add up: a function of the direction for each channel, or one for all.
+    // Distant lights add up: one function of the direction per channel, or one for all.
     struct Term {
         std::string shape;  // 0..1; empty: 1
         Rgb radiance{};
     };
 
-    // Of a distant light: its share of the radiance from each direction, as a function.
+    // A distant light's radiance by direction, relative to its maximum, as a function.
     static std::string cosine(const Vec3& d) {
         return fmt::format("({})*x + ({})*y + ({})*z", d.x, d.z, d.y);
     }
@@ -145,7 +146,7 @@ private:
         if (grey) {
             sky_channel(terms, 0, {1, 1, 1});
         } else {
-            // An average of three is the sum of their threefold.
+            // The average of three tripled colours is their sum.
             line("  average pigment_map {{");
             for (int c = 0; c < 3; ++c) {
                 Rgb unit{0, 0, 0};
@@ -172,7 +173,7 @@ private:
             line("    rgb 0");
             return;
         }
-        // A colour map ends at 1, where functions start anew from 0: half of it is used.
+        // A colour map ends at 1, where functions wrap to 0: use half of it.
         const double range = 2 * most;
         line("    function {{ ({}) / {} }}", sum, range);
         line("    color_map {{ [0 rgb 0] [1 {}] }}",
@@ -180,8 +181,8 @@ private:
     }
 
     void near(const SphereLight& sphere) {
-        // Seen from within a body POV-Ray 3.7 reflects nothing inside a second one: a dome round
-        // the camera is turned inside out, so that the camera is outside.
+        // Seen from inside a body, POV-Ray 3.7 renders no reflections inside a second one. A dome
+        // around the camera is inverted, so that the camera counts as outside.
         const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
         line("sphere {{ {}, {} {}{} }}", povray_vector(scale_ * sphere.center),
              scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
@@ -202,7 +203,7 @@ private:
             throw InputError(
                 "a plane light whose back is towards the camera cannot be carried to POV-Ray");
         }
-        // From behind it is not there: clear, which in POV-Ray takes up a level.
+        // Its back is invisible: transparent, which uses up a level in POV-Ray.
         std::string back;
         if (lowest < 0) {
             back = " interior_texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }";
@@ -213,8 +214,7 @@ private:
                  scale_ * glm::dot(plane.point, plane.normal), glowing(plane.radiance), back);
             return;
         }
-        // A mesh's front is where its corners run counter-clockwise; in the mirrored frame, where
-        // they ran clockwise.
+        // A mesh's front has counter-clockwise corners; they were clockwise before mirroring.
         const Vec3 &u = *plane.u, &v = *plane.v;
         const bool swap = glm::dot(glm::cross(u, v), plane.normal) > 0;
         const Vec3 corners[4] = {plane.point - u - v, plane.point + u - v, plane.point + u + v,
@@ -258,7 +258,7 @@ private:
             line("  interior {{ ior {} }}", ior);
             return;
         }
-        // As a medium, because POV-Ray's fade_distance spares the partly reflected rays.
+        // Use a medium, because POV-Ray's fade_distance does not attenuate partly reflected rays.
         Rgb absorption = optics.absorption;
         for (double& value : absorption) value /= scale_;
         line("  hollow interior {{ ior {} media {{ absorption {} }} }}", ior,

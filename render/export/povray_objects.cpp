@@ -28,7 +28,7 @@ struct ShapeText {
                            povray_vector(s.normal), scale * s.radius);
     }
     std::string operator()(const BoxShape& s) const {
-        // The matrix's rows are where x, y and z go; in the mirrored frame y and z change places.
+        // The matrix's rows are the images of x, y and z; the mirrored frame swaps y and z.
         const Vec3 half = scale * s.half;
         return fmt::format(
             "box {{ {0}, {1} matrix <{2}, {3}, {4}, {5}, {6}, {7}, {8}, {9}, {10}, {11}, {12}, "

@@ -1,5 +1,5 @@
 #pragma once
-// Pieces of a POV-Ray scene: numbers, and the objects around the stone.
+// Parts of a POV-Ray scene: numbers, and the objects around the stone.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace culet {
 
-/// POV-Ray's frame is left-handed with y up: y and z change places.
+/// Swaps y and z: POV-Ray's frame is left-handed with y up.
 std::string povray_vector(const Vec3& v);
 std::string povray_colour(const Rgb& rgb);
 
-/// One object; lengths times `scale`. What it does not carry is added to `notes`: diffuse surfaces
-/// are lit by POV-Ray's light_source alone, which no light here becomes, and metals reflect at all
-/// angles what they do at normal incidence, unblurred.
+/// One object, with lengths times `scale`. Adds what is lost to `notes`: only POV-Ray's
+/// light_source lights diffuse surfaces, and no light here becomes one; metals have their
+/// reflectance at normal incidence at all angles, without blur.
 std::string povray_object(const SceneObject& object, double scale, double immersion,
                           std::vector<std::string>& notes);
 

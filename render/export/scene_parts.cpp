@@ -14,9 +14,9 @@ namespace culet {
 
 namespace {
 
-// Other renderers hold corners in single precision: nearer ones are one.
+// Other renderers hold corners in single precision; nearer ones coincide.
 constexpr double k_single_precision = 1e-7;
-// Where the scene names no wavelength: enough for colours, and quick.
+// Default wavelengths: enough for colours, and fast.
 const std::vector<double> k_colour_nodes{450, 500, 550, 610, 650};
 
 }  // namespace
@@ -56,7 +56,7 @@ TriangleMesh triangles_of(const Solid& solid) {
 
 TriangleMesh triangles_of(const BoxShape& box) {
     TriangleMesh mesh;
-    // A corner's number has a bit for each axis along which it is farther out.
+    // Bit k of a corner's number is set if it is farther out along axis k.
     for (int k = 0; k < 8; ++k) {
         Vec3 corner = box.center;
         for (int axis = 0; axis < 3; ++axis)
@@ -65,7 +65,7 @@ TriangleMesh triangles_of(const BoxShape& box) {
     }
     mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    // Left-handed axes turn it inside out.
+    // Left-handed axes would turn the mesh inside out.
     if (glm::dot(glm::cross(box.axes[0], box.axes[1]), box.axes[2]) < 0) {
         for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
     }

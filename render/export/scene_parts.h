@@ -1,5 +1,5 @@
 #pragma once
-// What the writers of scenes for other renderers share. Lengths in the stone's unit.
+// Shared by the writers of scenes for other renderers. Lengths in the stone's unit.
 
 #include <array>
 #include <optional>
@@ -12,56 +12,58 @@
 
 namespace culet {
 
-/// A scene in the language of another renderer, and the files that it names.
+/// A scene in another renderer's language, and the files that it refers to.
 struct ExportedScene {
     std::string text;
-    std::vector<std::string> notes;  ///< what of the scene is not in it, one line each
-    std::vector<std::pair<std::string, std::string>> meshes;     ///< names beside it, and texts
-    std::optional<std::pair<std::string, Picture>> environment;  ///< name, and the distant lights
+    std::vector<std::string> notes;                           ///< what was left out, one line each
+    std::vector<std::pair<std::string, std::string>> meshes;  ///< file names beside the scene,
+                                                              ///< and texts
+    std::optional<std::pair<std::string, Picture>> environment;  ///< file name, and the distant
+                                                                 ///< lights
 };
 
-/// Sizes of the scene: as far as an infinite plane reaches where there is none.
+/// Extent of infinite planes in renderers without them, in sizes of the scene.
 inline constexpr double k_far_away = 1000;
 
-/// Once.
+/// Adds the note unless it is there already.
 void add_note(std::vector<std::string>& notes, const std::string& note);
 
-/// Throws InputError for what no other renderer has: conoscopes, what stands before the eye,
+/// Throws InputError for what no other renderer supports: conoscopes, optics before the eye,
 /// polarised lights.
 void refuse_instruments(const Scene& scene, const std::string& program);
 
-/// What the renderer draws of a stone: of a convex one the planes, whose corners are computed anew
-/// where they lie off them by more than single precision shows.
+/// The stone as culet draws it. For a convex one its planes count, and corners are recomputed if
+/// they are farther off them than single precision shows.
 Solid drawn_solid(const Stone& stone);
 
 /// Counter-clockwise from outside.
 TriangleMesh triangles_of(const Solid& solid);
 TriangleMesh triangles_of(const BoxShape& box);
 
-/// Of the stone, or how far the eye is from what it looks at.
+/// Size of the stone, or else the distance from the eye to the point that it looks at.
 double size_of(const Scene& scene);
 
-/// The picture's axes: where the line of sight goes, and unit vectors to the right and up.
+/// The camera's axes: the direction of the line of sight, and unit vectors right and up.
 struct CameraAxes {
     Vec3 forward, right, up;
 };
 CameraAxes axes_of(const Camera& camera);
 
-/// Half-extents of a rectangle, or two unit vectors, whose cross product is along a normal.
+/// Half-extents of a rectangle, or two unit vectors; u x v is along the normal.
 struct InPlane {
     Vec3 u, v;
 };
-/// Any two unit vectors in the plane of that normal (unit).
+/// Two unit vectors in the plane of the unit `normal`.
 InPlane in_plane(const Vec3& normal);
-/// Of a light: infinite ones end `far` away.
+/// Of a light; infinite ones end at the distance `far`.
 InPlane extent_of(const PlaneLight& plane, double far);
 
-/// What RGB the lights of a scene have for a renderer that knows no more.
+/// Converts the colours of lights to RGB, for renderers without spectra.
 class LightRgb {
 public:
     explicit LightRgb(const Scene& scene);
     bool one_wavelength() const { return one_wavelength_; }
-    /// `notes`: that a spectrum is its colour only.
+    /// Adds a note if only the colour of a spectrum is kept.
     Rgb of(const LightColour& light, std::vector<std::string>& notes) const;
 
 private:
@@ -69,16 +71,16 @@ private:
     WavelengthSet colours_;
 };
 
-/// All lights but near ones, in linear light.
+/// All lights except near ones, in linear RGB.
 class DistantLights {
 public:
-    /// `lights` must outlive this. `notes`: as LightRgb::of.
+    /// `lights` must outlive this. `notes`: as in LightRgb::of.
     DistantLights(const Lights& lights, const LightRgb& rgb, std::vector<std::string>& notes);
-    /// The same from everywhere.
+    /// True if the light is the same from everywhere.
     bool is_even() const;
-    /// A light ends within a texel of a map.
+    /// True if a light has a sharp edge, which a map's texels blur.
     bool has_edges() const;
-    /// From a direction (unit, towards the light).
+    /// Radiance from a direction (unit, towards the light).
     Rgb from(const Vec3& direction) const;
 
 private:
@@ -91,8 +93,8 @@ private:
     std::vector<Part> parts_;
 };
 
-/// A picture of the distant lights, each texel the mean over 4 x 4 places in it. `direction`: the
-/// unit vector at a place of the picture, column 0..width, row 0..height.
+/// Map of the distant lights; each texel is the mean over 4 x 4 points. `direction`: unit vector at
+/// a place of the map, column 0..width, row 0..height.
 template <class DirectionAt>
 Picture distant_light_map(const DistantLights& lights, int width, int height,
                           const DirectionAt& direction) {
@@ -115,7 +117,7 @@ Picture distant_light_map(const DistantLights& lights, int width, int height,
     return map;
 }
 
-/// "scene" of "my scene.xml" as a name without blanks and signs, for files beside it.
+/// "scene" from "my scene.xml": a stem without blanks and signs, for files beside it.
 std::string plain_stem(const std::string& stem);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// What writes scenes for other renderers, line by line. Private to the folder.
+// Base of the writers of scenes for other renderers. Private to this folder.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ protected:
     void note(const std::string& text) { add_note(result_.notes, text); }
     Rgb rgb_of_light(const LightColour& light) { return lights_.of(light, result_.notes); }
 
-    /// near(light), stone(stone) and object(object) of `writer`.
+    /// Calls near(light), stone(stone) and object(object) of `writer`.
     template <class Writer>
     void everything_by(Writer& writer) {
         for (const Light& light : scene_.lights.sources) {
@@ -45,7 +45,7 @@ protected:
     ExportedScene result_;
 };
 
-/// Where a renderer has no infinite planes.
+/// Note for renderers without infinite planes.
 inline constexpr const char* k_planes_end =
     "infinite planes: they end 1000 sizes of the stone away";
 inline constexpr const char* k_black_behind =

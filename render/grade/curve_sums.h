@@ -11,7 +11,7 @@
 
 namespace culet {
 
-// Mean and sum of squares as they come (Welford 1962).
+// Running mean and sum of squares (Welford 1962).
 struct Running {
     double mean = 0, squares = 0;
     int count = 0;
@@ -27,7 +27,7 @@ struct Running {
     }
 };
 
-// A curve's sigma varies slowly: so many of its tilts tell it.
+// Number of tilts at which sigma is estimated: it varies slowly along a curve.
 inline constexpr std::size_t k_drawn_tilts = 7;
 
 inline std::vector<std::size_t> drawn_tilts(std::size_t count) {
@@ -38,7 +38,7 @@ inline std::vector<std::size_t> drawn_tilts(std::size_t count) {
     return drawn;
 }
 
-// Of every model, whole stone and table, at every drawn tilt about every axis.
+// Sums for every model, whole stone and table, at every drawn tilt about every axis.
 class CurveSums {
 public:
     CurveSums(std::size_t axes, std::size_t tilts) : sums_(axes, std::vector<Sums>(tilts)) {}
@@ -55,7 +55,7 @@ public:
         }
     }
 
-    // At the tilts that were drawn; NaN elsewhere.
+    // Sigmas at the drawn tilts; NaN elsewhere.
     std::vector<TiltCurve> sigmas(const GradeOptions& options,
                                   const std::vector<std::size_t>& drawn) const {
         ViewReturn unknown;

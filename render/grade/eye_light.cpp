@@ -12,17 +12,17 @@ namespace culet {
 
 namespace {
 
-// The picture is a plane to measure in; its pixels mean nothing.
+// Size of the plane on which outlines are measured; its pixels have no meaning.
 constexpr int k_picture = 1000;
 constexpr double k_room_around = 1.05;
-// Outlines that are made between two questions whether to go on: about a millisecond.
+// Number of outlines made between calls of `goes_on`: about a millisecond.
 constexpr std::size_t k_outlines = 1000;
 
 Vec3 refracted_out(const Vec3& d, const Vec3& normal, double n, double cosine, double q_out) {
     return glm::normalize(n * d + (q_out - n * cosine) * normal);
 }
 
-// One beam's face: what leaves and what stays.
+// Splits a beam at a face.
 void meet_face(const Plane& plane, double n, EyeExit& exit, double weight) {
     const double cosine = std::clamp(glm::dot(exit.inside, plane.normal), 0.0, 1.0);
     const FaceReflection face = mean_reflection(n, 1, n * cosine);
@@ -35,7 +35,7 @@ double cross(const ScreenPoint& o, const ScreenPoint& a, const ScreenPoint& b) {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-// Andrew's monotone chain (1979): counter-clockwise.
+// Andrew's monotone chain (1979), counter-clockwise.
 std::vector<ScreenPoint> convex_hull(std::vector<ScreenPoint> points) {
     if (points.size() < 3) return points;
     std::sort(points.begin(), points.end(), [](const ScreenPoint& a, const ScreenPoint& b) {
@@ -54,7 +54,7 @@ std::vector<ScreenPoint> convex_hull(std::vector<ScreenPoint> points) {
     return hull;
 }
 
-// Turns the leaves of a tree, which come in the order of a walk, into its nodes.
+// Converts the beam tree's leaves, in the order of a walk, to its nodes.
 class NodeCollector {
 public:
     NodeCollector(const FacetNet& net, const ScreenView& view, double n, bool regions,
@@ -76,7 +76,7 @@ private:
         const ScreenPoint* corners = branch.corners.data() + leaf.corner;
         const double area = 0.5 * pixel_area_ * doubled_area(corners, leaf.corners);
         EyeFront& front = light_.fronts[static_cast<std::size_t>(front_of_facet_[facets[0]])];
-        // Of the nodes that are open, those that the leaf lies in.
+        // Number of open nodes that contain this leaf.
         std::size_t common = 0;
         while (common < open_.size() && common + 1 < leaf.facets &&
                light_.exits[static_cast<std::size_t>(open_[common])].facet == facets[common + 1])
@@ -185,7 +185,7 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
     BeamLimits beam_limits;
     beam_limits.depth = limits.faces;
     beam_limits.cut_weight = limits.cut_weight;
-    // Exact for an eye infinitely far away: one direction a front facet.
+    // Exact for an eye infinitely far away: one direction per front facet.
     beam_limits.refraction = Refraction::parallel;
     BeamTree tree;
     const auto goes_on = [&](long long) { return !goes_on_ || goes_on_(); };
@@ -195,7 +195,7 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
         if (!goes_on(0)) throw Interrupted();
         collector.add_branch(tree.branches[i]);
     }
-    // What no beam covers, by rounding, was not followed.
+    // Area that no beam covers, by rounding, counts as not followed.
     std::vector<double> covered(light.fronts.size(), 0);
     for (const EyeExit& exit : light.exits) {
         if (exit.parent < 0) covered[static_cast<std::size_t>(exit.front)] += exit.area;
@@ -204,7 +204,7 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
         EyeFront& front = light.fronts[i];
         if (covered[i] > 0) front.residual += (1 - front.reflectance) * (front.area - covered[i]);
     }
-    // From pixels to the plane through the origin.
+    // Convert pixels to the plane through the origin.
     const Vec3 corner = view.origin({0, 0});
     const ScreenPoint shift{glm::dot(corner, light.right), glm::dot(corner, light.up)};
     for (std::size_t i = 0; i < light.regions.size(); ++i) {

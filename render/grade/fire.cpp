@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-// Exits by the sequence of facets that leads to them.
+// Finds exits by their sequence of facets.
 class ExitIndex {
 public:
     explicit ExitIndex(const EyeLight& light) : fronts_(light.fronts.size()) {
@@ -23,7 +23,7 @@ public:
             children_.emplace(key(exit.parent, exit.front, exit.facet), static_cast<int>(i));
         }
     }
-    /// -1: there is none.
+    /// Returns -1 if there is none.
     int child(int parent, int front, int facet) const {
         const auto found = children_.find(key(parent, front, facet));
         return found == children_.end() ? -1 : found->second;
@@ -39,7 +39,7 @@ private:
     std::unordered_map<std::uint64_t, int> children_;
 };
 
-// Area that three convex, counter-clockwise outlines have in common.
+// Area common to three convex, counter-clockwise outlines.
 double common_area(RegionCutter& cutter, const std::vector<ScreenPoint>& a,
                    const std::vector<ScreenPoint>& b, const std::vector<ScreenPoint>& c) {
     if (a.size() < 3 || b.size() < 3 || c.size() < 3) return 0;

@@ -17,15 +17,15 @@ namespace culet {
 
 namespace {
 
-// Light that carries less than a thousandth after so many faces matters to no figure: the balance
-// tells what is left (residual).
+// After so many faces less than a thousandth of the light remains; the balance reports it
+// (residual).
 constexpr int k_balance_faces = 20, k_fire_faces = 10;
 constexpr int k_balance_rings = 2, k_fire_rings = 1;
 constexpr int k_dome_rings = 4, k_coarse_dome_rings = 2;
 constexpr int k_ring = 8, k_coarse_ring = 2, k_coarse_map = 300, k_coarse_fire_faces = 8;
-// Planes that miss their meets by 3e-4 of the width move the volume by no more than this.
+// Relative; planes that miss their meets by 3e-4 of the width change the volume by no more.
 constexpr double k_same_volume = 5e-3;
-// GemRay's girdle: `facettype`.
+// Level facets, as in GemRay's `facettype`.
 constexpr double k_level = 1e-4;
 
 double mean_index(const Material& material, double nm) {
@@ -33,13 +33,13 @@ double mean_index(const Material& material, double nm) {
     const int rays = ray_count(material.optic);
     for (int ray = 0; ray < rays; ++ray)
         sum += material.index[static_cast<std::size_t>(ray)].at(nm);
-    // Of a uniaxial crystal two of three principal rays are ordinary.
+    // In a uniaxial crystal two of three principal rays are ordinary.
     if (rays == 2) return (sum + material.index[0].at(nm)) / 3;
     return sum / rays;
 }
 
-// A convex stone is: nothing of it stands above a plane, and it fills what they bound, to as much
-// as meets of real designs miss.
+// True for a convex stone: no corner is above a plane, and it fills the planes' body, within the
+// misses of real designs' meets.
 bool is_what_its_planes_bound(const Solid& solid) {
     const double miss = k_largest_miss * diameter(solid);
     for (const Facet& facet : solid.facets) {
@@ -58,7 +58,7 @@ void require_gradable(const Solid& solid, const GradeIndex& index) {
     if (!(index.n > 1) || !std::isfinite(index.n)) {
         throw InputError(fmt::format("a stone's refractive index is above 1, found {:g}", index.n));
     }
-    // Beams know planes alone: outlines may cross themselves by the rounding of near meets.
+    // Beams use planes only, so outlines may cross themselves by the rounding of near meets.
     const std::vector<Fault> faults =
         find_faults(solid, {.planarity = k_largest_miss, .must_be_convex = false});
     for (const Fault& fault : faults) {
@@ -91,7 +91,7 @@ LightBalance operator*(double factor, LightBalance b) {
     return b;
 }
 
-// Tells progress from all threads, and asks it whether to go on.
+// Reports progress from all threads, and asks whether to go on.
 class Asking {
 public:
     explicit Asking(const Progress& progress) : progress_(progress) {}
@@ -112,7 +112,7 @@ private:
     std::mutex telling_;
 };
 
-// One thing to compute; all are independent of each other.
+// Independent parts of the work.
 struct Work {
     const Solid& solid;
     const GradeOptions& options;
@@ -149,7 +149,7 @@ struct Work {
         const EyeLight light = tracer.trace({0, 0, -1}, grade.index.n, {.regions = true});
         grade.hearts = find_hearts(scope_map(light, reflector_bands(true), map_size()));
     }
-    // Weighted with the area across the axis that light along the direction falls on.
+    // Weighted with the horizontal area that light along the direction falls on.
     struct Cone {
         LightBalance balance;
         double area = 0;
@@ -177,7 +177,7 @@ struct Work {
     }
 };
 
-// Runs jobs on all threads; their order means nothing.
+// Runs jobs on all threads, in any order.
 void run_all(const std::vector<std::function<void()>>& jobs, Asking& asking) {
     asking.expect(jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
@@ -213,7 +213,7 @@ Vec3 eye_over_tilted(double tilt, double axis) {
 std::vector<Vec3> cone_directions(double half_angle, int rings, int each) {
     std::vector<Vec3> directions;
     for (int ring = 0; ring < rings; ++ring) {
-        // Rings of equal area of the disc of sines, each at the root of its mean square.
+        // Rings of equal area in the disc of sines, each at its root-mean-square radius.
         const double sine = std::sin(half_angle) * std::sqrt((ring + 0.5) / rings);
         for (int k = 0; k < each; ++k) {
             const double azimuth = 2 * std::numbers::pi * (k + 0.25 + 0.5 * (ring % 2)) / each;

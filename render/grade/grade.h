@@ -1,9 +1,9 @@
 #pragma once
-// What a cut does with light: figures of the trade from exact beams (docs/grade.md). Fractions of
-// the eye's light unless said otherwise; angles in radians.
+// Figures of the trade for a cut's optical performance, from exact beams (docs/grade.md). Fractions
+// of the eye's light unless noted; angles in radians.
 //
-// The stone is clear: its colour is its material's, not its cut's. A crystal is graded with the
-// mean of its principal indices, both waves going one way.
+// The stone is treated as clear, because colour belongs to the material, not to the cut. A crystal
+// is graded with the mean of its principal indices, both waves on one path.
 
 #include <array>
 #include <cstdint>
@@ -21,44 +21,44 @@
 
 namespace culet {
 
-/// At which the trade states indices.
+/// Wavelength at which the trade states indices.
 inline constexpr double k_grade_nm = k_d_line_nm;
-/// People may ask for tilts to this; nearer to 90 degrees nothing is seen through the crown.
+/// Largest tilt that may be requested; near 90 degrees nothing is visible through the crown.
 inline constexpr double k_most_tilt_deg = 85;
 
 struct GradeIndex {
     double n = 1.5;                             ///< at k_grade_nm
-    std::optional<std::array<double, 3>> fire;  ///< at k_fire_nm; none: no dispersion is known
+    std::optional<std::array<double, 3>> fire;  ///< at k_fire_nm; none: the dispersion is unknown
 };
 
-/// Of a crystal the mean of its principal indices. With `n` the indices are shifted to it; with
-/// neither material nor `n`: InternalError.
+/// For a crystal, the mean of its principal indices. `n` shifts the indices to it. Throws
+/// InternalError without material and `n`.
 GradeIndex grade_index(const Material* material, std::optional<double> n);
 
 struct GradeOptions {
     double head = radians(10);       ///< half angle of the viewer's head
     double view_cone = radians(64);  ///< of useful return
-    double light_cone = radians(7);  ///< of the light of balance and fire
+    double light_cone = radians(7);  ///< of the light for balance and fire
     std::vector<double> tilts;
-    /// Azimuths of the axes about which the stone is tilted: left-handed, as GemRay's tilts are.
+    /// Azimuths of the tilt axes. Rotations are left-handed, like GemRay's.
     std::vector<double> tilt_axes{0, radians(90)};
-    std::uint64_t seed = 1;  ///< of the uneven sky
-    int map_size = 600;      ///< points along a side of the maps of hearts and arrows
+    std::uint64_t seed = 1;  ///< of the random sky
+    int map_size = 600;      ///< points per side of the maps of hearts and arrows
     int threads = 0;
-    /// Fewer directions and points, for figures whose scatter over many stones is wanted.
+    /// Use fewer directions and points, for the figures' spread over many stones.
     bool coarse = false;
 };
 
-/// Every model about one axis.
+/// All models about one axis.
 struct TiltCurve {
     double axis = 0;
-    std::vector<ViewReturn> returns;  ///< by GradeOptions::tilts
+    std::vector<ViewReturn> returns;  ///< per GradeOptions::tilts
 };
 
 struct Grade {
     GradeIndex index;
     double silhouette_area = 0;  ///< face up, in square units of the solid
-    int table = -1;              ///< facet; -1: there is none
+    int table = -1;              ///< facet; -1: none
     ViewReturn face_up;
     std::vector<double> tilts;
     std::vector<TiltCurve> curves;
@@ -67,34 +67,37 @@ struct Grade {
     ScopeShares ideal_scope;
     double dark_field = 0;
     LightBalance balance;
-    double weighted_return = 0;  ///< GIA's, see light_return.h
-    /// Of a uniform hemisphere's light, what a black cone of the viewer's head takes away.
+    double weighted_return = 0;  ///< GIA's; see light_return.h
+    /// Part of a uniform hemisphere's light that a black cone of the viewer's head blocks.
     double head_shadow = 0;
     std::optional<Fire> fire;
     Hearts hearts;
     Arrows arrows;
 };
 
-/// Throws InputError for a stone that is not closed and convex, and for an index of 1 or less;
+/// Throws InputError for a stone that is not closed and convex, and for an index of 1 or less; and
 /// Interrupted. The result does not depend on the number of threads.
 Grade grade_stone(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
                   const Progress& progress = {});
 
-/// The same of a stone that is known to be closed and convex.
+/// The same for a stone known to be closed and convex.
 Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
                    const Progress& progress = {});
 
-/// Towards the eye, in the stone's frame, after the stone has turned by `tilt`, left-handed, about
-/// the level axis at `axis`: a positive tilt about x lifts the edge at -y, one about y that at +x.
+/// Direction to the eye in the stone's frame, after a left-handed rotation of the stone by `tilt`
+/// about the level axis at `axis`. A positive tilt about x lifts the edge at -y, one about y that
+/// at +x.
 Vec3 eye_over_tilted(double tilt, double axis);
 
-/// Directions of a cone round +z, as evenly as its cosine-weighted light: rings of so many each.
+/// Directions in a cone around +z, evenly spread for cosine-weighted light: `each` directions in
+/// each ring.
 std::vector<Vec3> cone_directions(double half_angle, int rings, int each);
 
-/// Directions of the hemisphere, rings of equal solid angle with so many each.
+/// Directions of the hemisphere: rings of equal solid angle with `each` directions.
 std::vector<Vec3> hemisphere_directions(int rings, int each);
 
-/// By facet: whether it looks up (crown and table), as light that leaves through it is the crown's.
+/// Per facet: whether it faces up (crown and table), so that light leaving through it counts as the
+/// crown's.
 std::vector<bool> crown_facets(const Solid& solid);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// The figures of a grade by name, as its JSON has them: what sigmas and comparisons are told of.
+// A grade's figures by name, as in its JSON, for sigmas and comparisons.
 
 #include <string>
 #include <vector>
@@ -10,12 +10,13 @@ namespace culet {
 
 struct GradeFigure {
     std::string name;   ///< "iso", "iso_table", "aset.red", "balance.leak", ...
-    std::string words;  ///< for people
+    std::string words;  ///< description for readers
     double value = 0;
-    bool percent = false;  ///< of light return; else a fraction, or degrees for `fire.spread_deg`
+    bool percent = false;  ///< of light return; otherwise a fraction, or degrees for
+                           ///< `fire.spread_deg`
 };
 
-/// Face up; what is not known of the stone (no table, no dispersion) is left out.
+/// Face-up figures; those that do not apply (no table, no dispersion) are left out.
 std::vector<GradeFigure> figures_of(const Grade& grade);
 
 }  // namespace culet

@@ -12,12 +12,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A billionth of a degree: what radians leave of whole degrees.
+// Rounds to a billionth of a degree, to hide the rounding of radians.
 double tidy_degrees(double radians_value) {
     return std::round(degrees(radians_value) * 1e9) / 1e9;
 }
 
-// Per cent; null where no stones were drawn.
+// Per cent; null if no stones were drawn.
 Json percents(const std::vector<ViewReturn>& views, std::size_t model, bool table) {
     Json list = Json::array();
     for (const ViewReturn& view : views) {

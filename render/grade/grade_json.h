@@ -1,5 +1,5 @@
 #pragma once
-// A grade as JSON for everyone (docs/grade.md).
+// A grade as JSON (docs/grade.md).
 
 #include <string>
 #include <vector>
@@ -10,21 +10,21 @@
 
 namespace culet {
 
-/// What a grade's JSON tells beside its figures.
+/// Information in a grade's JSON besides the figures.
 struct GradeContext {
     std::string name;  ///< of the stone
     std::string file;
-    std::string material;             ///< empty: an index alone
+    std::string material;             ///< empty: only an index was given
     bool crystal = false;             ///< graded with the mean of its indices
     std::vector<std::string> facets;  ///< names, for the costs
     GradeOptions options;
-    const GradeSigma* sigma = nullptr;  ///< none: no uncertainties are known
+    const GradeSigma* sigma = nullptr;  ///< null: unknown
     std::vector<FacetCost> costs;
     std::vector<std::string> notes;
-    std::vector<Change> changed;  ///< of the stone, against what was given
+    std::vector<Change> changed;  ///< changes made to the given stone
 };
 
-/// What is known of the stone itself; the rest is left to be filled in. `material`: none, nullptr.
+/// Fills in what the arguments tell; the caller adds the rest. `material` may be null.
 GradeContext grade_context(const Solid& solid, const Material* material,
                            const GradeOptions& options);
 

@@ -19,7 +19,7 @@ namespace culet {
 namespace {
 
 constexpr double k_least_cost = 0.005;  // per cent of light return
-// Facets stand evenly around the stone when none is off by more.
+// Largest azimuth error of facets that count as evenly spaced around the stone.
 constexpr double k_even = 3 * std::numbers::pi / 180;
 
 }  // namespace
@@ -58,8 +58,8 @@ GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeO
 
 namespace {
 
-// Where the facets of a tier would stand as one: mean inclination and distance, and, where they
-// stand evenly around the stone, even azimuths.
+// Evens out a tier: mean inclination and distance and, if the facets are evenly spaced around the
+// stone, even azimuths.
 std::vector<FacetAttitude> even_tier(const std::vector<FacetAttitude>& all,
                                      const std::vector<int>& facets) {
     std::vector<FacetAttitude> tier;
@@ -70,7 +70,7 @@ std::vector<FacetAttitude> even_tier(const std::vector<FacetAttitude>& all,
         offset += tier.back().offset / static_cast<double>(facets.size());
     }
     const double step = 2 * std::numbers::pi / static_cast<double>(facets.size());
-    // The phase of all facets together: the mean direction of what is left of each azimuth.
+    // Common phase of all facets: circular mean of the azimuths modulo the step.
     double x = 0, y = 0;
     for (const FacetAttitude& a : tier) {
         x += std::cos(a.azimuth * static_cast<double>(facets.size()));

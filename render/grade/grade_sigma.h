@@ -1,5 +1,5 @@
 #pragma once
-// How sure the figures of a grade are, and which facet costs how much light.
+// Uncertainties of a grade's figures, and the loss of light caused by each facet.
 
 #include <map>
 #include <string>
@@ -11,29 +11,29 @@
 namespace culet {
 
 struct GradeSigma {
-    std::map<std::string, double> figures;  ///< by the names of grade_figures.h
-    /// Of the grade's curves, at seven of its tilts; NaN at the others.
+    std::map<std::string, double> figures;  ///< by name, see grade_figures.h
+    /// Sigmas of the curves at seven of the grade's tilts; NaN at the others.
     std::vector<TiltCurve> curves;
     bool correlated = false;
     int draws = 0;
-    int left_out = 0;  ///< draws that were no stone
+    int left_out = 0;  ///< draws that bound no stone
 };
 
-/// Stones drawn from the uncertainty, graded face up; sigma is their standard deviation. Figures
-/// are continuous in the angles but for their edges, and bent where they are: draws tell what
-/// slopes would not. `draws` at least 2. Throws Interrupted.
+/// Grades stones drawn from the uncertainty, face up; sigma is their standard deviation. Figures
+/// are continuous but not smooth in the angles, so draws are more accurate than derivatives.
+/// `draws`: at least 2. Throws Interrupted.
 GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
                        const StoneUncertainty& uncertainty, int draws,
                        const Progress& progress = {});
 
-/// What one facet's departure from the others of its tier costs.
+/// Light lost because one facet differs from the others of its tier.
 struct FacetCost {
     int facet = 0;
-    double cost = 0;  ///< per cent of iso light return gained with the facet as its tier's mean
-    double off = 0;   ///< its inclination's departure from the tier's mean, radians
+    double cost = 0;  ///< gain of iso light return, per cent, if the facet followed its tier's mean
+    double off = 0;   ///< its inclination minus the tier's mean, radians
 };
 
-/// Of facets in tiers of two or more, the dearest first; what costs less than 0.005 is left out.
+/// Facets in tiers of two or more, largest cost first; costs below 0.005 are left out.
 std::vector<FacetCost> facet_costs(const Solid& solid, const GradeIndex& index,
                                    const GradeOptions& options);
 

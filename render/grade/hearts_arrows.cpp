@@ -10,22 +10,22 @@ namespace culet {
 namespace {
 
 constexpr double k_least_of_largest = 0.4;
-// Where heads, shafts and hearts lie, over the radius.
+// Where heads, shafts and hearts lie, relative to the radius.
 constexpr double k_shaft_from = 0.12, k_head_from = 0.55;
 constexpr double k_axis_from = 0.25, k_axis_to = 0.5, k_least_axis = 0.5;
 constexpr double k_hearts_from = 0.35, k_hearts_to = 0.92;
 constexpr double k_two_pi = 2 * std::numbers::pi;
 
 struct Polar {
-    double radius = 0;  // over the stone's
+    double radius = 0;  // relative to the stone's
     double azimuth = 0;
 };
 
 struct Patch {
     std::vector<int> points;
-    double area = 0;     // over the silhouette's
-    double radius = 0;   // of its middle, over the stone's
-    double azimuth = 0;  // of its middle
+    double area = 0;     // relative to the silhouette's
+    double radius = 0;   // of its centre, relative to the stone's
+    double azimuth = 0;  // of its centre
 };
 
 Polar polar_of(const ScopeMap& map, int at) {
@@ -41,7 +41,7 @@ double turned_into_range(double angle) {
     return angle;
 }
 
-// Connected by edges.
+// Points connect across edges.
 std::vector<Patch> patches_of(const ScopeMap& map, const std::function<bool(int)>& belongs) {
     const int count = map.size * map.size;
     std::vector<unsigned char> open(static_cast<std::size_t>(count), 0);
@@ -81,7 +81,7 @@ std::vector<Patch> patches_of(const ScopeMap& map, const std::function<bool(int)
     return patches;
 }
 
-// Those that are not much smaller than the largest, in order of azimuth.
+// Keeps those that are not much smaller than the largest, in order of azimuth.
 std::vector<Patch> large_ones(std::vector<Patch> patches) {
     double largest = 0;
     for (const Patch& patch : patches) largest = std::max(largest, patch.area);
@@ -104,7 +104,7 @@ double least_over_most(const std::vector<Item>& items, Value&& value) {
 }
 
 Heart heart_of(const ScopeMap& map, const Patch& patch) {
-    // How far out the patch reaches, by angle from its middle.
+    // The patch's outer reach, by angle from its centre.
     constexpr int k_bins = 90;
     constexpr double k_bin = std::numbers::pi / 180 / 2;  // half a degree
     std::vector<double> reach(2 * k_bins + 1, 0);
@@ -120,7 +120,7 @@ Heart heart_of(const ScopeMap& map, const Patch& patch) {
         most = std::max(most, polar.radius);
     }
     Heart heart{patch.azimuth, patch.area, high - low, 0};
-    // The middle of the cleft is the least reach in the middle half of the heart.
+    // The cleft is the least reach in the middle half of the heart.
     const int quarter = static_cast<int>(heart.width / k_bin / 4);
     int notch = k_bins;
     for (int bin = k_bins - quarter; bin <= k_bins + quarter; ++bin) {
@@ -137,7 +137,7 @@ Heart heart_of(const ScopeMap& map, const Patch& patch) {
     return heart;
 }
 
-// Of the line from the head towards the middle, where a shaft stands in a stone with arrows.
+// Dark part of the line from the head towards the middle, where an arrow has its shaft.
 double dark_share_of_axis(const ScopeMap& map, double azimuth,
                           const std::function<bool(int)>& dark) {
     constexpr int k_samples = 64;
@@ -160,8 +160,8 @@ Arrows find_arrows(const ScopeMap& map) {
         return map.inside[static_cast<std::size_t>(at)] != 0 &&
                map.brightest[static_cast<std::size_t>(at)] == ScopeBand::eye;
     };
-    // Head and shaft may touch, and shafts may in the middle: heads are patches, and a shaft is
-    // what is dark between a head and the middle.
+    // Heads and shafts may touch, and shafts may touch in the middle. So heads are patches, and a
+    // shaft is the dark area between a head and the middle.
     const std::vector<Patch> heads = large_ones(patches_of(
         map, [&](int at) { return dark(at) && polar_of(map, at).radius >= k_head_from; }));
     Arrows arrows;

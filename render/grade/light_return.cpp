@@ -8,10 +8,10 @@ namespace culet {
 
 namespace {
 
-// From here on a facet is taken to face the eye (GemRay's `facettype`).
+// Cosine from which a facet counts as facing the eye (GemRay's `facettype`).
 constexpr double k_facing = 1e-4;
 
-// Adds what a share that leaves along `direction` brings in every model.
+// Adds the contribution of light that leaves along `direction` to every model.
 void add(LightReturn& sum, double share, const Vec3& direction, const EyeLight& light,
          double cos_head, const RandomSky& sky) {
     const double d = glm::dot(direction, light.towards_eye);

@@ -1,14 +1,15 @@
 #pragma once
-// How much of the light around it a stone returns to the eye, in the lights that the trade
-// computes with: GemRay's models (R. W. Strickland, GemRay 1.2.0, raytracer.cpp) and a light return
-// weighted as GIA's (Hemphill, Reinitz, Johnson and Shigley, Gems & Gemology 34 (1998) 158).
+// Light return under the trade's lighting models: GemRay's (R. W. Strickland, GemRay 1.2.0,
+// raytracer.cpp) and one weighted like GIA's (Hemphill, Reinitz, Johnson and Shigley, Gems &
+// Gemology 34 (1998) 158).
 //
-// With d the cosine between the line of sight and the direction that a share of the eye's light
-// leaves along; shares count where 0 < d <= cos(head), the viewer's head being black:
+// Let d be the cosine between the line of sight and the direction along which a part of the eye's
+// light leaves. Parts count if 0 < d <= cos(head); the viewer's head is black. The models' weights
+// are
 //   iso 1;  cos d;  sc2 2 d sqrt(1 - d^2);  random sc2 times an uneven sky with spots (RandomSky)
-// wlr counts d^2 where d > 0: no head, and nothing of what the outside of the stone reflects. It is
-// that of one line of sight; GIA's, of observers all around above the stone, is `weighted_return`.
-// The others count the outer reflection too.
+// wlr counts d^2 for d > 0, without the head and without reflection by the stone's outside. It is
+// for one line of sight; GIA's, for observers all around above the stone, is `weighted_return`. The
+// other models include the outer reflection.
 
 #include <array>
 #include <vector>
@@ -22,33 +23,33 @@ enum class LightModel { iso, cos, sc2, random, wlr };
 constexpr int k_light_model_count = 5;
 const char* name_of(LightModel model);
 
-/// By LightModel: 1 where all of the eye's light comes back to where the model is brightest
-/// (random: may be more).
+/// By LightModel. 1: all of the eye's light returns where the model is brightest (random may exceed
+/// 1).
 using LightReturn = std::array<double, k_light_model_count>;
 
 struct ViewReturn {
     LightReturn whole{};  ///< mean over the silhouette
-    LightReturn table{};  ///< over the table; 0 where it is not seen
+    LightReturn table{};  ///< over the table; 0 if the table is not visible
 };
 
 /// `table`: facet index, or -1. `head`: half angle, radians.
 ViewReturn light_return(const EyeLight& light, int table, double head, const RandomSky& sky);
 
-/// One direction's part in GIA's weighted light return: diffuse light from the hemisphere above
-/// the stone, what the hemisphere gets of it weighted with cos^2 of the angle to the vertical, what
-/// the outside reflects left out. Of all directions the sum of `returned` over that of `weight`.
+/// Contribution of one direction to GIA's weighted light return: diffuse light from the upper
+/// hemisphere, weighted with cos^2 of the exit angle to the vertical, without outer reflection. The
+/// result is the sum of `returned` over all directions divided by that of `weight`.
 struct WeightedReturn {
     double returned = 0, weight = 0;
 };
 WeightedReturn weighted_return(const EyeLight& light);
 
-/// Where a unit of the eye's light goes; the parts sum to 1. Fractions; crown: through facets that
-/// look up. Angles are to the line of sight.
+/// Balance of the eye's light, as fractions that sum to 1. The crown consists of the facets that
+/// face up. Angles are to the line of sight.
 struct LightBalance {
-    double useful = 0;  ///< out of the crown, between the head's cone and `view_cone`
-    double head = 0;    ///< out of the crown into the cone of the viewer's head
-    double other = 0;   ///< out of the crown beyond `view_cone`
-    double leak = 0;    ///< out of pavilion and girdle
+    double useful = 0;  ///< from the crown, between the head's cone and `view_cone`
+    double head = 0;    ///< from the crown into the cone of the viewer's head
+    double other = 0;   ///< from the crown beyond `view_cone`
+    double leak = 0;    ///< from pavilion and girdle
     double entry_reflection = 0;
     double residual = 0;  ///< not followed to the end
 };
@@ -58,7 +59,7 @@ struct BalanceCones {
     double view_cone = 0;
 };
 
-/// `crown`: by facet of the solid, whether it looks up.
+/// `crown`: per facet of the solid, whether it faces up.
 LightBalance light_balance(const EyeLight& light, const std::vector<bool>& crown,
                            const BalanceCones& cones);
 

@@ -19,9 +19,11 @@ namespace {
 using Point = glm::dvec2;
 
 constexpr int k_paths = 13, k_most_faces = 9;
-constexpr double k_least_side = 1e-6;  // of a normal in the section
-constexpr double k_outside = 0.35;     // drawn before and behind the stone, over its width
-constexpr double k_nudge = 1e-9;       // over the width: a path does not meet the side it is on
+constexpr double k_least_side = 1e-6;  // length of a normal's part in the section
+constexpr double k_outside = 0.35;     // drawn length of rays outside the stone, relative to its
+                                       // width
+constexpr double k_nudge = 1e-9;       // relative to the width: a path does not hit the side where
+                                       // it starts
 constexpr double k_leaves = 0.5;
 
 struct Side {
@@ -34,7 +36,7 @@ struct Polygon {
     std::vector<Side> sides;
 };
 
-// Sutherland and Hodgman's clipping (1974) of a large square.
+// Clips a large square (Sutherland and Hodgman 1974).
 Polygon section_of(const Solid& solid, const Vec3& along, const Vec3& middle, double size) {
     Polygon polygon;
     polygon.corners = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
@@ -64,7 +66,7 @@ struct Hit {
     Point normal{0, 0};
 };
 
-// Where a path inside leaves.
+// Where a path inside the stone leaves.
 std::optional<Hit> exit_of(const Polygon& polygon, const Point& from, const Point& d,
                            double least) {
     std::optional<Hit> nearest;
@@ -78,7 +80,7 @@ std::optional<Hit> exit_of(const Polygon& polygon, const Point& from, const Poin
     return nearest;
 }
 
-// Where a path from above meets the stone: the last of the sides that it enters.
+// Where a path from above hits the stone: the last of the sides that it enters.
 std::optional<Hit> entry_of(const Polygon& polygon, const Point& from, const Point& d) {
     double enters = 0, leaves = std::numeric_limits<double>::infinity();
     std::optional<Hit> last;
@@ -101,7 +103,7 @@ std::optional<Hit> entry_of(const Polygon& polygon, const Point& from, const Poi
     return last;
 }
 
-// `normal` against the light; into a medium of `n2`.
+// `normal` points against the light; `n2`: index beyond the face.
 Point refracted(const Point& d, const Point& normal, double n1, double n2) {
     const double cosine = -glm::dot(normal, d);
     const FaceReflection face = mean_reflection(n1, n2, n1 * std::clamp(cosine, 0.0, 1.0));

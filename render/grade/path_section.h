@@ -1,6 +1,6 @@
 #pragma once
-// Light paths as cutters draw them: an upright section through the stone's middle, and light from
-// straight above that is reflected by the section's sides.
+// Light paths as cutters draw them: in a vertical section through the stone's middle, with light
+// from straight above that the section's sides reflect.
 
 #include <array>
 #include <string>
@@ -27,9 +27,9 @@ struct PathSection {
     std::vector<SectionPath> paths;
 };
 
-/// Each path leaves where more than half of it does, and ends after nine faces at most. Sides that
-/// stand across the section are exact; others are drawn where they cut it, and reflect as if they
-/// stood across. `head`: half angle, radians.
+/// Each path leaves at the first side that transmits more than half of its light, and ends after
+/// nine faces at most. Sides perpendicular to the section are exact. Others are drawn where they
+/// intersect it, and reflect as if they were perpendicular. `head`: half angle, radians.
 PathSection path_section(const Solid& convex, double n, double head);
 
 /// {"azimuth_deg", "outline": [[x, y], ..], "paths": [{"points", "end"}]}

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double k_darkest = 0.2, k_spot_radiance = 15, k_spot_cosine = 0.999;
 
-// Not behind the viewer, not on the axes and diagonals, which symmetric stones would show as one.
+// Avoids spots behind the viewer, and on axes and diagonals, where symmetric stones would show them
+// as one.
 bool stands_free(const Vec3& d) {
     return std::abs(std::abs(d.x) - std::abs(d.y)) >= 0.1 && d.z >= 0.3 && d.z <= 0.94 &&
            !(d.y > -0.1 && std::abs(d.x) < 0.4) && std::abs(d.x) >= 0.05 && std::abs(d.y) >= 0.05;

@@ -1,6 +1,6 @@
 #pragma once
-// An uneven sky: GemRay's showcase light, with random numbers of our own (its own are those of the
-// C library, and differ from machine to machine).
+// An uneven sky: GemRay's showcase light, with reproducible random numbers (GemRay's are those of
+// the C library, which differ between machines).
 
 #include <array>
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace culet {
 
-/// 17 x 17 patches over the x and y of a direction, from 0.2 up, interpolated bilinearly, brighter
-/// for higher indices; and 20 round spots of 2.56 degrees' radius, 15 bright. Nothing straight up,
-/// where the viewer is, and nothing from below.
+/// 17 x 17 patches over the x and y of a direction, from 0.2 up, interpolated bilinearly and
+/// brighter for higher indices; and 20 round spots of radius 2.56 degrees and radiance 15. It is
+/// dark straight up, where the viewer is, and below.
 class RandomSky {
 public:
     RandomSky(std::uint64_t seed, double n);
-    /// `direction`: unit; z to the eye, x to its right, y up.
+    /// `direction`: unit; z towards the eye, x to its right, y up.
     double radiance(const Vec3& direction) const;
 
 private:

@@ -35,7 +35,7 @@ Frame frame_of(const EyeLight& light, int size) {
     return {0.5 * (low_x + high_x), 0.5 * (low_y + high_y), half, size};
 }
 
-// Calls `point` for every map point whose middle lies in the convex outline.
+// Calls `point` for every map point whose centre lies in the convex outline.
 template <class Point>
 void for_points_in(const Frame& frame, const std::vector<ScreenPoint>& outline, Point&& point) {
     if (outline.size() < 3) return;

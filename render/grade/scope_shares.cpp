@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// Shares by band, and what is left to 1, of what is seen through one facet (-1: all).
+// Sums by band of the light seen through one facet (-1: all), and the remainder to 1.
 struct BandSum {
     BandShares shares{};
     double left = 0;
