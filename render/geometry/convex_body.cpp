@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t k_block = 8;  // planes
 
-// Margin of confirmation, relative to the stone's size: far above the rounding of a point on a
-// facet, and small enough that almost no ray passes an edge so closely.
+// Margin of confirmation, relative to the stone's size: far above rounding, yet almost no ray
+// passes an edge so closely.
 constexpr double k_margin = 1e-9;
 // Farthest start of a ray, in sizes of the stone; beyond it rounding approaches the margin.
 constexpr double k_far = 1e5;
@@ -34,8 +34,7 @@ ConvexBody::ConvexBody(const Solid& solid) {
     find_near_planes(solid);
 }
 
-// Outline of a facet: a square in its plane clipped by all other planes. Empty if the facet is
-// redundant.
+// A square in the facet's plane, clipped by all other planes. Empty if the facet is redundant.
 std::vector<Vec3> ConvexBody::outline(int facet, const Vec3& middle, double reach) const {
     const Vec3& n = normal(facet);
     const Vec3 u = perpendicular_to(n), v = glm::cross(n, u);
@@ -100,7 +99,7 @@ void ConvexBody::find_near_planes(const Solid& solid) {
             four.facet[i] = facet;
         };
         if (loop.empty() || !whole) {
-            // This facet is never confirmed as a guess.
+            // Never confirmed as a guess.
             add({0, 0, 0}, -k_infinite, static_cast<int>(f));
             continue;
         }
@@ -130,7 +129,7 @@ bool ConvexBody::surely_on_facet(int facet, const Vec3& point) const {
     return std::min(least0[0], least0[1]) > margin_;
 }
 
-// Returns the one that a ray hits first, of a facet and the planes near it.
+// The first hit of a ray among a facet and the planes near it.
 int ConvexBody::nearest_about(int facet, const Vec3& origin, const Vec3& direction) const {
     const std::size_t f = static_cast<std::size_t>(facet);
     int nearest = facet;

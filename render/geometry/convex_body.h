@@ -20,8 +20,8 @@ struct BodyHit {
     double distance = 0;
 };
 
-/// How a ray from outside was answered last: the facet that it hit, or for a miss two planes in
-/// order: it left through one before it entered through the other.
+/// What answered the last ray from outside: the facet that it hit, or two planes that show a miss
+/// (it left through `left` before it entered through `entered`).
 struct EntryGuess {
     int facet = -1, left = -1, entered = -1;
 };
@@ -33,12 +33,12 @@ public:
 
     /// Facet through which a ray from outside enters; nothing if it misses or starts inside.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const;
-    /// The same, but tries `last` first and updates it. That changes only the time.
+    /// The same, but tries `last` first and updates it; changes only the time.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction, EntryGuess& last) const;
     /// Facet through which a ray from inside leaves: the nearest of the planes that it runs
-    /// towards, and the first of equally near ones. A start that rounding put outside a plane
-    /// counts as on it, so a corner becomes two hits. The facet just left is ignored, because the
-    /// ray runs away from it. `guess` is tried first, e.g. a neighbouring ray's facet (-1: none).
+    /// towards, the first of equally near ones. A start that rounding put outside counts as on the
+    /// plane, so a corner becomes two hits. The facet just left is ignored, because the ray runs
+    /// away from it. `guess` is tried first (-1: none), e.g. a neighbouring ray's facet.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int guess = -1) const;
 
     bool contains(const Vec3& point) const;
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    // Four of the planes near one facet; the last block is padded with planes that contain
+    // Four of the planes near a facet; the last block is padded with planes that contain
     // everything.
     using Two = double __attribute__((vector_size(16)));  // vector extension of g++ and clang, for
                                                           // any processor

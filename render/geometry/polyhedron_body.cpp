@@ -175,7 +175,7 @@ double PolyhedronBody::miss_of(std::size_t facet, const Vec3& origin, const Vec3
     return miss;
 }
 
-// Returns all crossings in order. The crossing of `from` gets distance 0 exactly.
+// All crossings in order; that of `from` gets distance 0 exactly.
 std::span<const LineCrossing> PolyhedronBody::trace(const Vec3& origin, const Vec3& direction,
                                                     int from) const {
     Scratch& work = scratch();
@@ -317,9 +317,9 @@ std::optional<BodyHit> PolyhedronBody::run(const Vec3& origin, const Vec3& direc
     return run_from_beside(origin, direction, from, inside, found);
 }
 
-// The ray does not pass through the facet on which it starts. Either its start is on the right
-// side, or rounding put it on the wrong side. In the latter case the shortest move back decides:
-// forwards, backwards, or sideways over the edge of a facet that it runs against.
+// The ray does not cross the facet where it starts. Its start is on the right side, or rounding put
+// it on the wrong one; then the shortest move back decides: forwards, backwards, or sideways over
+// the edge of a facet that it runs against.
 std::optional<BodyHit> PolyhedronBody::run_from_beside(
     const Vec3& origin, const Vec3& direction, int from, bool inside,
     std::span<const LineCrossing> crossings) const {

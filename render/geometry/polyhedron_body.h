@@ -39,13 +39,13 @@ public:
     /// starts inside.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const;
 
-    /// Facet through which a ray leaves that runs inwards from a point on facet `from` (-1: from
-    /// anywhere inside). A start that rounding put outside is moved in by the shortest way, so a
-    /// corner becomes two hits, the second at distance 0. Returns a facet for every start.
+    /// Facet where a ray leaves that runs inwards from a point on facet `from` (-1: from anywhere
+    /// inside). A start that rounding put outside is moved in by the shortest way, so a corner
+    /// becomes two hits, the second at distance 0. Returns a facet for every start.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const;
 
-    /// Facet through which a ray enters again that runs outwards from a point on facet `from` (-1:
-    /// from anywhere outside); nothing if it escapes. Corners as in `exit`.
+    /// Facet where a ray enters again that runs outwards from a point on facet `from` (-1: from
+    /// anywhere outside); nothing if it escapes. Corners as in `exit`.
     std::optional<BodyHit> reentry(const Vec3& origin, const Vec3& direction, int from) const;
 
     /// False on the surface; within rounding of it, either answer is possible.
@@ -55,8 +55,8 @@ public:
     /// Projects the point onto the facet's plane.
     Vec3 on_facet(int facet, const Vec3& point) const;
 
-    /// All crossings of the line, in both directions, ordered by distance. At equal distance
-    /// entering comes before leaving, then the lower facet. The steps sum to 0.
+    /// All crossings of the line, in both directions, by distance; at equal distance entering
+    /// before leaving, then the lower facet. The steps sum to 0.
     std::vector<LineCrossing> crossings(const Vec3& origin, const Vec3& direction) const;
 
 private:

@@ -25,7 +25,7 @@ struct Band {
     std::array<NodeWeights, 3> absorption{};
     /// Vacuum wavelength in the stone's unit of length.
     double wavelength = 1e-6 * k_d_line_nm;
-    /// Retardation, in the stone's unit of length, beyond which a crystal's two waves are followed
+    /// Retardation, in the stone's unit of length, beyond which a crystal's waves are followed
     /// separately: wavelength^2 / bandwidth. 0: always; infinite: monochromatic light.
     double coherence_length = 0;
 };

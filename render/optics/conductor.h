@@ -7,8 +7,7 @@
 
 namespace culet {
 
-/// Mean of s and p at the cosine of incidence. `n`, `k`: relative to the index outside; infinite k
-/// reflects all light.
+/// Mean of s and p. `n`, `k`: relative to the outside; infinite k reflects all.
 inline double conductor_reflectance(double n, double k, double cosine) {
     if (std::isinf(k)) return 1;
     // a + i b is the root of (n + i k)^2 - sin^2, and a^2 + b^2 the modulus of its square.

@@ -45,7 +45,7 @@ namespace {
 
 // Sine of the angle between N and the axis below which a x N is only rounding error.
 constexpr double k_parallel = 1e-15;
-// Sine below which a x N has lost a digit, so that the two waves' fields become inconsistent.
+// Sine below which a x N has lost a digit, so that the waves' fields are inconsistent.
 constexpr double k_beside = 0.1;
 
 // True if a x N is noise: N runs along the axis a.
@@ -60,14 +60,13 @@ Complex root_of(double squared) {
     return squared >= 0 ? Complex(std::sqrt(squared)) : Complex(0, std::sqrt(-squared));
 }
 
-// Returns a unit vector normal to the axis, determined by the face, for waves along the axis.
+// A unit vector normal to the axis, determined by the face.
 Vec3 beside_axis(const Vec3& axis, const Vec3& n) {
     const Vec3 from_face = glm::cross(axis, n);
     if (glm::dot(from_face, from_face) > 1e-6) return glm::normalize(from_face);
     return perpendicular_to(axis);
 }
 
-// Returns a vector normal to the axis and to N.
 Vec3 across(const Vec3& a, const Vec3& N, const Vec3& n) {
     Vec3 aN = glm::cross(a, N);
     if (along(aN, N)) aN = beside_axis(a, n);
@@ -269,13 +268,13 @@ CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode&
     }
     const double imbalance = balance(hit.amplitude, hit.out);
     if (imbalance == 2) {
-        // The ray lies in the face: nothing crosses, and it continues unchanged.
+        // The ray lies in the face and continues unchanged.
         hit.out = {};
         hit.amplitude = {};
         const std::size_t same = hit.modes[0].kind == incident.kind ? 0 : 1;
         hit.amplitude[same] = 1;
-        // The last digit of K may make its own reflection evanescent. Then the incident wave
-        // continues, mirrored at the face.
+        // The last digit of K may make its own reflection evanescent. Then reflect the incident
+        // wave.
         if (!hit.modes[same].propagates) {
             CrystalMode on = incident;
             on.ray = glm::normalize(on.ray - 2 * std::max(0.0, glm::dot(on.ray, n_out)) * n_out);

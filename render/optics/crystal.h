@@ -23,8 +23,8 @@ struct ComplexVec3 {
 
 enum class ModeKind : char { ordinary = 'o', extraordinary = 'e', slow = 's', fast = 'f' };
 
-/// A crystal of any optical class at one wavelength. It is uniaxial or isotropic if principal
-/// indices are equal to the last bit. An isotropic one still has two modes, with the same N.
+/// A crystal of any optical class at one wavelength. Principal indices equal to the last bit make
+/// it uniaxial or isotropic. An isotropic one still has two modes, of one N.
 class Crystal {
 public:
     /// `axes`: orthonormal; `n`: index of light that vibrates along each.
@@ -70,9 +70,9 @@ struct CrystalMode {
     double flux = 0;     ///< |S|
 };
 
-/// The two waves of tangential wave vector K at a face of unit normal n whose energy flows (or that
+/// The two waves of tangential wave vector K at a face of unit normal n that carry energy (or
 /// decay) towards +n: o and e, or slow and fast. If both have the same N (along an optic axis, or
-/// in an isotropic medium), the vibrations are an arbitrary pair.
+/// isotropic), their vibrations are arbitrary.
 std::array<CrystalMode, 2> modes_towards(const Crystal& crystal, const Vec3& K, const Vec3& n);
 
 /// Light from an isotropic medium enters the crystal, as s or p with unit normal flux.
@@ -83,7 +83,7 @@ struct CrystalEntry {
     std::array<std::array<double, 2>, 2> power{};  ///< |into|^2
     std::array<double, 2> reflected{};             ///< sum of |back|^2 over reflected s, p
     Vec3 s{0, 0, 0};                               ///< of the face
-    double imbalance = 0;                          ///< |sum of powers - 1| before normalisation
+    double imbalance = 0;                          ///< |sum of powers - 1|, then normalised
 };
 /// `n_into`: unit normal that points into the crystal; K: tangential wave vector, |K| <= n_outside.
 CrystalEntry enter_crystal(const Crystal& crystal, double n_outside, const Vec3& K,
@@ -98,7 +98,7 @@ struct CrystalHit {
     double transmitted = 0;              ///< sum of |out|^2
     Vec3 exit_direction{0, 0, 0};        ///< unit; valid when transmitted > 0
     Vec3 s{0, 0, 0};                     ///< of the face
-    double imbalance = 0;                ///< |sum of powers - 1| before normalisation
+    double imbalance = 0;                ///< |sum of powers - 1|, then normalised
 };
 /// `n_out`: unit outward normal; the incident mode's ray must run towards it. `K`: tangential part
 /// of its wave vector.
@@ -108,7 +108,7 @@ CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode&
                     const Vec3& n_out);
 
 /// Part of each principal Napierian intensity coefficient K_i in the absorption per length along
-/// the ray: alpha = sum_i share_i K_i with share_i = n_i |E_i|^2 / |S|. Exact to first order in the
+/// the ray: alpha = sum_i share_i K_i with share_i = n_i |E_i|^2 / |S|, to first order in the
 /// absorption per wavelength.
 std::array<double, 3> absorption_shares(const Crystal& crystal, const CrystalMode& mode);
 

@@ -56,13 +56,12 @@ struct EyeCoherency {
     }
 };
 
-/// Stokes parameters at the eye of unpolarised light of radiance 1 that arrives in the two waves.
+/// At the eye, for unpolarised light of radiance 1 in the two waves.
 inline Stokes stokes_of_unpolarised(const EyeCoherency& c) {
     return stokes_of(0.5 * c.xx.trace().real(), 0.5 * c.yy.trace().real(), 0.5 * c.xy.trace());
 }
 
-/// Stokes parameters at the eye of light given relative to the two waves' vibrations (S1 > 0 along
-/// wave 0, and so on).
+/// At the eye, for light given relative to the two waves' vibrations (S1 > 0 along wave 0, ...).
 inline Stokes stokes_of_light(const EyeCoherency& c, const Stokes& light) {
     const double j00 = 0.5 * (light[0] + light[1]), j11 = 0.5 * (light[0] - light[1]);
     const std::complex<double> j01(0.5 * light[2], 0.5 * light[3]);
@@ -72,8 +71,7 @@ inline Stokes stokes_of_light(const EyeCoherency& c, const Stokes& light) {
     return stokes_of(seen(c.xx).real(), seen(c.yy).real(), seen(c.xy));
 }
 
-/// Stokes parameters at the eye of linearly polarised light of radiance 1 with field (e0, e1) in
-/// the two waves.
+/// At the eye, for linearly polarised light of radiance 1 with field (e0, e1) in the two waves.
 inline Stokes stokes_of_linear(const EyeCoherency& c, double e0, double e1) {
     const Eigen::Vector2d e(e0, e1);
     return stokes_of((e.transpose() * c.xx * e)(0).real(), (e.transpose() * c.yy * e)(0).real(),

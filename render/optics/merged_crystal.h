@@ -5,9 +5,9 @@
 
 namespace culet {
 
-/// Both waves follow the path of the mean index (Guy & Soler 2004, 4.2); only their polarisation is
-/// split. They vibrate along the bisectors of the planes through the wave normal and the two optic
-/// axes (Biot and Fresnel).
+/// Both waves follow the mean index (Guy & Soler 2004, 4.2); only polarisation is split. They
+/// vibrate along the bisectors of the planes through the wave normal and the two optic axes (Biot
+/// and Fresnel).
 struct MergedCrystal {
     float optic_axis[2][3];          ///< unit vectors
     float inverse_square[2];         ///< half sum and half difference of 1/n^2, slow and fast
@@ -17,7 +17,7 @@ struct MergedCrystal {
     float coherence_per_length = 0;  ///< 1 / coherence length; 0: infinite
 };
 
-/// Returns it for one of the band's nodes. The band must have two waves.
+/// `band` must have two waves.
 MergedCrystal merged_crystal(const Band& band, int node);
 
 }  // namespace culet

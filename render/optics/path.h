@@ -24,27 +24,23 @@ public:
 struct PathLimits {
     const Obstacles* obstacles = nullptr;  ///< null: none
     int depth = 64;                        ///< depth d has d - 1 inner segments
-    double cut_weight = 0;  ///< paths of less weight are not followed, and their weight counts as
-                            ///< cut
-    /// Crystals: below this weight only one branch of a tree is followed, chosen with probability
-    /// proportional to its power, so the sum stays unbiased. 0: always both.
+    double cut_weight = 0;  ///< paths below it are not followed; their weight counts as cut
+    /// Crystals: below this weight one branch of a tree is followed, chosen by power, so the sum
+    /// stays unbiased. 0: always both.
     double split_weight = 0;
-    /// Largest number of hits of one eye ray that split in two; after them paths follow one branch
-    /// as above. Without this limit a tree of depth d has 2^d paths.
+    /// Most hits of one eye ray that split in two; later hits follow one branch as above. Without a
+    /// limit a tree of depth d has 2^d paths.
     int most_splits = 1 << 14;
-    /// Chosen branches below `cut_weight` play Russian roulette instead of being cut, which keeps
-    /// the sum unbiased.
+    /// Chosen branches below `cut_weight` play Russian roulette instead of being cut; unbiased.
     bool roulette = false;
     std::uint64_t seed = 0;  ///< of the random choices
-    /// All wavelengths make the same choices, so pictures at different wavelengths differ little
-    /// otherwise.
+    /// All wavelengths make the same choices, so that their pictures differ little otherwise.
     bool alike = false;
     bool polarised = true;  ///< false: every isotropic face uses the mean power of s and p
 };
 
-/// Estimates the variance of random choices. Every choice is estimated twice, independently and
-/// with half the weight. The squared difference of the two is an unbiased estimate of the variance
-/// of their sum. `seen`: the sum so far.
+/// Variance of random choices. Each is estimated twice, independently and with half the weight; the
+/// squared difference is an unbiased estimate of the variance of the sum. `seen`: the sum so far.
 class PairedEstimates {
 public:
     void begin(double seen) { start_ = seen; }
@@ -59,8 +55,8 @@ private:
     double start_ = 0, first_ = 0, variance_ = 0;
 };
 
-/// Facets hit by the eye ray, in order. Tracing is depth-first, so one array serves; beyond
-/// `length` stands an earlier path.
+/// Facets hit by the eye ray. Tracing is depth-first, so one array serves; beyond `length` is an
+/// earlier path.
 struct PathTrace {
     static constexpr int k_longest = 1024;
     std::array<int, k_longest> facets{};

@@ -17,7 +17,7 @@ public:
     /// In [0, 1).
     double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
-    /// Output function: a change of one input bit affects all output bits.
+    /// Output function; one changed input bit affects all output bits.
     static std::uint64_t mixed(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;

@@ -17,9 +17,9 @@ inline Stokes stokes_of(double xx, double yy, std::complex<double> xy) {
     return {xx + yy, xx - yy, 2 * xy.real(), 2 * xy.imag()};
 }
 
-/// Returns the nearest physical Stokes vector (S0 >= length of the polarised part) to a noisy
-/// estimate. This never moves the estimate away from the true value (projection onto a convex cone:
-/// Boyd & Vandenberghe 2004, 8.1).
+/// The physical Stokes vector (S0 >= length of the polarised part) nearest to a noisy estimate. It
+/// is never farther from the true value (projection onto a convex cone: Boyd & Vandenberghe 2004,
+/// 8.1).
 inline Stokes nearest_light(const Stokes& s) {
     const double polarised = std::hypot(s[1], s[2], s[3]);
     if (polarised <= s[0]) return s;

@@ -216,13 +216,12 @@ private:
 
 constexpr int k_most_steps = 60;
 
-// Farthest that Newton's method may move a root, relative to the quartic's scale. Eigenvalues of
-// the companion matrix have errors of the m-th root of rounding at an m-fold root: at most 1e-4 of
-// the scale, for m = 4. Newton's method has no slope there and may diverge to another root.
+// Farthest that Newton's method may move a root, relative to the quartic's scale. At an m-fold root
+// the companion matrix's eigenvalues are off by the m-th root of rounding, 1e-4 of the scale for m
+// = 4; there Newton's method has no slope and may go anywhere.
 constexpr double k_reach = 1e-3;
 
-// Difference of the two waves' N, relative to the birefringence, below which they run beside an
-// optic axis.
+// Waves whose N differ by less, relative to the birefringence, run beside an optic axis.
 constexpr double k_beside_axis = 1e-2;
 
 class WavePair {
@@ -250,9 +249,9 @@ public:
     }
 
 private:
-    // The common case: both waves travel, q > 0. Iterations with N fixed converge by a factor of
-    // the birefringence per step, and Newton's method finishes. If the two roots coincide (on an
-    // optic axis), Newton's method has no slope, so the fixed-N iterations continue.
+    // The common case: both waves travel, q > 0. Each iteration with N fixed gains a factor of the
+    // birefringence; Newton's method finishes, unless the roots coincide (on an optic axis), where
+    // it has no slope and the iterations continue.
     bool both_travel(std::array<CrystalMode, 2>& modes) const {
         for (int m = 0; m < 2; ++m) {
             const bool slow = m == 0;
@@ -289,8 +288,8 @@ private:
         return true;
     }
 
-    // Both waves decay, far enough beyond the critical angle for the fixed-N iteration to converge.
-    // Each branch takes the root nearest to its last one.
+    // Both waves decay, far enough beyond the critical angle for iterations with N fixed to
+    // converge. Each branch takes the root nearest to its last one.
     bool both_evanescent(std::array<CrystalMode, 2>& modes) const {
         if (!(equation_.Q2() < -4 * split_)) return false;
         const Complex start(0, std::sqrt(-equation_.Q2()));
@@ -315,8 +314,8 @@ private:
         return true;
     }
 
-    // Near grazing: finds all four waves at this K from the companion matrix of Fresnel's quartic
-    // in a scaled q, polishes each, and takes the two that go towards n.
+    // Near grazing: polishes all four waves of this K from the companion matrix of Fresnel's
+    // quartic in a scaled q, and takes the two towards n.
     void of_all_four(std::array<CrystalMode, 2>& modes) const {
         const std::array<double, 5> c = equation_.quartic();
         double scale = 0;

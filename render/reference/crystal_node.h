@@ -1,14 +1,14 @@
 #pragma once
-// One step of the tree that crystal_paths.h follows: what a facet makes of one or two waves.
+// One step of the tree of crystal_paths.h: what a facet makes of one or two waves.
 //
 // Inside the stone a node is one mode, or both modes of one K while they are coherent. Two modes
 // that leave a face together meet the next one at points x0, x1 with retardation G = (N1 - N0).x.
 // Beyond the coherence length of the band's light they become two nodes, each followed exactly.
 // Below it they stay one node: their coherency gets the phase 2 pi G / wavelength and the factor
 // sinc^2(pi G / coherence length), the mean over a triangular band, which reaches 0 where they
-// split. The node continues from the power-weighted means of their points and of their K. The mean
-// is exact if the two K are equal (isotropic stones, plates with parallel faces); otherwise its
-// error is of the order of the birefringence.
+// split. The node continues from the power-weighted means of their points and of their K: exact if
+// the two K are equal (isotropic stones, plates with parallel faces), otherwise off by the order of
+// the birefringence.
 
 #include <array>
 
@@ -32,8 +32,8 @@ struct CrystalNode {
     double power() const { return c.power(); }
 };
 
-/// Computes what a facet makes of a node: `inner` continues inside the stone, `outer` outside. Both
-/// start at inner.facet, and their powers sum to the arriving power less absorption.
+/// Splits a node at a facet: `inner` continues inside the stone, `outer` outside. Both start at
+/// inner.facet, and their powers sum to the arriving power less absorption.
 class CrystalSteps {
 public:
     /// Keeps references.
@@ -42,11 +42,11 @@ public:
     /// From outside, at node.at on `facet`.
     void meet_from_outside(const CrystalNode& node, int facet, CrystalNode& inner,
                            CrystalNode& outer);
-    /// Mode m of a node inside, alone. `absorbed`: power lost on the way, at each wavelength.
+    /// Mode m of a node inside, alone. `absorbed`: power lost on the way, per wavelength.
     void meet_alone(CrystalNode& node, int m, CrystalNode& inner, CrystalNode& outer,
                     NodeWeights& absorbed);
-    /// Both modes as one. Returns false, without any change, if they are not coherent or do not
-    /// meet the same facet.
+    /// Both modes as one. Returns false, without any change, if they are not coherent or meet
+    /// different facets.
     bool meet_together(CrystalNode& node, CrystalNode& inner, CrystalNode& outer,
                        NodeWeights& absorbed);
 

@@ -62,7 +62,7 @@ public:
     bool sampled() const { return splits_ > limits_.most_splits; }
     /// Faces hit so far, on all branches of all trees.
     long long events() const { return events_; }
-    /// Largest |sum of powers - 1| at a crystal's face before normalisation.
+    /// See CrystalSteps.
     double worst_imbalance() const { return steps_.worst_imbalance(); }
 
 private:
@@ -82,8 +82,8 @@ private:
         ++trace_.length;
     }
 
-    // Reports what leaves for good as an exit. Returns how many nodes go on (inside, or to meet the
-    // stone again); a single one is left in `inner`.
+    // Reports an exit for what leaves for good. Returns how many nodes go on (inside, or to meet
+    // the stone again); a single one is left in `inner`.
     int after_hit(CrystalNode& inner, CrystalNode& outer) {
         bool meets = false;
         if (outer.power() > 0) {
@@ -138,8 +138,8 @@ private:
         }
     }
 
-    // Follows the tree below a node, depth first; `node` is overwritten. Waiting nodes are on a
-    // list, not the call stack, because a tree may be as deep as a path is long.
+    // The tree below a node, depth first; overwrites `node`. Waiting nodes are on a list, not the
+    // call stack, because trees may be very deep.
     void follow(CrystalNode& node) {
         const std::size_t others = waiting_.size();
         CrystalNode first, second;
@@ -157,8 +157,8 @@ private:
         }
     }
 
-    // Two nodes go on: the second waits, or one is chosen, or two estimates are made of both.
-    // Returns 1 if `first` goes on, else 0.
+    // Of two nodes, `second` waits, or one is chosen, or two estimates are made. Returns 1 if
+    // `first` goes on, else 0.
     int branch(CrystalNode& first, CrystalNode& second) {
         if (choosing_) {
             choose(first, second);
@@ -178,8 +178,7 @@ private:
         return 0;
     }
 
-    // Chooses one of two with probability proportional to power; `first` gets it, with the weight
-    // of both.
+    // Chooses one by power; `first` gets it, with the weight of both.
     void choose(CrystalNode& first, CrystalNode& second) {
         const double power_first = first.power(), power_second = second.power();
         const double whole = power_first + power_second;

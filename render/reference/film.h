@@ -1,5 +1,5 @@
 #pragma once
-// The picture while it is made: each pixel as seen behind the eye's optics, in colour and, if
+// The picture while it is made: pixels as seen behind the eye's optics, in colour and, if
 // requested, per wavelength.
 
 #include <vector>
@@ -16,8 +16,8 @@ public:
     Film(const Scene& scene, const Camera& camera, const OpticalSetup& setup,
          const WavelengthSet& colours, int planes);
 
-    /// Writes pixel (x, y) of the window. `estimates[plane * nodes + node]` may be unphysical
-    /// Stokes parameters. Threads may write different pixels concurrently.
+    /// Writes pixel (x, y) of the window. The Stokes parameters `estimates[plane * nodes + node]`
+    /// may be unphysical. Different pixels may be written concurrently.
     void put(int x, int y, const PixelSums& sums, const double* estimates);
 
     /// Returns the finished picture; `noisy`: with its standard error.

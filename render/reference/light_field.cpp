@@ -42,7 +42,7 @@ struct LightField::Ready {
             },
             lights.sources[i]);
     }
-    // Returns the nearest near light; -1 for none.
+    // The nearest near light; -1 for none.
     int nearest(const Vec3& origin, const Vec3& direction, double& distance) const {
         int best = -1;
         distance = std::numeric_limits<double>::infinity();

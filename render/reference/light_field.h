@@ -5,8 +5,7 @@
 
 namespace culet {
 
-/// Near lights (spheres, planes) hide the distant ones behind them, and the nearest wins. Distant
-/// lights add up.
+/// Combines near and distant lights as lights.h says.
 class LightField : public Surroundings {
 public:
     LightField(const Lights& lights, const WavelengthSet& wavelengths);

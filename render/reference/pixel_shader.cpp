@@ -44,8 +44,8 @@ public:
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += end.transmitted[i] * seen[i];
     }
-    // The weight has mean 0, so any radiance is unbiased. The mean radiance reduces the noise most,
-    // and removes it in constant light.
+    // The weight has mean 0, so any radiance is unbiased. The mean radiance restores what was lost
+    // best, and exactly in constant light.
     void roulette(const NodeWeights& weight) {
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
@@ -157,7 +157,7 @@ void PixelShader::take_turns(int turns) {
     }
     std::sort(order.begin(), order.end());
     // Two halves, to estimate the error of few rays: the black and white squares of a chessboard.
-    // In each half, every stretch of that order takes one turn.
+    // In each, every stretch of that order takes one turn.
     turns_ = turns;
     turn_.assign(count, 0);
     half_.assign(count, 0);
@@ -297,8 +297,8 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
     }
     if (halved_ && sums.counted > 0)
         sums.halves_apart = (std::abs(apart[0]) + std::abs(apart[1]) + std::abs(apart[2])) / 6;
-    // With objects, every ray is random: the mean of two independent halves has a quarter of their
-    // difference's variance, including edges within the pixel.
+    // With objects every ray is random: the mean of two independent halves has a quarter of their
+    // difference's variance, edges within the pixel included.
     if (has_objects_ && halved_) sums.variance = 0.25 * luminance_apart * luminance_apart;
     return sums;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Draws one pixel of the reference renderer: eye rays, their light paths, and the sums over them.
+// One pixel of the reference renderer: eye rays, their light paths, and sums over them.
 
 #include <array>
 #include <functional>
@@ -14,15 +14,14 @@ namespace culet {
 /// A pixel's statistics. Weights are means over its samples and wavelengths.
 struct PixelSums {
     double hit = 0;  ///< part of the samples that hit the stone
-    /// Part of the samples in the means below: those that hit the stone, or all in scenes with
-    /// objects.
+    /// Part of the samples in the means below: those that hit the stone, or with objects, all.
     double counted = 0;
     double luminance = 0;  ///< from these samples, relative to the whole pixel
     double remainder = 0, absorbed = 0, cut = 0;
     double variance = 0;  ///< of the luminance, from paths chosen at random
     double radiance = 0;  ///< of pixels that contain the stone, mean of R, G and B
-    /// Half the difference of R, G and B between the means of every other ray and of the rest. It
-    /// estimates the error of the mean from having few rays.
+    /// Half the difference of R, G and B between the means of two halves of the rays; estimates the
+    /// error from having few rays.
     double halves_apart = 0;
     double worst_imbalance = 0;
     int deepest = 0;  ///< faces on the longest path that exits
@@ -32,7 +31,7 @@ struct PixelSums {
     PixelSums& operator+=(const PixelSums& more);
 };
 
-/// A thread's buffers, kept from pixel to pixel, and guesses from the last ray.
+/// A thread's buffers and guesses from the last ray, kept from pixel to pixel.
 struct PixelMemory {
     std::vector<double> stone, behind;
     EntryGuess entry;
@@ -43,7 +42,7 @@ struct PixelMemory {
 
 class PixelShader {
 public:
-    /// Keeps a reference to `prepared`, which must not change except for its limits (copied).
+    /// Keeps a reference to `prepared`, which must not change; its limits are copied.
     PixelShader(const Scene& scene, const PreparedScene& prepared, int samples);
 
     /// Planes in `stokes`: 1 (S0 only), or 4 if the setup needs all Stokes parameters.

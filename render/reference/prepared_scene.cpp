@@ -28,7 +28,7 @@ void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
     }
 }
 
-// Mean luminance of the stone's pixels in a small, shallow picture; 0 if no ray hits the stone.
+// Mean luminance of the stone's pixels in a small, shallow picture; 0 if no ray hits it.
 double pilot_mean(const Scene& scene, PreparedScene& prepared) {
     const PathLimits before = prepared.limits;
     prepared.limits.depth = 16;
@@ -83,15 +83,15 @@ void set_limits(const Scene& scene, PreparedScene& prepared) {
                                                   : settings.tolerance;
     limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
     limits.split_weight = std::max(k_split_weight, limits.cut_weight);
-    // Trees that branch play Russian roulette instead of being cut. It causes noise but no bias.
-    // The weight has a lower limit, because very bright lights would make it too expensive.
+    // Trees that branch play Russian roulette instead: noise, but no bias. The limit keeps very
+    // bright lights from making this as expensive as cutting.
     limits.roulette = branch;
     if (branch) limits.cut_weight = std::max(limits.cut_weight, k_roulette_weight);
 }
 
-// Finds the fewest wavelengths whose colours differ from the finest set's by less than the
-// tolerance, as a root mean square over some pixels relative to their mean. It uses paths of a few
-// faces, which carry most of the light.
+// Fewest wavelengths whose colours differ from the finest set's by less than the tolerance (root
+// mean square over some pixels, relative to their mean). Paths of a few faces suffice: they carry
+// most of the light.
 OpticalSetup setup_for_tolerance(const Scene& scene) {
     OpticalSetup setup = make_optical_setup(scene);
     if (!(scene.settings.tolerance > 0) || !chose_spectrum(scene, setup)) return setup;

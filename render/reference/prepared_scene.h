@@ -1,6 +1,6 @@
 #pragma once
-// A scene prepared for drawing: its optical setup, the surroundings at its wavelengths, and the
-// limits of paths. Engines and pilots draw from it.
+// A scene prepared for drawing by engines and pilots: its optical setup, the surroundings at its
+// wavelengths, and the limits of paths.
 
 #include <memory>
 
@@ -14,8 +14,8 @@ struct PreparedScene {
     /// Derives open settings from the scene's tolerance: as few wavelengths as colours allow, and
     /// the cut weight, relative to the mean of a small, shallow picture.
     explicit PreparedScene(const Scene& scene);
-    /// `nodes`: number of wavelengths if a spectrum is needed and the scene gives none. `limits`
-    /// stay, except for what the setup decides (polarised, roulette).
+    /// `nodes`: wavelengths if a spectrum is needed and the scene gives none. `limits` stay, except
+    /// for what the setup decides (polarised, roulette).
     PreparedScene(const Scene& scene, int nodes, const PathLimits& limits);
 
     /// Changes the camera; `anew` is its setup at the same wavelengths.
@@ -27,9 +27,9 @@ struct PreparedScene {
     PathLimits limits;
 };
 
-/// Limits of paths in scenes with objects. Their light is sampled at random, so what is cut must be
-/// less than the noise: a path stops at a tenth of the tolerance, relative to the light that it
-/// would see. Trees that branch play Russian roulette.
+/// Limits of paths with objects. Their light is sampled at random, and what is cut must be less
+/// than that noise: a tenth of the tolerance, relative to the light that a path would see. Trees
+/// that branch play Russian roulette.
 PathLimits limits_with_objects(const Scene& scene, const OpticalSetup& setup);
 
 }  // namespace culet

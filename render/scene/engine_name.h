@@ -1,6 +1,5 @@
 #pragma once
-// Names of engines. render/engines.cpp lists them all; the constants are those that the program
-// chooses or asks for itself.
+// Names of engines that the program chooses or asks for itself; render/engines.cpp lists all.
 
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@ inline constexpr const char* k_preview_engine = "preview";
 inline constexpr const char* k_raytable_engine = "raytable";
 inline constexpr const char* k_gpu_engine = "gpu";
 
-/// Returns every name that a scene may give, "auto" first.
+/// All names that a scene may give, "auto" first.
 std::vector<std::string> engine_names();
 
 }  // namespace culet

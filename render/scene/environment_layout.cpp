@@ -106,8 +106,7 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
     const double pitch_from = std::sqrt(four_pi / (static_cast<double>(source.rgb.size()) / 3));
     const double pitch_to = std::sqrt(four_pi / (static_cast<double>(to_map.rgb.size()) / 3));
 
-    // Light up to the limit: mean over an even grid of samples in the texel, weighted by solid
-    // angle.
+    // Light up to the limit: mean over an even grid in the texel, weighted by solid angle.
     const int steps = steps_for(pitch_to, pitch_from);
     for (int y = 0; y < to_map.height; ++y) {
         for (int x = 0; x < to_map.width; ++x) {
@@ -128,7 +127,7 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
                 to_map.rgb[at + c] = static_cast<float>(sum[c] / weight);
         }
     }
-    // Sampling changes the total by about a thousandth; scale it to the right total.
+    // Sampling is off by about a thousandth: scale it to the right total.
     Rgb base{};
     for (int y = 0; y < source.height; ++y) {
         for (int x = 0; x < source.width; ++x) {
@@ -143,7 +142,7 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
         if (sampled[i % 3] > 0)
             to_map.rgb[i] = static_cast<float>(to_map.rgb[i] * (base[i % 3] / sampled[i % 3]));
     }
-    // Bright lights: move every piece of a source texel, with its solid angle, to one target texel.
+    // Bright lights: move each piece of a source texel, with its solid angle, to one target texel.
     const int pieces = steps_for(pitch_from, pitch_to);
     std::vector<double> carried(to_map.rgb.size(), 0.0);
     for (int y = 0; y < source.height; ++y) {

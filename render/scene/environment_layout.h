@@ -10,7 +10,6 @@
 
 namespace culet {
 
-/// Returns the unit direction at a place of a lat-long map.
 Vec3 lat_long_direction(double column, double row, int width, int height);
 
 struct MapPlace {
@@ -33,8 +32,8 @@ double cube_solid_angle(int column, int row, int size);
 Rgb lat_long_energy(const EnvironmentMap& map);
 Rgb cube_energy(const EnvironmentMap& cube);
 
-/// Resamples by solid angle. Constant maps stay constant and the energy is kept, even of a sun of a
-/// single texel: what exceeds four times the mean is moved piece by piece, and the rest is sampled
+/// Resamples by solid angle. Constant maps stay constant, and the energy is kept even of a
+/// single-texel sun: light above four times the mean is moved piece by piece, the rest is sampled
 /// and scaled to its total.
 EnvironmentMap cube_of_lat_long(const EnvironmentMap& map, int size);
 EnvironmentMap lat_long_of_cube(const EnvironmentMap& cube, int width);

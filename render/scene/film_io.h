@@ -10,8 +10,8 @@ namespace culet {
 /// Throws InputError with file and line.
 PngLook read_film(const TomlTable& table);
 
-/// Angle of the pixel at the picture's middle, degrees, seen from the camera. A parallel view
-/// counts as 20 degrees from top to bottom.
+/// Degrees per pixel at the picture's middle, from the camera; a parallel view counts as 20 degrees
+/// high.
 double degrees_per_pixel(const Camera& camera);
 
 }  // namespace culet

@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// Two 64-bit FNV-1a hashes (Fowler, Noll, Vo) from different starts. Not safe against malice.
+/// Two 64-bit FNV-1a hashes (Fowler, Noll, Vo). Not safe against malice.
 class Fingerprint {
 public:
     void add(std::string_view text);
@@ -19,9 +19,9 @@ public:
     void add(const Vec3& v);
     void add(const std::vector<float>& values);
     void add(const std::vector<double>& values);
-    /// Adds everything that a picture of the scene depends on: all but the number of threads.
+    /// Everything that a picture depends on, so not the number of threads.
     void add(const Scene& scene);
-    /// Adds the stones, objects and lights, without the view and settings.
+    /// Stones, objects and lights, without the view and settings.
     void add_stone_and_light(const Scene& scene);
     void add(const Stone& stone);
     void add(const Solid& solid);

@@ -7,7 +7,7 @@ namespace culet {
 
 namespace {
 
-// The eye's distance in sizes of the stone: well outside. It does not change an orthographic view.
+// The eye's distance, in sizes of the stone; irrelevant for an orthographic view.
 constexpr double k_distance = 5;
 constexpr double k_along_view = 1e-9;
 

@@ -5,15 +5,13 @@
 
 namespace culet {
 
-/// Part of the picture's side that the outline spans, in the direction in which it fits more
-/// tightly.
+/// Part of the picture's side that the stone's outline spans, in the tighter direction.
 constexpr double k_framed_share = 0.85;
 
 enum class Facing { crown, pavilion };
 
-/// Makes `camera` orthographic, straight above or below the stone, with the stone framed. The
-/// picture size stays, and so does `up` unless it runs along the view: it becomes +y then. A solid
-/// without vertices changes nothing.
+/// Makes `camera` orthographic, straight above or below the framed stone. Keeps the picture size,
+/// and `up` unless it runs along the view (then +y). Does nothing for a solid without vertices.
 void frame_stone(const Solid& solid, Facing facing, Camera& camera);
 
 }  // namespace culet

@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// Adds to `notes` what it repaired or doubts. Throws InputError with file and line.
+/// `notes`: repairs and doubts. Throws InputError with file and line.
 Lights lights_of(const TomlTable& table, std::vector<std::string>& notes);
 
 }  // namespace culet

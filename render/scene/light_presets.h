@@ -1,6 +1,6 @@
 #pragma once
-// Lighting models with the trade's names. A preset consists of ordinary lights (scene.h), so
-// engines, fingerprints and exports need not know of presets.
+// Lighting models with the trade's names, made of ordinary lights (lights.h), so that engines,
+// fingerprints and exports need not know of presets.
 
 #include <optional>
 #include <string>
@@ -24,18 +24,17 @@ struct LightPreset {
     const char* summary;  ///< one line, for help and lists
     /// The trade views the pavilion in this light: a scene without a camera is seen from below.
     bool from_below;
-    /// Its colours have a meaning, so its pictures have exposure 1. Other pictures are exposed to
-    /// the stone.
+    /// Its colours have a meaning: its pictures have exposure 1, others are exposed to the stone.
     bool instrument;
 };
 
-/// Listed in the order of help texts.
+/// In the order of help texts.
 const std::vector<LightPreset>& light_presets();
-/// Returns null for an unknown name.
+/// Null for an unknown name.
 const LightPreset* find_light_preset(std::string_view name);
 
-/// Returns the lights of a preset; nothing for an unknown name. Pictures are in docs/gallery.md.
-/// Angles count from straight up (+z) unless noted.
+/// The lights of a preset; nothing for an unknown name. docs/gallery.md has pictures. Angles count
+/// from straight up (+z) unless noted.
 /// jeweller: a ring of light 12-40 degrees round the viewer's head, two windows, a dim room.
 /// daylight: an open sky that is brighter towards a hazy sun, the viewer's head, trees on the
 ///   horizon, dim ground.
@@ -51,7 +50,7 @@ const LightPreset* find_light_preset(std::string_view name);
 /// hearts: a reflector before the pavilion, 5-80 degrees from straight down.
 std::optional<Lights> light_preset(std::string_view name);
 
-/// Returns an error message for an unknown name: the nearest preset, and all of them.
+/// Error message for an unknown name, with the nearest preset and all of them.
 std::string no_light_preset(std::string_view name);
 
 }  // namespace culet

@@ -43,12 +43,12 @@ std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& 
 }
 
 DiscCosines cosines_of(const DiscLight& cap) {
-    // Full caps include their limits: a cap of 180 degrees covers all directions.
+    // Full caps include their limits: 180 degrees cover all directions.
     return {cap.from <= 0 ? 2.0 : std::cos(cap.from),
             cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to)};
 }
 
-// From inside it is the distance to the far side: a dome shines inwards.
+// From inside, the distance to the far side: a dome shines inwards.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
     const Vec3 to = sphere.center - origin;
     const double along = glm::dot(to, direction);
@@ -66,7 +66,7 @@ double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& dire
     if (!(towards < 0) || !(height > 0)) return std::numeric_limits<double>::infinity();
     const double distance = -height / towards;
     if (plane.u && plane.v) {
-        // The half-extents need not be perpendicular: solve for coordinates in their frame.
+        // The half-extents need not be perpendicular.
         const Vec3 at = origin + distance * direction - plane.point;
         const double uu = glm::dot(*plane.u, *plane.u), vv = glm::dot(*plane.v, *plane.v);
         const double uv = glm::dot(*plane.u, *plane.v), au = glm::dot(at, *plane.u),
@@ -145,7 +145,6 @@ void add_rims(const HemisphereLight& half, const Vec3&, double width, std::vecto
     rims.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
 }
 
-// The four sides.
 void add_rims(const PlaneLight& plane, const Vec3& from, double width, std::vector<Light>& rims) {
     width *= glm::length(plane.point - from);
     if (!plane.u || !plane.v) return;

@@ -1,10 +1,10 @@
 #pragma once
 // The light types. Lengths in the stone's unit, angles in radians.
 //
-// A light type has a name, its radiance (`distance_to` or `share_of` below), and its parts
-// (`each_part`, with which lights are turned and compared). Code that needs anything else of every
-// type (scene files, beams, exports, rims) uses std::visit, so that a forgotten type does not
-// compile. CONTRIBUTING.md lists these places.
+// A type has a name, a radiance (`distance_to` or `share_of` below) and parts (`each_part`, by
+// which lights are turned and compared). Everything else that depends on the type (scene files,
+// beams, exports, rims) uses std::visit, so that a forgotten type does not compile. CONTRIBUTING.md
+// lists these places.
 
 #include <memory>
 #include <optional>
@@ -21,16 +21,16 @@ namespace culet {
 /// Light that vibrates along one direction, as behind a polariser.
 struct LinearPolarisation {
     Vec3 vibration{1, 0, 0};  ///< unit
-    /// Normal of the polariser's sheet. An oblique ray vibrates along `vibration` turned by the
-    /// least rotation from the normal to the ray. None: along the projection of `vibration`.
+    /// Normal of the polariser's sheet. Oblique rays vibrate along `vibration` turned by the least
+    /// rotation from the normal to the ray. None: along its projection.
     std::optional<Vec3> normal;
     double degree = 1;  ///< 0..1 of the radiance; the rest is unpolarised
     /// Unit vibration of a ray that travels along or against the unit `direction`.
     Vec3 of_ray(const Vec3& direction) const;
 };
 
-/// Radiance of a light: a number (D65 white), a colour, or an illuminant by name ("D65", "A"). With
-/// a polariser, it is the radiance behind it.
+/// Radiance of a light (behind its polariser): a number (D65 white), a colour, or an illuminant by
+/// name ("D65", "A").
 struct LightColour {
     std::variant<double, Rgb, std::string> value = 1.0;
     std::optional<LinearPolarisation> polarisation = {};
@@ -44,7 +44,7 @@ struct EnvironmentMap {
     Rgb at(const Vec3& direction) const;
 };
 
-/// Shines outwards, and inwards too on what it contains (a dome).
+/// Shines outwards, and inwards on what it contains (a dome).
 struct SphereLight {
     static constexpr const char *k_name = "sphere", *k_names = "spheres";
     static constexpr bool k_is_near = true, k_has_edge = true;
@@ -98,8 +98,8 @@ struct DiscLight {
         visit.number(light.to);
     }
 };
-/// Emits on the side of its normal and is invisible from behind. Infinite, or a parallelogram with
-/// the half-extents `u`, `v` (vectors in the plane).
+/// Emits on the side of its normal; invisible from behind. Infinite, or a parallelogram with
+/// half-extents `u`, `v` in the plane.
 struct PlaneLight {
     static constexpr const char *k_name = "plane", *k_names = "planes";
     static constexpr bool k_is_near = true, k_has_edge = true;
@@ -116,7 +116,7 @@ struct PlaneLight {
     }
 };
 
-/// Listed in the order of help texts.
+/// In the order of help texts.
 using Light = std::variant<SphereLight, CosinePowerLight, HemisphereLight, DiscLight, PlaneLight>;
 
 struct Lights {
@@ -134,14 +134,13 @@ void for_each_light_type(F&& f) {
     }(static_cast<const Light*>(nullptr));
 }
 
-/// Returns the sources of one type, in order.
 template <class L, class AnyLights>
 auto lights_of_type(AnyLights& lights) {
     return lights.sources |
            std::views::filter([](const Light& light) { return std::holds_alternative<L>(light); }) |
            std::views::transform([](auto& light) -> auto& { return std::get<L>(light); });
 }
-/// Returns the n-th source of type L; it must exist.
+/// The n-th source of type L, which must exist.
 template <class L, class AnyLights>
 auto& nth_light(AnyLights& lights, std::size_t n) {
     auto of_type = lights_of_type<L>(lights);
@@ -165,7 +164,7 @@ bool polarised(const Lights& lights);
 /// Radiance at each wavelength node.
 std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths);
 
-/// A direction lies in the cap if the cosine of its angle to the cap's axis is in (to, from].
+/// A direction is in the cap if the cosine of its angle to the axis is in (to, from].
 struct DiscCosines {
     double from = 2, to = -2;
 };
@@ -179,8 +178,8 @@ double share_of(const CosinePowerLight& lobe, const Vec3& direction);
 double share_of(const HemisphereLight& half, const Vec3& direction);
 double share_of(const DiscLight& cap, const DiscCosines& cosines, const Vec3& direction);
 
-/// Adds lights that cover where this light's radiance jumps or falls steeply, `width` radians wide
-/// as seen from the point `from`. The search for small features samples along them.
+/// Adds lights that cover the places where this light's radiance jumps or falls steeply, `width`
+/// radians wide as seen from `from`. The search for small features samples along them.
 void add_rims(const DiscLight& cap, const Vec3& from, double width, std::vector<Light>& rims);
 void add_rims(const HemisphereLight& half, const Vec3& from, double width,
               std::vector<Light>& rims);

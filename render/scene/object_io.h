@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// Returns the objects in the order of the file, lengths in `unit` (the stone's). Throws InputError
-/// with file and line.
+/// Objects in the file's order, lengths in `unit` (the stone's). Throws InputError with file and
+/// line.
 std::vector<SceneObject> objects_of(const TomlTable& root, LengthUnit unit);
 
 }  // namespace culet

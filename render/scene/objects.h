@@ -1,6 +1,5 @@
 #pragma once
 // Objects around the stone: shapes and materials. Lengths in the stone's unit, angles in radians.
-// docs/rendering.md has the keys of scene files.
 
 #include <array>
 #include <memory>
@@ -56,8 +55,8 @@ struct DiffuseMaterial {
 struct MetalMaterial {
     static constexpr const char* k_name = "metal";
     SurfaceColour n, k;  ///< n + i k; unused if `f0` is set
-    /// Reflectance at normal incidence, 0..1. The index is then 1 + i k with k to match: at oblique
-    /// incidence this lies between real metals. 1 means an ideal conductor.
+    /// Reflectance at normal incidence, 0..1; the index is then 1 + i k. At oblique incidence this
+    /// lies between real metals. 1: an ideal conductor.
     std::optional<SurfaceColour> f0;
     /// 0: polished. Else GGX microfacets with alpha = roughness^2, as in glTF and Blender.
     double roughness = 0;
@@ -73,7 +72,7 @@ struct DielectricMaterial {
     double index = 1.5;
     SurfaceColour absorption{0.0};  ///< Napierian, per unit of length
 };
-/// Emits the same radiance to all sides, and reflects nothing.
+/// Emits equally to all sides, and reflects nothing.
 struct EmitterMaterial {
     static constexpr const char* k_name = "emitter";
     LightColour radiance;

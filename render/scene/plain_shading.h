@@ -8,10 +8,9 @@
 
 namespace culet {
 
-/// Illumination model of Phong (1975). The ambient, diffuse and specular coefficients multiply the
-/// surface's colour and the lights. Light from a near source is divided by c + l a + q a^2, where a
-/// is its distance divided by that from the light to the scene's middle. The defaults give the
-/// physical inverse square.
+/// Phong's illumination model (1975). The coefficients multiply the surface's colour and the
+/// lights. Light from a near source is divided by c + l a + q a^2, where a is its distance relative
+/// to that from the light to the scene's middle. The defaults give the physical inverse square.
 struct PlainShading {
     double ambient = 1, diffuse = 1, specular = 0.3;
     double exponent = 40;

@@ -1,6 +1,6 @@
 #pragma once
-// The scene to be rendered: stones, objects, camera, lights and settings. Lengths in the stone's
-// unit, angles in radians.
+// The scene to render: stones, objects, camera, lights and settings. Lengths in the stone's unit,
+// angles in radians.
 
 #include <array>
 #include <cstdint>
@@ -25,7 +25,7 @@ class WorkMeter;  // render/work/work_meter.h
 /// (right).
 struct EyeOptics {
     std::optional<double> analyzer;  ///< direction of vibration that passes, radians
-    /// A plate in front of the analyser; it delays the wave along `slow_axis` (radians).
+    /// A plate in front of the analyser that delays the wave along `slow_axis` (radians).
     struct Retarder {
         double retardation_nm = 0, slow_axis = 0;
     };
@@ -41,19 +41,17 @@ struct Camera {
     double fov = 0.35;                         ///< vertical, radians; unused when orthographic
     std::optional<double> orthographic_width;  ///< of the picture, a length
     int width = 400, height = 400;
-    /// Where the line of sight (from `position` to `look_at`) meets the picture, pixels from the
-    /// upper left corner, x right, y down. None: the middle. Cropped photographs and shifted lenses
-    /// need it.
+    /// Where the line of sight (`position` to `look_at`) meets the picture, pixels from the upper
+    /// left corner, x right, y down; none: the middle. For cropped photographs and shifted lenses.
     std::optional<std::array<double, 2>> principal_point = {};
     double aperture_radius = 0, focus_distance = 0;  ///< 0: pinhole
-    /// Conoscope: every ray passes through `look_at`, or through a disc around it with an aperture.
-    /// The picture shows directions: the sine of the angle to the view's axis is proportional to
-    /// the distance from the middle. This is the angle (radians) at the middle of the shorter edge.
+    /// Conoscope: all rays pass through `look_at` (with an aperture: a disc around it), and the
+    /// sine of a ray's angle to the view's axis is proportional to the distance from the middle.
+    /// This is the angle (radians) at the middle of the shorter edge.
     std::optional<double> cone;
     EyeOptics optics;
 };
 
-/// Returns the principal point, given or default.
 inline std::array<double, 2> line_of_sight_in(const Camera& camera) {
     return camera.principal_point.value_or(
         std::array<double, 2>{0.5 * camera.width, 0.5 * camera.height});
@@ -63,8 +61,8 @@ struct EyeRay {
     Vec3 origin, direction;  ///< unit direction, from the eye into the scene
 };
 
-/// The picture's right and up as vibration directions of a ray. They turn with the least rotation
-/// from the view's axis to the ray, as in a lens.
+/// The picture's right and up as vibration directions of a ray, turned by the least rotation from
+/// the view's axis to the ray, as in a lens.
 struct EyeFrame {
     Vec3 x, y;
 };
@@ -124,7 +122,7 @@ enum class Check {
 
 enum class PixelFilter { box, tent, gaussian };
 
-/// Largest depth that a scene may ask for, and that the tolerance may choose.
+/// Largest depth, given by a scene or chosen by tolerance.
 constexpr int k_deepest = 1000;
 
 struct RenderSettings {
@@ -138,33 +136,31 @@ struct RenderSettings {
     /// `split_weight`, both branches of a crystal's tree are followed. Nothing: by tolerance.
     std::optional<double> cut_weight, split_weight;
     /// Light that has left a non-convex stone may enter it again. Off, isotropic stones draw
-    /// several times faster (for interactive pictures).
+    /// several times faster (interactive pictures).
     bool meets_again = true;
-    /// Upper limit of indirect radiance on diffuse and rough surfaces; nothing: no limit. It
-    /// removes fireflies, and some light with them.
+    /// Limit of indirect radiance on diffuse and rough surfaces; nothing: none. It removes
+    /// fireflies, and some light with them.
     std::optional<double> clamp_indirect;
-    /// Reference: each ray of a pixel carries only every n-th of the wavelengths that have their
-    /// own paths, in turns; n is at most `samples`. Nothing: 1, or with objects, as many as leave
-    /// each wavelength four rays.
+    /// Reference: each ray of a pixel carries every n-th of the wavelengths with their own paths,
+    /// in turns; n is at most `samples`. Nothing: 1, or with objects, four rays per wavelength.
     std::optional<int> wavelength_turns;
-    /// Limit on the beams of one wavelength's tree (isotropic or merged), some 100 bytes each. If
-    /// there were more, more light is cut.
+    /// Limit on the beams of one wavelength's tree (isotropic or merged), some 100 bytes each. More
+    /// light is cut to keep it.
     long long most_beams = 1 << 23;
     Check check = Check::full;
-    /// Beams: number of pixels checked against the reference, and its rays in each. 0: some 2000,
-    /// and 16.
+    /// Beams: pixels checked against the reference, and rays in each. 0: some 2000, and 16.
     int checked_pixels = 0, checked_samples = 0;
     bool effects_auto = true;  ///< all effects that can matter; else `effects`
     std::array<bool, k_effect_count> effects{true, true, true, true, true, true, true};
-    /// Coherence of a crystal's two waves. Nothing: chosen by the scene.
+    /// Between a crystal's two waves. Nothing: chosen by the scene.
     std::optional<bool> coherence;
-    /// Bandwidth of the light at each wavelength. Nothing: the spacing of the wavelengths, 0 for a
-    /// single one.
+    /// Of the light at each wavelength. Nothing: the spacing of the wavelengths, 0 for a single
+    /// one.
     std::optional<double> bandwidth_nm;
     std::vector<double> wavelengths_nm;  ///< empty: chosen by the scene
     int samples = 0;                     ///< per pixel; 0: 16, or 64 with an aperture
-    /// Ray tables: constant factors on reflected and transmitted light, in place of Fresnel's (Lee
-    /// 2004, R- and T-factor). Total reflection stays total.
+    /// Ray tables: constant factors on reflected and transmitted light in place of Fresnel's (Lee
+    /// 2004, R- and T-factor); total reflection stays total.
     std::optional<double> reflection_factor, transmission_factor;
     /// File of the ray table: read if it exists, else written. Empty: not kept.
     std::string ray_table;
@@ -173,14 +169,14 @@ struct RenderSettings {
     std::uint64_t seed = 1;
     int threads = 0;
     bool spectral = false;  ///< keep spectral planes
-    /// Processor time that a planned picture may take, in the nanoseconds of work/price.h. It sets
-    /// the tolerance, to `tolerance` at the finest. 0: no limit.
+    /// Processor time for a planned picture, in the nanoseconds of work/price.h; it sets the
+    /// tolerance, to `tolerance` at the finest. 0: no limit.
     double allowed_ns = 0;
     std::shared_ptr<WorkMeter> meter;  ///< counts the drawing's work; may be null
 };
 
 struct Scene {
-    /// The main stone. Without facets, the scene has objects only.
+    /// The main stone; without facets, there are only objects.
     Stone stone;
     std::vector<Stone> more_stones;  ///< placed beside it
     std::vector<SceneObject> objects;
@@ -189,7 +185,7 @@ struct Scene {
     double immersion = 1;  ///< refractive index of the surroundings
     RenderSettings settings;
     PlainShading shading;  ///< for flat, gouraud, phong and whitted
-    /// How PNGs are developed. The code that writes them sets exposure and angle of a pixel.
+    /// For PNGs; the code that writes them sets exposure and angle of a pixel.
     PngLook film;
     std::vector<std::string> notes;  ///< from reading: negative texels clamped, ...
     /// Name of the lights' preset, if any (light_presets.h).

@@ -25,7 +25,7 @@ namespace culet {
 
 namespace {
 
-// Finds the view preset of the scene and the table that names it.
+// The view preset of the scene and the table that names it.
 std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) {
     std::optional<std::pair<std::string, TomlTable>> view;
     const auto take = [&view](const TomlTable& table, bool may_be_light) {
@@ -48,9 +48,8 @@ std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) 
     return view;
 }
 
-// Decides whether a mesh is convex if the file does not say so. A mesh is drawn as it is when it
-// deviates from convex by more than the miss of meets in designs. A mesh with non-planar facets is
-// always drawn by its planes.
+// Decides whether a mesh is convex if nobody says so. It is not if it deviates from convex by more
+// than the miss of designs' meets. Meshes with non-planar facets are always drawn by their planes.
 void judge_convexity(Stone& stone, std::vector<std::string>& notes) {
     const CheckLimits limits{.planarity = k_largest_miss, .must_be_convex = false};
     if (is_convex(stone.solid) || !find_faults(stone.solid, limits).empty()) return;
@@ -106,7 +105,6 @@ void place_stone(const TomlTable& table, Stone& stone) {
     if (table.has("transform")) move_stone(transform, stone);
 }
 
-// Reads one of `[[stone]]`.
 Stone placed_stone(const TomlTable& table, std::vector<std::string>& notes) {
     table.refuse_unknown({"file", "mesh", "material", "unit", "optic_axis", "principal_axes",
                           "convex", "name", "transform"});
@@ -120,7 +118,6 @@ Stone placed_stone(const TomlTable& table, std::vector<std::string>& notes) {
     return stone;
 }
 
-// Converts the stone's lengths to `unit`.
 void count_in(LengthUnit unit, Stone& stone) {
     if (stone.unit == unit) return;
     Transform transform;
@@ -139,7 +136,7 @@ bool shines(const std::vector<SceneObject>& objects) {
     });
 }
 
-// Reads the scene's stones, the main one first; `instead` replaces the main stone.
+// The main stone comes first; `instead` replaces it.
 void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
     const std::vector<TomlTable> listed =
         lists_stones(root) ? root.tables("stone") : std::vector<TomlTable>();
@@ -158,7 +155,7 @@ void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
 }  // namespace
 
 void apply_words_beside(const TomlTable& table, Stone& stone) {
-    // Beside a stone file these keys are for this picture only, e.g. the stone in another material.
+    // Beside a stone file these keys are for this picture only: the same stone in another material.
     if (const auto name = table.text("name")) stone.name = *name;
     if (table.has("material") || table.has("mesh")) {
         stone.material = table.kind("material") == TomlTable::Kind::table

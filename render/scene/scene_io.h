@@ -11,20 +11,20 @@
 
 namespace culet {
 
-/// `stone_instead` replaces the file's stone; `light_instead`, the name of a preset
-/// (light_presets.h), replaces its lights. Throws InputError with file and line.
+/// `stone_instead` and `light_instead` (a preset of light_presets.h) replace the file's stone and
+/// lights. Throws InputError with file and line.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                  const Stone* stone_instead = nullptr, std::string_view light_instead = {});
 
-/// Does the same for a parsed file.
+/// The same for a parsed file.
 Scene scene_of(const TomlTable& root, const Stone* stone_instead = nullptr,
                std::string_view light_instead = {});
 
-/// Returns the stone that `stone` or `mesh` names, with the material and axes given beside it. Adds
-/// remarks to `notes`.
+/// The stone that `stone` or `mesh` names, with the material and axes beside it. Remarks go to
+/// `notes`.
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes);
 
-/// Applies the keys `name`, `material` and the crystal's axes that stand beside a stone's file.
+/// Applies the keys beside a stone's file: `name`, `material` and the crystal's axes.
 void apply_words_beside(const TomlTable& table, Stone& stone);
 
 }  // namespace culet

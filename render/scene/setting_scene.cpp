@@ -54,8 +54,8 @@ std::string setting_scene(const SettingScene& files, const Setting& setting) {
                                                        : "\"" + files.material + "\"");
     }
     if (!files.is_stone_file && !files.convex) text += "convex = false\n";
-    // For a head alone, its bounding ball fills the picture's height. For a ring the lower part is
-    // cut off, so that the stone is large enough.
+    // A head's bounding ball fills the picture's height. A ring's lower part is cut off, so that
+    // the stone is large enough.
     Vec3 middle = 0.5 * (setting.low + setting.high);
     double shown = 0.5 * glm::length(setting.high - setting.low);
     if (setting.options.shank) {

@@ -21,9 +21,8 @@ struct SettingScene {
     std::string made_by;  ///< comment for readers: the command that made the files
 };
 
-/// Returns the file's text: the stone, the mounting, the ground below, a preset light, and a camera
-/// above and to the side (for a ring, aimed at its upper part). Throws InputError for names that
-/// TOML cannot hold.
+/// The file's text: stone, mounting, ground, a preset light, and a camera above and to the side
+/// (for a ring, aimed at its upper part). Throws InputError for names that TOML cannot hold.
 std::string setting_scene(const SettingScene& files, const Setting& setting);
 
 }  // namespace culet

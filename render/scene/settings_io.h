@@ -13,8 +13,8 @@ namespace culet {
 /// Throws InputError with file and line.
 RenderSettings read_settings(const TomlTable& table);
 
-/// Returns the settings that determine the picture (engine, effects, wavelengths, accuracy) as keys
-/// of [render] and values in TOML, which are valid JSON too. Reading them gives the same picture.
+/// The settings that determine the picture (engine, effects, wavelengths, accuracy), as keys of
+/// [render] and TOML values, which are JSON too. Reading them gives the same picture.
 std::vector<std::pair<std::string, std::string>> written_settings(const RenderSettings& settings);
 
 }  // namespace culet

@@ -9,13 +9,13 @@
 
 namespace culet {
 
-/// Returns the scene's [film] with its camera's angle of a pixel. `tonemap`, if it is one of
-/// `tone_map_names()`, replaces the scene's.
+/// The scene's [film] with its camera's angle of a pixel. `tonemap` replaces the scene's if it is
+/// one of `tone_map_names()`.
 PngLook look_of(const Scene& scene, const std::string& tonemap);
 
-/// Returns the factor on linear light; nothing means `exposure_for_stone` of the picture. `asked`
-/// is "auto" (to the stone), a factor above 0, or empty: to the stone for presets that pictures are
-/// taken in, 1 for the scene's own lights and instruments. Throws InputError.
+/// Factor on linear light; nothing: `exposure_for_stone` of the picture. `asked`: "auto" (to the
+/// stone), a factor above 0, or empty: to the stone for presets that are no instruments, else 1.
+/// Throws InputError.
 std::optional<double> shown_exposure(const std::string& asked, const Scene& scene);
 
 }  // namespace culet

@@ -45,7 +45,7 @@ InputKind input_kind_of(const std::filesystem::path& file) {
     return InputKind::scene;
 }
 
-// Suggests catalogue materials whose index is near the design's.
+// Catalogue materials whose index is near the design's.
 std::string materials_of_index(double index) {
     std::vector<std::pair<double, std::string>> near;
     for (const std::string& name : catalogue_names())
@@ -101,7 +101,6 @@ void set_size(const std::filesystem::path& file, InputKind kind,
     }
 }
 
-// Views are set by a scene's key.
 std::vector<std::string> keys_of(std::vector<std::string> overrides, const StoneScene& choices) {
     if (choices.width_mm && !(*choices.width_mm > 0 && std::isfinite(*choices.width_mm)))
         throw InputError(fmt::format("--width is in mm, found {:g}", *choices.width_mm));
@@ -113,7 +112,6 @@ std::string light_of(const StoneScene& choices) {
     return is_view_preset(choices.light) ? std::string() : choices.light;
 }
 
-// Makes a scene of the stone alone, in the light asked for or the usual one.
 Scene alone(const TomlTable& root, const Stone& stone, const StoneScene& choices,
             const std::vector<std::string>& notes) {
     std::string light = light_of(choices);
@@ -137,7 +135,7 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
                      const StoneScene& choices) {
     const InputKind kind = input_kind_of(file);
     const std::vector<std::string> keys = keys_of(overrides, choices);
-    // Relative to the working directory, like other files on the command line.
+    // Relative to the working directory, like other files of the command line.
     std::string material = choices.material;
     if (std::filesystem::path(material).extension() == ".toml")
         material = std::filesystem::absolute(material).string();

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes made from a stone, a mesh or a cut design alone, seen face up in a preset light.
+// Scenes of a stone, mesh or cut design alone, face up in a preset light.
 
 #include <filesystem>
 #include <optional>
@@ -13,10 +13,10 @@ namespace culet {
 
 /// Preset used by default.
 constexpr const char* k_usual_light = "jeweller";
-/// Returns the smaller of the outline's extents along x and y.
+/// The smaller of the outline's extents along x and y.
 double outline_width(const Solid& solid);
 
-/// False if the outline is at most 2 wide, as for GemCad's designs and unit spheres.
+/// False if the outline is at most 2 wide, like GemCad's designs and unit spheres.
 bool has_size(const Solid& solid);
 
 struct StoneScene {
@@ -26,13 +26,13 @@ struct StoneScene {
 };
 
 /// Reads any file that shows a stone: a scene, a stone file, a mesh (.obj .off .ply .stl, in mm) or
-/// a cut design (.asc .gem). A stone without size (has_size) gets the usual width, and
-/// `Scene::notes` say so. `overrides` are a scene's keys. Throws InputError: unknown kinds, no
-/// material, a width for a scene with its own camera.
+/// a cut design (.asc .gem). A stone without size (has_size) gets the usual width, with a note.
+/// `overrides` are a scene's keys. Throws InputError: unknown kinds, no material, a width for a
+/// scene with its own camera.
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices);
 
-/// Does the same for a stone in memory; its own material is the default.
+/// The same for a stone in memory, whose own material is the default.
 Scene scene_around(const Stone& stone, const std::vector<std::string>& overrides,
                    const StoneScene& choices = {});
 

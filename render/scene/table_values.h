@@ -1,6 +1,5 @@
 #pragma once
-// Values that several tables of scene files contain. All functions throw InputError with file and
-// line.
+// Values in several tables of scene files. All functions throw InputError with file and line.
 
 #include "render/scene/objects.h"
 #include "stone/text/toml_file.h"
@@ -12,7 +11,7 @@ Vec3 direction_in(const TomlTable& table, const char* key);
 Vec3 point_in(const TomlTable& table, const char* key);
 double positive_in(const TomlTable& table, const char* key);
 
-/// Returns `value` if a picture can hold it: 0, or 1e-36 to 1e36.
+/// Refuses what pictures cannot hold: only 0, or 1e-36 to 1e36.
 double checked_radiance(const TomlTable& table, const char* key, double value);
 /// Reads `radiance`: a number, [r, g, b], or an illuminant's name; 1 if missing.
 LightColour unpolarised_radiance_in(const TomlTable& table);

@@ -15,7 +15,7 @@ struct Transform {
     glm::dmat3 linear{1.0};
     Vec3 move{0, 0, 0};
     Vec3 of_point(const Vec3& point) const { return linear * point + move; }
-    /// Transforms a surface's normal: the result is unit and points to the outside.
+    /// Unit normal, still pointing to the outside.
     Vec3 of_normal(const Vec3& normal) const;
     /// Scale factor of a similarity; 0 if the transform is not one.
     double scale() const;
@@ -32,8 +32,7 @@ glm::dmat3 rotation_of(const Vec3& degrees);
 
 /// `transform` must be a similarity that does not mirror.
 void move_stone(const Transform& transform, Stone& stone);
-/// Returns false, without any change, if the shape would change its type (a sphere to an
-/// ellipsoid).
+/// Returns false, without any change, if the shape's type would change (a sphere to an ellipsoid).
 bool move_shape(const Transform& transform, Shape& shape);
 
 }  // namespace culet

@@ -7,7 +7,7 @@
 
 namespace culet {
 
-/// Rotates all lights about a point: environment, near and distant ones, and their polarisation.
+/// Turns all lights about a point: environment, near and distant ones, and their polarisation.
 Lights turned_lights(const Lights& lights, const glm::dmat3& turn, const Vec3& about);
 
 }  // namespace culet

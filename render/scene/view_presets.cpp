@@ -15,7 +15,7 @@ namespace {
 
 constexpr double k_cone_deg = 30;
 
-// Reads the key in either spelling.
+// Accepts either spelling.
 std::optional<double> angle_in(const TomlTable& table, const char* american, const char* british) {
     if (table.has(american) && table.has(british))
         table.fail(british, fmt::format("give {} or {}, not both", american, british));

@@ -21,11 +21,11 @@ std::vector<std::string_view> with_view_keys(std::vector<std::string_view> keys)
 
 bool is_view_preset(std::string_view name);
 
-/// Reads analyser, retarder and cone (degrees in the file, either spelling) from [camera] or from
-/// the table with `preset`. Throws InputError.
+/// Reads analyser, retarder and cone from [camera] or the table with `preset`, in degrees, either
+/// spelling. Throws InputError.
 void read_eye_optics(const TomlTable& table, Camera& camera);
 
-/// Places the lights of view `name` behind the stone as the camera sees it, and a default analyser.
+/// Places view `name`'s lights behind the stone as the camera sees it, and a default analyser.
 /// `table` holds the polariser's angle.
 void apply_view_preset(std::string_view name, const TomlTable& table, Scene& scene);
 

@@ -6,8 +6,8 @@
 
 namespace culet {
 
-/// True if one unpolarised radiance comes from all directions. Then every effect but absorption and
-/// depth has exactly no influence, because the weights of all light paths sum to 1.
+/// True if one unpolarised radiance comes from all directions. Then only absorption and depth have
+/// an influence, because the weights of all light paths sum to 1.
 bool same_light_everywhere(const Lights& lights);
 
 /// Largest difference of the index over the wavelengths, and of two principal indices at the D
@@ -21,9 +21,9 @@ IndexSpans index_spans(const Scene& scene);
 /// |dK| <= dn m / sqrt(m^2 - 1), m the smaller index.
 double exit_deviation(double span, double index);
 
-/// Distance of the two waves' images of the stone's far side, pixels. Their angle is at most about
-/// |n1 - n2| (1/n + 1/sqrt(n^2 - 1)) (Snell's law and walk-off). `index`: the mean of the two,
-/// relative to the outside; NaN below 1.
+/// Distance of the two waves' images of the stone's far side, pixels; their angle is at most about
+/// |n1 - n2| (1/n + 1/sqrt(n^2 - 1)) (Snell's law and walk-off). `index`: mean of the two, relative
+/// to the outside; NaN below 1.
 double images_apart(const Scene& scene, double index, double birefringence);
 double images_apart(const Scene& scene);
 
@@ -35,7 +35,7 @@ double aperture_blur(const Scene& scene);
 
 /// Largest part of the light absorbed in one pass through the stone: 1 - exp(-K d).
 double absorbed_across(const Scene& scene);
-/// Largest retardation between a crystal's two waves in one pass, in waves (D line).
+/// Largest retardation between a crystal's waves in one pass, in waves (D line).
 double waves_behind(const Scene& scene);
 /// Largest difference of decadic absorbance between two principal rays in one pass.
 double absorbance_apart(const Scene& scene);

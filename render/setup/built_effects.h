@@ -1,6 +1,6 @@
 #pragma once
-// The effects compiled into this build. Normal builds have all. bench_stripped compiles the
-// renderers without any, to measure what the effects cost scenes that do not use them.
+// The effects compiled into this build. bench_stripped compiles the renderers without any, to
+// measure what they cost scenes that do not use them.
 
 namespace culet {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene's lights, and the objects that their light meets before the stone, require.
+// What a scene's lights, and the objects that they meet before the stone, require.
 
 #include "render/scene/scene.h"
 

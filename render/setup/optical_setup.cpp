@@ -126,7 +126,7 @@ double mean(const std::array<double, 3>& v) {
     return v[0] == v[1] && v[1] == v[2] ? v[0] : (v[0] + v[1] + v[2]) / 3;
 }
 
-// Absorption per mm of each principal ray, or their mean if the two waves are not separated.
+// Absorption per mm of each principal ray, or their mean if the waves are not separated.
 std::vector<Spectrum> absorption_of(const Material& material, bool each_ray) {
     const int rays = ray_count(material.optic);
     const std::vector<Spectrum> all(material.absorption_per_mm.begin(),

@@ -16,16 +16,16 @@ struct EffectDecision {
     Effects effect = Effects::dispersion;
     bool on = false;
     std::string why;
-    /// Bound on the radiance's error from leaving the effect out, relative to the brightest light.
-    /// 0 when it is on or changes nothing; NaN (written as null) when no bound is known.
+    /// Bound on the radiance's error from leaving it out, relative to the brightest light; 0 if it
+    /// is on or changes nothing; NaN (written as null) if no bound is known.
     double error_bound = 0;
 };
 
 struct OpticalSetup {
     std::array<EffectDecision, k_effect_count> effects;
     std::vector<double> wavelengths_nm;
-    /// Colour of each wavelength, if a few wavelengths with fitted absorption (`bands`) stand for a
-    /// coloured stone's whole spectrum (few_wavelengths.h); else empty.
+    /// Per wavelength, if few wavelengths with fitted absorption (`bands`) stand for a coloured
+    /// stone's spectrum (few_wavelengths.h); else empty.
     std::vector<Rgb> rgb_weight;
     std::vector<Band> bands;
     bool polarised = true;
@@ -44,7 +44,7 @@ struct OpticalSetup {
 /// Numbers of wavelengths to choose from, coarse to fine; each set contains the one before.
 constexpr std::array<int, 4> k_node_counts{8, 15, 29, 57};
 
-/// `nodes`: number of wavelengths if a spectrum is needed and the scene gives none.
+/// `nodes`: wavelengths if a spectrum is needed and the scene gives none.
 OpticalSetup make_optical_setup(const Scene& scene, int nodes = k_node_counts[1]);
 
 /// Work along a ray of one band, without its counts.
@@ -53,7 +53,7 @@ PathWork work_along_paths(const OpticalSetup& setup);
 /// True if the wavelengths are the plan's choice of a spectrum.
 bool chose_spectrum(const Scene& scene, const OpticalSetup& setup);
 
-/// True if a ray's paths form a tree, whose small branches are chosen at random.
+/// True if a ray's paths form a tree with small branches chosen at random.
 bool paths_branch(const Scene& scene, const OpticalSetup& setup);
 bool paths_branch(const Scene& scene);
 

@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-// Largest distance of corners from their planes, relative to the diameter, at which a hand-made
-// mesh is drawn by its planes, with a note.
+// Largest distance of corners from their planes, relative to the diameter, of a mesh drawn by its
+// planes (with a note).
 constexpr double k_drawn_by_planes = 0.02;
 
 void require_drawable(const Stone& stone) {
@@ -70,7 +70,7 @@ bool holds(const Shape& shape, const Vec3& point) {
     return true;
 }
 
-// Refuses stones, objects and eyes inside glass: they would be drawn as if outside.
+// Stones and eyes inside glass would be drawn as if outside.
 void require_nothing_in_glass(const Scene& scene) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];

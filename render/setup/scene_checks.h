@@ -6,13 +6,13 @@
 
 namespace culet {
 
-/// Throws InputError: a stone that is not closed and convex, a camera inside the stone, a depth
-/// over the longest path.
+/// Throws InputError: a stone that is not closed, or not convex as it claims; a camera inside a
+/// stone; something inside glass; a depth over the longest path.
 void require_renderable(const Scene& scene);
-/// The check that another camera can violate: the camera is outside the stone.
+/// The only check that another camera may fail.
 void require_outside(const StoneBody& body, const Camera& camera);
 
-/// Notes where the drawing differs from the stone's mesh: corners that lie off their planes.
+/// Notes if corners lie off their planes, so that the drawing differs from the mesh.
 std::vector<std::string> notes_on_drawing(const Scene& scene);
 
 }  // namespace culet
