@@ -27,9 +27,8 @@ const Eigen::Matrix3d& rgb_from_xyz() {
 
 constexpr Rgb k_luminance{0.2126, 0.7152, 0.0722};
 
-// Weight of each node in the integral of D65 x colour matching function x spectrum over the
-// observer's range. The spectrum is linear between nodes and constant beyond them; sums use the
-// observer's 1 nm grid.
+// Weight of each node in the integral of D65 x colour matching function x spectrum, on the
+// observer's 1 nm grid. The spectrum is linear between nodes and constant beyond them.
 Eigen::MatrixXd xyz_weights(const std::vector<double>& nm) {
     const Eigen::Index count = static_cast<Eigen::Index>(nm.size());
     Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(3, count);
@@ -108,10 +107,10 @@ private:
     Eigen::VectorXd b_, free_;
 };
 
-// Finds the three smoothest spectra that sum to 1 and integrate to red, green and blue: least
-// squares of first differences under linear constraints. Values that would be negative are fixed at
-// 0 while the integrals can stay exact. If they cannot be exact (two nodes, or all nodes where the
-// eye sees nothing), the sum stays 1 and the integrals are approximated.
+// The three smoothest spectra that sum to 1 and integrate to red, green and blue: least squares of
+// first differences under linear constraints. Negative values are fixed at 0 while the integrals
+// can stay exact. If they cannot be exact (two nodes, or all nodes where the eye sees nothing), the
+// sum stays 1 and the integrals are approximated.
 std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_weight,
                                                     const std::vector<double>& nm) {
     const Eigen::MatrixXd shares = interpolation(nm);
@@ -164,8 +163,8 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         const auto unknown = smoothest.with(H, Eigen::VectorXd::Constant(rows, -k_third));
         if (!unknown) break;
         const Eigen::MatrixXd values = primaries_of(*unknown);
-        // With few nodes, fixing a value can push another further below 0: keep the solution with
-        // the least negative value.
+        // With few nodes, fixing a value can push another below 0: keep the least negative
+        // solution.
         if (best.size() == 0 || values.minCoeff() > best.minCoeff()) best = values;
         std::pair<Eigen::Index, Eigen::Index> worst;
         if (values.minCoeff(&worst.first, &worst.second) >= -1e-12) break;
@@ -173,7 +172,7 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         held.push_back(worst);
     }
     if (best.size() == 0) {
-        // Weight of smoothness, so small that it only determines what the integrals leave open.
+        // Only determines what the integrals leave open.
         constexpr double k_smoothness = 1e-6;
         Eigen::VectorXd pull(2 * n);
         pull << weight.transpose() * (wanted(0) - wanted(1)),

@@ -29,13 +29,13 @@ public:
     Rgb rgb_of(const double* radiance) const;
 
     /// Radiances at the nodes of a light of this colour: r s_r + g s_g + b s_b, with s_r + s_g +
-    /// s_b = 1 at each node. They are the smoothest spectra that integrate back to (r, g, b)
+    /// s_b = 1 at each node. The s are the smoothest spectra that integrate back to (r, g, b)
     /// exactly, for three and more nodes (similar to Mallett & Yuksel 2019). From about ten nodes
-    /// over the visible range the s lie in 0..1; with fewer nodes exactness needs negative values.
-    /// Two nodes: the nearest colour possible; one: its luminance.
+    /// over the visible range they lie in 0..1; fewer nodes need negative values. Two nodes: the
+    /// nearest colour possible; one: its luminance.
     std::vector<double> spectrum_of(const Rgb& rgb) const;
-    /// s_r, s_g, s_b at each node. The first call for a set takes up to tens of milliseconds (57
-    /// nodes); the result is kept for all sets with the same nodes.
+    /// s_r, s_g, s_b at each node. The first call takes up to tens of milliseconds (57 nodes); the
+    /// result is kept for all sets with these nodes.
     const std::array<std::vector<double>, 3>& primaries() const;
 
     /// Radiances at the nodes of a CIE illuminant relative to D65, luminance 1; "D65" is flat. With

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double k_white_over_mean = 5;
 
-// Mean and standard error.
 struct Moments {
     double sum = 0, squares = 0;
 

@@ -25,21 +25,19 @@ inline double mean_of(const Rgb& rgb) {
 struct ColourError {
     double mean = 0;  ///< of R, G and B of the reference pixels
     double radiance = 0, delta_e = 0;
-    /// Standard errors of the two means, if the pixels are a random sample.
+    /// Standard errors of the two means, for randomly chosen pixels.
     double radiance_spread = 0, delta_e_spread = 0;
 
-    /// Mean error plus three standard errors.
     double bound() const { return radiance + 3 * radiance_spread; }
     double bound_delta_e() const { return delta_e + 3 * delta_e_spread; }
 };
 
-/// Both vectors have the same size. All results are 0 if no pixel is lit.
+/// The vectors have one size. All results are 0 if no pixel is lit.
 ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& truth);
 
-/// The same for pixels drawn twice, independently, with few rays each. Their noise is much larger
-/// than the picture's error, so the error of the two runs' mean is scaled by the part that both
-/// runs have in common. That part is known to 1/sqrt(P) of the squares for P pixels, which is added
-/// to it.
+/// The same for pixels drawn twice, independently, with few rays. Their noise exceeds the picture's
+/// error, so the error of the runs' mean is scaled by the part that both have in common. For P
+/// pixels that part is uncertain by 1/sqrt(P) of the squares, which is added.
 ColourError error_in_common(const std::array<std::vector<Rgb>, 2>& seen,
                             const std::array<std::vector<Rgb>, 2>& truth);
 

@@ -18,11 +18,11 @@ struct StoneOptics {
     Rgb absorption{};  ///< Napierian, per stone's unit; 0: none, or off in the scene
 };
 
-/// Uses the stone's own material, whichever stone of the scene it is. Notes what is left out:
-/// birefringence, pleochroism, the spectrum of absorption.
+/// For any stone of the scene. Notes what is left out: birefringence, pleochroism, the spectrum of
+/// absorption.
 StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes);
 
-/// For an ideal conductor, whose k is infinite, k for a reflectance of 0.9999.
+/// Replaces the infinite k of an ideal conductor by that of a reflectance of 0.9999.
 MetalIndex finite_index_of(const MetalMaterial& metal);
 
 /// Notes that polarisation by faces and the lens are left out, if the scene uses them.

@@ -32,18 +32,18 @@ void add_note(std::vector<std::string>& notes, const std::string& note);
 /// polarised lights.
 void refuse_instruments(const Scene& scene, const std::string& program);
 
-/// The stone as culet draws it. For a convex one its planes count, and corners are recomputed if
-/// they are farther off them than single precision shows.
+/// The stone as culet draws it: of a convex one the planes, with corners recomputed if they are
+/// farther off them than single precision shows.
 Solid drawn_solid(const Stone& stone);
 
 /// Counter-clockwise from outside.
 TriangleMesh triangles_of(const Solid& solid);
 TriangleMesh triangles_of(const BoxShape& box);
 
-/// Size of the stone, or else the distance from the eye to the point that it looks at.
+/// The stone's size, or without a stone the distance from the eye to its target.
 double size_of(const Scene& scene);
 
-/// The camera's axes: the direction of the line of sight, and unit vectors right and up.
+/// Direction of the line of sight, and unit vectors right and up.
 struct CameraAxes {
     Vec3 forward, right, up;
 };

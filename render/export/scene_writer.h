@@ -45,7 +45,6 @@ protected:
     ExportedScene result_;
 };
 
-/// Note for renderers without infinite planes.
 inline constexpr const char* k_planes_end =
     "infinite planes: they end 1000 sizes of the stone away";
 inline constexpr const char* k_black_behind =

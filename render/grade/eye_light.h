@@ -2,10 +2,10 @@
 // Traces light from an eye infinitely far away into a convex stone. By reversibility, the part that
 // leaves along a direction is the part of the light from there that the eye sees.
 //
-// It uses beams (render/beams): all rays of a beam hit the same facets, and for a parallel eye they
-// are parallel. Areas, directions and weights are therefore exact for each beam as a whole, and
-// continuous in the facets' angles. Unpolarised Fresnel reflection splits the power at every face;
-// polarisation is not carried on, as in the programs used for comparison (docs/grade.md).
+// All rays of a beam (render/beams) hit the same facets, and for a parallel eye they are parallel.
+// Areas, directions and weights are therefore exact for each beam, and continuous in the facets'
+// angles. Unpolarised Fresnel reflection splits the power at every face; polarisation is not
+// carried on, as in the programs used for comparison (docs/grade.md).
 
 #include <functional>
 #include <vector>
@@ -57,7 +57,7 @@ struct EyeLightLimits {
 class EyeLightTracer {
 public:
     /// `convex` must be convex. Throws InputError if the planes bound no solid. `goes_on` is asked
-    /// repeatedly, from any thread; if it returns false, `trace` throws Interrupted.
+    /// now and then, from any thread; if false, `trace` throws Interrupted.
     explicit EyeLightTracer(const Solid& convex, std::function<bool()> goes_on = {});
 
     /// `towards_eye`: unit. `n`: index relative to the outside's, above 1. The result does not

@@ -45,7 +45,7 @@ struct GradeOptions {
     std::uint64_t seed = 1;  ///< of the random sky
     int map_size = 600;      ///< points per side of the maps of hearts and arrows
     int threads = 0;
-    /// Use fewer directions and points, for the figures' spread over many stones.
+    /// Fewer directions and points, for the spread of figures over many stones.
     bool coarse = false;
 };
 
@@ -85,19 +85,17 @@ Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptio
                    const Progress& progress = {});
 
 /// Direction to the eye in the stone's frame, after a left-handed rotation of the stone by `tilt`
-/// about the level axis at `axis`. A positive tilt about x lifts the edge at -y, one about y that
-/// at +x.
+/// about the level axis at `axis`. A positive tilt about x lifts the edge at -y, about y that at
+/// +x.
 Vec3 eye_over_tilted(double tilt, double axis);
 
-/// Directions in a cone around +z, evenly spread for cosine-weighted light: `each` directions in
-/// each ring.
+/// Directions in a cone around +z, even for cosine-weighted light: `each` directions in each ring.
 std::vector<Vec3> cone_directions(double half_angle, int rings, int each);
 
 /// Directions of the hemisphere: rings of equal solid angle with `each` directions.
 std::vector<Vec3> hemisphere_directions(int rings, int each);
 
-/// Per facet: whether it faces up (crown and table), so that light leaving through it counts as the
-/// crown's.
+/// Per facet: whether it faces up (crown and table); light leaving there counts as the crown's.
 std::vector<bool> crown_facets(const Solid& solid);
 
 }  // namespace culet

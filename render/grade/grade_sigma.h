@@ -20,8 +20,8 @@ struct GradeSigma {
 };
 
 /// Grades stones drawn from the uncertainty, face up; sigma is their standard deviation. Figures
-/// are continuous but not smooth in the angles, so draws are more accurate than derivatives.
-/// `draws`: at least 2. Throws Interrupted.
+/// have kinks and jumps as functions of the angles, so draws tell more than derivatives. `draws`:
+/// at least 2. Throws Interrupted.
 GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
                        const StoneUncertainty& uncertainty, int draws,
                        const Progress& progress = {});

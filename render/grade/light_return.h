@@ -4,12 +4,10 @@
 // Gemology 34 (1998) 158).
 //
 // Let d be the cosine between the line of sight and the direction along which a part of the eye's
-// light leaves. Parts count if 0 < d <= cos(head); the viewer's head is black. The models' weights
-// are
+// light leaves. Parts count if 0 < d <= cos(head); the viewer's head is black. The weights are
 //   iso 1;  cos d;  sc2 2 d sqrt(1 - d^2);  random sc2 times an uneven sky with spots (RandomSky)
-// wlr counts d^2 for d > 0, without the head and without reflection by the stone's outside. It is
-// for one line of sight; GIA's, for observers all around above the stone, is `weighted_return`. The
-// other models include the outer reflection.
+// wlr counts d^2 for d > 0, without the head and the outer reflection, which the others include. It
+// is for one line of sight; GIA's, for observers all around above the stone, is `weighted_return`.
 
 #include <array>
 #include <vector>
@@ -37,7 +35,7 @@ ViewReturn light_return(const EyeLight& light, int table, double head, const Ran
 
 /// Contribution of one direction to GIA's weighted light return: diffuse light from the upper
 /// hemisphere, weighted with cos^2 of the exit angle to the vertical, without outer reflection. The
-/// result is the sum of `returned` over all directions divided by that of `weight`.
+/// result is the sum of `returned` over that of `weight`.
 struct WeightedReturn {
     double returned = 0, weight = 0;
 };

@@ -27,9 +27,9 @@ struct PathSection {
     std::vector<SectionPath> paths;
 };
 
-/// Each path leaves at the first side that transmits more than half of its light, and ends after
-/// nine faces at most. Sides perpendicular to the section are exact. Others are drawn where they
-/// intersect it, and reflect as if they were perpendicular. `head`: half angle, radians.
+/// Each path leaves at the first side that transmits more than half of it, and ends after nine
+/// faces at most. Sides perpendicular to the section are exact; others are drawn where they
+/// intersect it, and reflect as if perpendicular. `head`: half angle, radians.
 PathSection path_section(const Solid& convex, double n, double head);
 
 /// {"azimuth_deg", "outline": [[x, y], ..], "paths": [{"points", "end"}]}

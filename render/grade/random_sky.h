@@ -10,9 +10,9 @@
 
 namespace culet {
 
-/// 17 x 17 patches over the x and y of a direction, from 0.2 up, interpolated bilinearly and
-/// brighter for higher indices; and 20 round spots of radius 2.56 degrees and radiance 15. It is
-/// dark straight up, where the viewer is, and below.
+/// 17 x 17 patches over the x and y of a direction, from 0.2 up, bilinear, brighter for higher
+/// indices; and 20 round spots of radius 2.56 degrees and radiance 15. Dark straight up, where the
+/// viewer is, and below.
 class RandomSky {
 public:
     RandomSky(std::uint64_t seed, double n);

@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// Converts samples (0 to 1; for inks, 1 is full ink) to linear sRGB, relative colorimetric: the
-/// medium's white becomes (1, 1, 1). Colours outside sRGB are below 0 or above 1. Reads ICC.1:2010
-/// and ICC.2 as the library does.
+/// Converts samples (0 to 1; inks: 1 is full) to linear sRGB, relative colorimetric: the medium's
+/// white becomes (1, 1, 1). Colours outside sRGB are below 0 or above 1. Reads ICC.1:2010 and ICC.2
+/// as the library does.
 class ColourProfile {
 public:
     /// `channels`: 1 (grey), 3 (R, G, B) or 4 (C, M, Y, K). Grey with an RGB profile counts as

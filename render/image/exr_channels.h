@@ -17,9 +17,9 @@ struct ExrColours {
     std::string layer;                 ///< layer that holds them; empty: none
 };
 
-/// Accepts R, G, B (also small letters or whole words), X, Y, Z, or Y with or without RY and BY;
-/// else R, G, B of the only layer that has them (`View Layer.Combined.R`). Throws InputError with
-/// the channels' names if there are none, or several layers.
+/// Accepts R, G, B (also small letters or words), X, Y, Z, or Y with or without RY and BY; else R,
+/// G, B of the only layer that has them (`View Layer.Combined.R`). Throws InputError with the
+/// channels' names if there are none, or several layers.
 ExrColours colours_in(const Imf::ChannelList& channels, const std::filesystem::path& file);
 
 }  // namespace culet

@@ -28,8 +28,8 @@ struct ExrWindow {
 };
 ExrWindow size_of(const Imath::Box2i& window);
 
-/// Throws InputError for files that are deep, multi-part or cut off, and for windows and tiles that
-/// would take far more memory than the file can fill.
+/// Throws InputError for deep, multi-part and cut off files, and for windows and tiles that take
+/// far more memory than the file can fill.
 void check_exr(const std::string& bytes, const std::filesystem::path& file);
 
 }  // namespace culet

@@ -25,14 +25,14 @@ std::string name_of(ToneMap map);
 struct PngLook {
     double exposure = 1;  ///< factor on linear light, applied first
     ToneMap tone_map = ToneMap::none;
-    /// Scattering in the eye around bright points (glare.h), as a multiple of the mean eye's; 0:
+    /// Scattering in the eye around bright points (glare.h), in multiples of the mean eye's; 0:
     /// none.
     double glare = 0;
     double degrees_per_pixel = 0.05;  ///< of the observer's view, for glare
-    /// Streaks in two directions around pixels brighter than white (sparkle.h): their energy
-    /// relative to the light above white; 0: none.
+    /// Streaks around pixels brighter than white (sparkle.h): their energy relative to the light
+    /// above white; 0: none.
     double sparkle = 0;
-    bool alpha = false;  ///< write the stone's coverage, if known, as the file's alpha
+    bool alpha = false;  ///< write the stone's coverage, if known, as alpha
 };
 
 /// Light times the exposure, limited to finite values; 0 for NaN and negative light.
@@ -40,7 +40,7 @@ float exposed(float light, double exposure);
 /// 0 to 1; increases with the light for every map.
 float tone_mapped(float light, ToneMap map);
 
-/// Returns R, G and B in linear light, 0 to 1, after exposure, glare, sparkle and tone map. NaN and
+/// R, G and B in linear light, 0 to 1, after exposure, glare, sparkle and tone map. NaN and
 /// negative values become 0.
 std::vector<float> as_shown(const Picture& picture, const PngLook& look);
 

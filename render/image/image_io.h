@@ -32,13 +32,13 @@ ReadPicture read_picture(const std::filesystem::path& file);
 /// The same for a file's bytes; errors call it `name`.
 ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::path& name);
 
-/// Returns a PNG as shown with `look`.
+/// A PNG of the picture as shown with `look`.
 std::string png_of(const Picture& picture, const PngLook& look,
                    std::vector<std::pair<std::string, std::string>> text = {});
 
-/// Writes by extension: .exr (as write_exr), .hdr, or .png (8 bit sRGB as shown with `look`, which
-/// its text chunks record). The file is written completely or not at all. `text`: key/value pairs,
-/// stored if the format can.
+/// By extension: .exr (see write_exr), .hdr, or .png (8 bit sRGB as shown with `look`, which text
+/// chunks record). Writes the file completely or not at all. `text`: key/value pairs, stored if the
+/// format can.
 void write_picture(const Picture& picture, const std::filesystem::path& file,
                    const PngLook& look = {},
                    const std::vector<std::pair<std::string, std::string>>& text = {});

@@ -12,7 +12,7 @@ namespace culet {
 /// Adds a note if pixels are not square.
 void note_pixel_aspect(double aspect, std::vector<std::string>& notes);
 
-/// Returns linear light. Adds a note for a profile that does not fit the samples.
+/// Notes a profile that does not fit the samples.
 ReadPicture linear_picture(DecodedPixels pixels, const std::string& format);
 
 }  // namespace culet

@@ -12,8 +12,7 @@
 namespace culet {
 
 /// EXR channels of luminance quantiles in pictures of an uncertain stone
-/// (uncertainty/picture_uncertainty.h): two and one standard deviations below the median, and
-/// above.
+/// (uncertainty/picture_uncertainty.h).
 inline constexpr std::array<const char*, 4> k_band_channels{"p02.Y", "p16.Y", "p84.Y", "p98.Y"};
 
 /// Linear scene radiance in sRGB primaries (white D65). Rows run from the top, columns from the
@@ -37,7 +36,7 @@ struct Picture {
     enum class Samples { single, half } samples = Samples::single;
     /// Texts read from an EXR whose key begins with `culet:`.
     std::vector<std::pair<std::string, std::string>> text;
-    /// Set on pictures of all directions (environment_layout.h) and written as an attribute.
+    /// Set on pictures of all directions (environment_layout.h), so that other programs know.
     enum class Environment { none, lat_long, cube } environment = Environment::none;
     /// One standard deviation of the luminance from random paths; empty: none.
     std::vector<float> standard_error;

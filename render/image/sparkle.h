@@ -7,9 +7,8 @@
 
 namespace culet {
 
-/// Adds a copy of the light above 1, spread along both diagonals. `strength`: added energy relative
-/// to the light above 1, for streaks that end within the picture. `rgb`: 3 values per pixel,
-/// linear.
+/// Adds the light above 1 once more, spread along both diagonals. `strength`: added energy relative
+/// to that light, for streaks that end within the picture. `rgb`: 3 values per pixel, linear.
 void add_sparkle(std::vector<float>& rgb, const PictureSize& size, double strength);
 
 }  // namespace culet

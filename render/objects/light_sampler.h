@@ -1,5 +1,5 @@
 #pragma once
-// Samples directions towards the lights, for surfaces lit from everywhere by small lights.
+// Samples directions towards lights, which are a small part of the directions that light a surface.
 
 #include <optional>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace culet {
 
-/// Chooses directions by a mixture of densities, one per light. Lights that cover the whole sphere
-/// or half of it are left to the surface's own sampling. Thread-safe.
+/// Chooses directions by a mixture of densities, one per light. Lights that cover all directions or
+/// half of them are left to the surface's own sampling. Thread-safe.
 class LightSampler {
 public:
     explicit LightSampler(const Scene& scene);
 
     bool empty() const { return parts_.empty(); }
-    /// Nothing: the chosen light is not visible from here.
+    /// Nothing: the chosen light cannot be sampled from here.
     std::optional<Vec3> sample(const Vec3& from, Random& random) const;
     /// Density of `sample`, per solid angle.
     double density(const Vec3& from, const Vec3& direction) const;

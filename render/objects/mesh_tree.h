@@ -26,7 +26,7 @@ public:
     MeshTree& operator=(const MeshTree&) = delete;
 
     /// Nearest hit from `origin` along the unit `direction`. `object`, `triangle`: where the ray
-    /// starts; this triangle is not hit again (-1: none).
+    /// starts, which is not hit (-1: none).
     std::optional<TriangleHit> nearest(const Vec3& origin, const Vec3& direction, int object = -1,
                                        int triangle = -1) const;
 

@@ -12,10 +12,10 @@ namespace culet {
 
 namespace {
 
-// Rays below this importance are followed with proportional probability.
+// Less important rays are followed with proportional probability.
 constexpr double k_threshold = 0.5;
-// After k_sure_bounces one path in twenty ends at each hit, so that none continues forever between
-// clear surfaces. Only one in ten thousand of those would reach the last bounce.
+// From k_sure_bounces on, one path in twenty ends at each hit, so that none continues forever
+// between clear surfaces. One in twenty thousand of them reaches the last bounce.
 constexpr int k_sure_bounces = 8, k_last_bounce = 200;
 constexpr double k_goes_on = 0.95;
 // Number of glass faces at which both reflection and refraction are followed; then one is chosen by

@@ -1,8 +1,8 @@
 #pragma once
-// Light paths among objects and stones, traced backwards from where light is needed: the light that
-// arrives along a ray, as Stokes parameters. It is path tracing (Kajiya 1986). Polished surfaces
-// and stones transmit polarised light by Fresnel's equations. Rough surfaces take one random
-// direction and one aimed at the lights, weighted by both densities (Veach 1997, 9.2).
+// Light paths among objects and stones, traced backwards: the light that arrives along a ray, as
+// Stokes parameters. It is path tracing (Kajiya 1986). Polished surfaces and stones pass on
+// polarised light by Fresnel's equations. Rough surfaces take one random direction and one aimed at
+// the lights, weighted by both densities (Veach 1997, 9.2).
 
 #include <atomic>
 #include <memory>
@@ -36,7 +36,7 @@ struct SceneWithObjects {
     double most_indirect =
         std::numeric_limits<double>::infinity();  ///< RenderSettings::clamp_indirect
     std::uint64_t seed = 1;
-    /// In whole nanoseconds of price.h, so that the sum does not depend on the order of threads.
+    /// Nanoseconds of price.h, whole, so that the sum does not depend on the order of threads.
     mutable std::atomic<long long> spent_ns{0};
 };
 
@@ -64,8 +64,8 @@ public:
     ObjectPaths& operator=(const ObjectPaths&) = delete;
 
     void arriving(const WorldRay& ray, ArrivingLight& light);
-    /// Follows a ray whose importance is below `threshold` only with a proportional probability.
-    /// Returns the weight of its light; 0: it was not followed.
+    /// Follows a ray less important than `threshold` with proportional probability. Returns the
+    /// weight of its light; 0: not followed.
     double arriving_if_it_matters(WorldRay ray, double threshold, ArrivingLight& light);
 
 private:
@@ -83,8 +83,8 @@ private:
     void reflect(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
     void refract(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
     void through_stone(const WorldRay& ray, const WorldHit& hit, ArrivingLight& light);
-    /// Adds the light that arrives along `next` after the face `face(node)`, with plane of
-    /// incidence normal to `s`. `share`: largest part of the light that takes this path.
+    /// Adds the light along `next` after the face `face(node)`, with plane of incidence normal to
+    /// `s`. `share`: largest part of the light that goes this way.
     template <class Face>
     void pass_on(const WorldRay& ray, WorldRay next, const Vec3& s, double share, double weight,
                  const Face& face, ArrivingLight& light);

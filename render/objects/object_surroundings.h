@@ -6,9 +6,8 @@
 
 namespace culet {
 
-/// Rays start outside the stone, or on it when they leave it for good. The stone does not hide
-/// anything from these rays, but objects that they hit see it. Random choices are determined by the
-/// ray and the seed.
+/// Rays start outside the stone, or on it when they leave it for good. It hides nothing from these
+/// rays, but objects that they hit see it. The ray and the seed determine all random choices.
 class ObjectSurroundings : public Surroundings {
 public:
     ObjectSurroundings(const Scene& scene, const WavelengthSet& wavelengths)

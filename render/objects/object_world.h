@@ -25,8 +25,8 @@ struct WorldHit {
     bool met() const { return object >= 0 || stone >= 0; }
 };
 
-/// Copies what it needs of the scene. Stone 0 is the main stone, if there is one; the others
-/// follow. Thread-safe.
+/// Copies what it needs of the scene. Stone 0 is the main stone, if any; the others follow.
+/// Thread-safe.
 class ObjectWorld {
 public:
     explicit ObjectWorld(const Scene& scene);

@@ -1,8 +1,6 @@
 #pragma once
-// Intersection of rays with analytic shapes.
-//
-// There is no epsilon: a ray that starts on a surface says so, and does not hit the surface again
-// at its start, whatever the rounding.
+// Intersection of rays with analytic shapes, without an epsilon: a ray that starts on a surface
+// says so, and does not hit it again at its start, whatever the rounding.
 
 #include <optional>
 

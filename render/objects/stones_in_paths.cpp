@@ -10,8 +10,8 @@ namespace culet {
 
 namespace {
 
-// Exits below this importance are followed with proportional probability: for a stone seen
-// directly, and for one whose light other surfaces scatter.
+// Less important exits are followed with proportional probability: of a stone seen directly, and of
+// one whose light other surfaces scatter.
 constexpr double k_seen_threshold = 0.1, k_spread_threshold = 0.5;
 
 // The part of a band within first .. first + count - 1.

@@ -13,8 +13,8 @@ namespace culet {
 
 namespace {
 
-// Smallest alpha. Squared slopes are computed as 1 - cosine, which is rounded by 2^-52, and this
-// leaves three digits. Smoother surfaces count as polished.
+// Smallest alpha^2; smoother surfaces count as polished. Squared slopes are 1 - cosine, rounded by
+// 2^-52, which leaves three digits.
 constexpr double k_flattest = 0x1p-42;
 constexpr int k_once_cosines = 64, k_once_azimuths = 32, k_once_heights = 128;
 

@@ -38,8 +38,8 @@ public:
     /// Part of the light that leaves lossless microfacets after one reflection; the rest is
     /// reflected again.
     double reflected_once(double cosine) const;
-    /// Factor on single reflection that restores the light from multiple reflections between
-    /// microfacets (Turquin 2019, after Kulla & Conty 2017). `once`: reflected_once.
+    /// Factor on singly reflected light that restores multiple reflections between microfacets
+    /// (Turquin 2019, after Kulla & Conty 2017). `once`: reflected_once.
     double gain(int node, double once) const {
         return 1 + normal_reflectance_[static_cast<std::size_t>(node)] * (1 - once) / once;
     }
@@ -51,8 +51,7 @@ private:
 };
 
 /// Trowbridge-Reitz microfacets (GGX) with Smith's height-correlated shadowing (Heitz 2014).
-/// Directions are unit, in the surface's frame with z along the normal; both point away from the
-/// surface.
+/// Directions are unit, point away from the surface, and are in its frame (z along the normal).
 namespace ggx {
 double density(double alpha, const Vec3& half);
 /// Part of the microfacets facing a direction that are visible from it.

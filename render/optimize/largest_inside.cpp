@@ -21,9 +21,9 @@ struct Rows {
 
 using Columns = Eigen::Matrix<double, 4, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
 
-// Coefficients of the least-squares combination of independent columns for a point. Gram-Schmidt,
-// twice for each column, is accurate enough (Kahan, in Parlett 1980, 6.9) and, for columns of four
-// numbers, faster than a general decomposition.
+// Least-squares coefficients of a point in independent columns. Gram-Schmidt done twice is accurate
+// enough (Kahan, in Parlett 1980, 6.9) and, for four numbers a column, faster than a general
+// decomposition.
 Eigen::VectorXd shares_of(const Columns& columns, const Point& point) {
     const Eigen::Index count = columns.cols();
     Columns basis = columns;

@@ -11,9 +11,9 @@ struct LargestInside {
     double volume = 0;  ///< of the copy, mm3
 };
 
-/// Scales and moves `cut`, without rotation, to the largest size that fits into `stone`: a linear
-/// program in the scale and three shifts. Both solids are convex and bounded. By rounding, the
-/// scale may be off and the copy may protrude by 1e-11 of the scale and of the stone's diameter.
+/// The largest scaled and moved, not rotated, `cut` that fits into `stone`: a linear program in the
+/// scale and three shifts. Both solids are convex and bounded. Rounding may change the scale, and
+/// let the copy protrude, by 1e-11 of the scale and of the stone's diameter.
 LargestInside largest_inside(const Solid& cut, const Solid& stone);
 
 /// Returns the copy.

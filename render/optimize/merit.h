@@ -36,8 +36,8 @@ struct Merit {
 /// Reads "brilliance", or weighted parts: "brilliance=2,fire=1". Throws InputError.
 std::array<double, k_merit_part_count> merit_weights(const std::string& text);
 
-/// `convex`: closed and convex, table up. The tilts are 0, 10, 20 and 30 degrees to both sides
-/// about the x axis, as in GemRay's optimiser.
+/// `convex`: closed and convex, table up. Tilts: 0, 10, 20 and 30 degrees to both sides about the x
+/// axis, as in GemRay's optimiser.
 Merit merit_of(const Solid& convex, const MeritOptions& options);
 
 }  // namespace culet

@@ -41,15 +41,15 @@ struct OptimizedTier {
 struct Optimized {
     Solid start, better;  ///< better: equals the start if nothing better was found
     Merit at_start, at_better;
-    /// Best result of GemRay's search: Nelder-Mead on two factors, on the tangents of all crown
-    /// angles and of all pavilion angles (R. W. Strickland, GemRay 1.2.0).
+    /// Best result of GemRay's search: Nelder-Mead on a factor for the tangents of all crown angles
+    /// and one for all pavilion angles (R. W. Strickland, GemRay 1.2.0).
     Merit by_two_factors;
     std::vector<OptimizedTier> tiers;
     double volume_ratio = 1;  ///< better over start; for a recut, the part of the stone that
                               ///< remains
     int evaluations = 0;
-    Vec3 axis{0};              ///< for a recut: position of the better cut's origin (its axis)
-    bool found = false;        ///< whether anything better was found
+    Vec3 axis{0};  ///< for a recut: position of the better cut's origin (its axis)
+    bool found = false;
     bool gained = true;        ///< for a recut: whether the requested gain was reached
     bool interrupted = false;  ///< by `progress`; the result is the best so far
 };
@@ -60,7 +60,7 @@ struct Optimized {
 Optimized optimize_cut(const Solid& solid, const OptimizeOptions& options,
                        const Progress& progress = {});
 
-/// The better cut centred on its axis, as designs are written.
+/// The better cut about its axis, as designs are written.
 Solid about_its_axis(const Optimized& result);
 
 /// Width of the table relative to the stone's, the mean of x and y.

@@ -20,14 +20,14 @@ constexpr Vec3 k_up{0, 0, 1};
 constexpr int k_most_steps = 12;
 // Relative to the stone's size: rounding error of offsets computed from some ten numbers.
 constexpr double k_closed = 1e-13, k_not_above = 1e-10;
-// Degrees of angle that weigh as much as an offset of the whole size, so that an angle changes only
-// if meets tie it.
+// Weight of angles (radians) against offsets (in sizes): a degree counts as much as the whole size,
+// so that angles change only if meets tie them.
 constexpr double k_angle_weight = 60;
-// Smallest relative singular value. Meets that tie angles together are dependent equations with
-// values below it. Meets of real designs miss by up to 3e-4.
+// Smallest relative singular value: meets that tie angles to each other are dependent equations
+// with smaller ones. Meets of real designs miss by up to 3e-4.
 constexpr double k_dependent = 1e-7;
-// Relative to the diameter: 0.04 mm for a stone of 8 mm, visible with a loupe. It is ten times the
-// largest miss of a meet that readers of designs accept (CutReading::meet_tolerance).
+// Relative to the diameter: 0.04 mm of a stone of 8 mm, visible with a loupe, and ten times the
+// largest miss that readers of designs accept (CutReading::meet_tolerance).
 constexpr double k_least_edge = 0.005;
 
 // Sets a facet's angle from the horizontal; pavilion normals still point down.

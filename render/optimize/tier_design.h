@@ -1,12 +1,12 @@
 #pragma once
-// A cut whose tiers change their angles while its meets are kept. Every facet keeps its azimuth
+// A cut whose tiers change their angles while its meets are kept: every facet keeps its azimuth
 // (index setting), and four or more facets that meet in a corner of the design still meet.
 //
 // The unknowns are every facet's angle and offset; girdle facets are fixed, and level ones keep
-// their angle. First the wanted angles are set: each facet turns about its corners next to the
-// girdle, and the table follows the facets around it. Then Gauss-Newton steps of minimum norm
-// remove the meets' misses, which gives the nearest angles and offsets at which all meets hold.
-// Facets related by the design's symmetry about +z change alike (stone/design/drawn_symmetry.h).
+// their angle. First each facet turns to its wanted angle about its corners next to the girdle, and
+// the table follows the facets around it. Then Gauss-Newton steps of minimum norm remove the meets'
+// misses, which gives the nearest angles and offsets at which all meets hold. Facets related by the
+// design's symmetry about +z change alike (stone/design/drawn_symmetry.h).
 
 #include <optional>
 #include <vector>
@@ -33,10 +33,10 @@ public:
     /// The design with its meets closed.
     const Solid& start() const { return start_; }
 
-    /// `steeper`: per tier, radians added to the angle from the horizontal. Returns nothing if the
-    /// meets cannot be kept, or if facets would appear, vanish or change neighbours: every edge
-    /// must keep half of its length, or 0.5 % of the diameter if that is less. The girdle stays,
-    /// and corners lie at their meets. Angles may differ from the wanted ones if meets tie them.
+    /// `steeper`: per tier, radians added to the angle from the horizontal. Nothing if the meets
+    /// cannot be kept, or if facets would appear, vanish or change neighbours: every edge keeps
+    /// half of its length, or 0.5 % of the diameter if that is less. The girdle stays, and corners
+    /// lie at their meets. Angles may differ from the wanted ones if meets tie them.
     std::optional<Solid> with(const std::vector<double>& steeper) const;
 
 private:

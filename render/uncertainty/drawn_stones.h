@@ -26,10 +26,10 @@ struct StoneUncertainty {
     bool correlated() const { return !covariance.empty(); }
 };
 
-/// Selects the values for `solid`'s facets from those of its mesh; the planes may have cut away
-/// some of its facets. `covariance`: of all the mesh's facets, row by row, three per facet, or
-/// empty. Values that are not finite are unknown and count as 0. Throws InputError if `names` lacks
-/// a facet of `solid`.
+/// Picks the values of `solid`'s facets from those of its mesh, some of which the planes may have
+/// cut away. `covariance`: of all the mesh's facets, row by row, three per facet, or empty. Values
+/// that are not finite are unknown and count as 0. Throws InputError if `names` lacks a facet of
+/// `solid`.
 StoneUncertainty uncertainty_for(const Solid& solid, const std::vector<std::string>& names,
                                  const std::vector<FacetUncertainty>& sigmas,
                                  const std::vector<double>& covariance);
@@ -39,7 +39,7 @@ class StoneDraws {
 public:
     /// `uncertainty`: of every facet of `solid`. `solid` must outlive this.
     StoneDraws(const Solid& solid, const StoneUncertainty& uncertainty, std::uint64_t seed);
-    /// Returns nothing if the drawn planes bound no stone.
+    /// Nothing if the drawn planes bound no stone.
     std::optional<Solid> next();
 
 private:

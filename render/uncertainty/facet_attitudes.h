@@ -9,8 +9,7 @@
 
 namespace culet {
 
-/// Sine of the inclination below which a facet counts as level, without an azimuth: rounding would
-/// determine it.
+/// Sine of the inclination below which a facet is level: rounding would determine its azimuth.
 constexpr double k_level_sine = 1e-9;
 
 struct FacetAttitude {
@@ -26,8 +25,8 @@ Vec3 mean_corner(const Solid& solid);
 /// In the solid's order.
 std::vector<FacetAttitude> attitudes_of(const Solid& solid, const Vec3& middle);
 
-/// Returns the stone bounded by facets of these attitudes, with the names of `named`; nothing if
-/// they bound none. Redundant facets are left out.
+/// The stone that the facets bound, named as in `named`; nothing if they bound none. Redundant
+/// facets are left out.
 std::optional<Solid> stone_of(const Solid& named, const std::vector<FacetAttitude>& attitudes,
                               const Vec3& middle);
 

@@ -19,8 +19,8 @@ struct PictureUncertainty {
     std::vector<float> mean, sigma;      ///< R, G, B: three per pixel
     std::vector<float> sigma_luminance;  ///< one per pixel; not the sum of those of R, G and B
     /// Luminance quantiles, four per pixel: the true stone lies below them with the probabilities
-    /// k_band_levels. Pixels are not normally distributed, because reflexes come and go with a
-    /// facet's angle, so mean and sigma do not give these probabilities.
+    /// k_band_levels. Reflexes come and go with a facet's angle, so pixels are not normally
+    /// distributed, and mean and sigma do not give these probabilities.
     std::vector<float> bands;
     int draws = 0;
     int left_out = 0;  ///< draws that bound no stone

@@ -1,6 +1,6 @@
 #pragma once
 // The meaning of a picture file's values, as the file states it. Codecs collect it;
-// linear_picture.h applies it, or notes it, for every format.
+// linear_picture.h applies or notes it.
 
 #include <array>
 #include <string>

@@ -22,10 +22,9 @@ struct TiffInput {
 
 using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
-/// Returns null if it is not a TIFF. `input` must outlive the result.
+/// Null if it is not a TIFF. `input` must outlive the result.
 OpenTiff opened_tiff(TiffInput& input);
 
-/// Returns an error with libtiff's complaint.
 InputError tiff_refusal(const TiffInput& input, const std::filesystem::path& file);
 
 }  // namespace culet
