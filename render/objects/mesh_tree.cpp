@@ -12,8 +12,8 @@ namespace culet {
 
 namespace {
 
-// Smallest distance of a hit in the unit sphere. A ray that starts on one triangle may hit a
-// neighbour below it only by the rounding of single precision and of Embree's few operations.
+// Smallest distance of a hit in the unit sphere. For rays that start on a triangle, nearer hits of
+// its neighbours come only from the rounding of single precision and of Embree's few operations.
 constexpr float k_nearest = 8 * 0x1p-24f;
 
 // The ray's start, for the filter.

@@ -28,7 +28,7 @@ struct PathLimits {
     /// Crystals: below this weight one branch of a tree is followed, chosen by power, so the sum
     /// stays unbiased. 0: always both.
     double split_weight = 0;
-    /// Most hits of one eye ray that split in two; later hits follow one branch as above. Without a
+    /// Most hits of one eye ray that split in two; later ones follow one branch as above. Without a
     /// limit a tree of depth d has 2^d paths.
     int most_splits = 1 << 14;
     /// Chosen branches below `cut_weight` play Russian roulette instead of being cut; unbiased.

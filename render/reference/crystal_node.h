@@ -50,7 +50,7 @@ public:
     bool meet_together(CrystalNode& node, CrystalNode& inner, CrystalNode& outer,
                        NodeWeights& absorbed);
 
-    /// Largest |sum of powers - 1| at a face before normalisation.
+    /// Largest |sum of powers - 1| at a face, which is then normalised.
     double worst_imbalance() const { return worst_imbalance_; }
 
 private:

@@ -62,7 +62,7 @@ public:
     bool sampled() const { return splits_ > limits_.most_splits; }
     /// Faces hit so far, on all branches of all trees.
     long long events() const { return events_; }
-    /// See CrystalSteps.
+    /// Largest |sum of powers - 1| at a crystal's face, which is then normalised.
     double worst_imbalance() const { return steps_.worst_imbalance(); }
 
 private:

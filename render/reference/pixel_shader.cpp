@@ -44,7 +44,7 @@ public:
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += end.transmitted[i] * seen[i];
     }
-    // The weight has mean 0, so any radiance is unbiased. The mean radiance restores what was lost
+    // The weight has mean 0, so any radiance is unbiased. The mean radiance compensates the loss
     // best, and exactly in constant light.
     void roulette(const NodeWeights& weight) {
         for (int i = 0; i < band_.count; ++i)

@@ -32,7 +32,7 @@ struct ProbeResult {
     Stokes stokes{};
     /// Standard error of the mean radiance from random choices; 0 without any.
     double standard_error = 0;
-    /// Largest |sum of powers - 1| at a crystal's face before normalisation.
+    /// Largest |sum of powers - 1| at a crystal's face, which is then normalised.
     double worst_imbalance = 0;
     bool sampled = false;  ///< a crystal's tree grew too large, so only one wave was followed from
                            ///< there

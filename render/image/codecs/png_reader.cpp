@@ -76,7 +76,7 @@ bool read_png_head(PngInput& input) {
     return true;
 }
 
-// Requests rows of 8 or 16 bits, without palettes, and with grey with alpha expanded.
+// Requests rows of 8 or 16 bits without palettes; expands grey with alpha to R, G, B, A.
 bool prepare_png_rows(PngInput& input) {
     png_structp png = input.png;
     if (setjmp(png_jmpbuf(png)) != 0) return false;
