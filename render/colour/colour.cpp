@@ -52,8 +52,8 @@ Eigen::MatrixXd xyz_weights(const std::vector<double>& nm) {
     return weights;
 }
 
-// Largest number of free nodes: an even choice of a longer list, with linear interpolation between.
-// This keeps the solve small and the spectra smooth.
+// Largest number of free nodes: an even choice, interpolated linearly. This keeps the solve small
+// and the spectra smooth.
 constexpr Eigen::Index k_most_free = 33;
 
 // Row i: weights of the free values at node i; each row sums to 1.
@@ -109,8 +109,8 @@ private:
 
 // The three smoothest spectra that sum to 1 and integrate to red, green and blue: least squares of
 // first differences under linear constraints. Negative values are fixed at 0 while the integrals
-// can stay exact. If they cannot be exact (two nodes, or all nodes where the eye sees nothing), the
-// sum stays 1 and the integrals are approximated.
+// can stay exact. If they cannot (two nodes, or all nodes where the eye sees nothing), the sum
+// stays 1 and the integrals are approximated.
 std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_weight,
                                                     const std::vector<double>& nm) {
     const Eigen::MatrixXd shares = interpolation(nm);

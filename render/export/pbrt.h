@@ -7,19 +7,17 @@
 
 namespace culet {
 
-/// Unit direction at a place of PBRT's square environment maps, 0..1 from the left and from the
-/// top: the equal-area octahedral mapping (Clarberg 2008; Pharr, Jakob & Humphreys 2023, 3.8.3),
-/// with +z in the middle and -z in the corners.
+/// Unit direction at a place of PBRT's square environment maps, 0..1 from the left and top: the
+/// equal-area octahedral mapping (Clarberg 2008; Pharr, Jakob & Humphreys 2023, 3.8.3), +z in the
+/// middle, -z in the corners.
 Vec3 equal_area_direction(double x, double y);
 
 /// Keeps the scene's frame and lengths; PBRT's camera is left-handed and mirrored. `stem`: of the
-/// scene's file; the map of distant lights is written beside it, with a name that starts with it.
+/// scene's file; the name of the map of distant lights, written beside it, starts with it.
 ///
-/// Exported: stones as meshes of smooth dielectrics with the mean index and mean absorption as
-/// spectra, cameras except the lens, objects, near lights as area lights, distant lights as a map.
-/// Left out with a note: birefringence, pleochroism, polarisation by faces, the lens, the invisible
-/// back of plane lights, the constant reflectance of ideal mirrors. Throws InputError like
-/// `refuse_instruments`.
+/// Exports what docs/exports.md lists. Left out with a note: birefringence, pleochroism,
+/// polarisation by faces, the lens, the invisible back of plane lights, the constant reflectance of
+/// ideal mirrors. Throws InputError like `refuse_instruments`.
 ExportedScene pbrt_scene(const Scene& scene, const std::string& stem);
 
 }  // namespace culet

@@ -13,16 +13,15 @@
 namespace culet {
 
 /// POV-Ray's frame is left-handed with y up, so y and z are swapped. Lengths are multiplied by a
-/// power of two, because POV-Ray ignores hits nearer than 1e-4 of its units.
+/// power of two, because POV-Ray ignores hits nearer than 1e-4 of its units. Stones are `mesh2`,
+/// with corners and normals in single precision.
 ///
-/// Exported: stones as `mesh2` (POV-Ray holds corners and normals in single precision), the index
-/// relative to the immersion's, absorption, orthographic and perspective cameras, objects,
-/// constant, lobe, hemisphere, cap, sphere and plane lights, colours as RGB. Left out with a note:
-/// polarisation by faces, birefringence, dispersion, spectra beyond RGB, the lens, the level that
-/// the back of a plane light uses up, light on diffuse objects, and the reflectance of metals at
-/// oblique incidence (povray_objects.h). Throws InputError if no meaningful picture would remain:
-/// polarised lights, optics before the eye, conoscopes, environment maps, a plane light seen from
-/// behind; and for scenes that the renderer refuses.
+/// Exports what docs/exports.md lists. Left out with a note: polarisation by faces, birefringence,
+/// dispersion, spectra beyond RGB, the lens, the level that the back of a plane light uses up,
+/// light on diffuse objects, and the reflectance of metals at oblique incidence (povray_objects.h).
+/// Throws InputError if no meaningful picture would remain (polarised lights, optics before the
+/// eye, conoscopes, environment maps, a plane light seen from behind), and for scenes that the
+/// renderer refuses.
 ExportedScene povray_scene(const Scene& scene);
 
 }  // namespace culet

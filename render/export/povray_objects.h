@@ -12,9 +12,9 @@ namespace culet {
 std::string povray_vector(const Vec3& v);
 std::string povray_colour(const Rgb& rgb);
 
-/// One object, with lengths times `scale`. Adds what is lost to `notes`: only POV-Ray's
-/// light_source lights diffuse surfaces, and no light here becomes one; metals have their
-/// reflectance at normal incidence at all angles, without blur.
+/// One object, with lengths times `scale`. Notes what is lost: only POV-Ray's light_source lights
+/// diffuse surfaces, and no light here becomes one; metals reflect as at normal incidence at all
+/// angles, without blur.
 std::string povray_object(const SceneObject& object, double scale, double immersion,
                           std::vector<std::string>& notes);
 

@@ -1,10 +1,9 @@
 #pragma once
 // Intersection of rays with a convex stone. Hits are decided by sign, without an epsilon.
 //
-// A guessed facet is confirmed with the planes that bound it alone: the ray's point on its plane
-// must lie inside all of them by much more than rounding. Then it lies inside the facet, no other
-// plane is hit before, and the search over all planes would find the same facet and distance, to
-// the bit.
+// A guessed facet is confirmed with the planes that bound it: the ray's point on its plane must lie
+// inside all of them by much more than rounding. Then no other plane is hit before, and the search
+// over all planes would find the same facet and distance, to the bit.
 
 #include <array>
 #include <glm/geometric.hpp>
@@ -35,10 +34,10 @@ public:
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const;
     /// The same, but tries `last` first and updates it; changes only the time.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction, EntryGuess& last) const;
-    /// Facet through which a ray from inside leaves: the nearest of the planes that it runs
-    /// towards, the first of equally near ones. A start that rounding put outside counts as on the
-    /// plane, so a corner becomes two hits. The facet just left is ignored, because the ray runs
-    /// away from it. `guess` is tried first (-1: none), e.g. a neighbouring ray's facet.
+    /// Facet through which a ray from inside leaves: the nearest plane that it runs towards, the
+    /// first of equally near ones. A start that rounding put outside counts as on the plane, so a
+    /// corner becomes two hits. The ray runs away from the facet just left, so this is ignored.
+    /// `guess` is tried first (-1: none), e.g. a neighbouring ray's facet.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int guess = -1) const;
 
     bool contains(const Vec3& point) const;

@@ -6,9 +6,9 @@
 // that share it, with an exact sign (after Woop, Benthin and Wald, Watertight Ray/Triangle
 // Intersection, JCGT 2(1), 2013). The ray thus meets an exactly closed surface, whose vertices
 // differ from the stone's by the rounding of one projection. The steps (+1 in, -1 out) of a line
-// through it always sum to 0, also along edges and through vertices, where half-open rules act like
-// an infinitesimal shift of the ray. The winding of a facet's projected outline, not its normal,
-// tells whether it is entered or left.
+// always sum to 0, also along edges and through vertices, where half-open rules act like an
+// infinitesimal shift of the ray. The winding of a facet's projected outline, not its normal, tells
+// whether it is entered or left.
 //
 // Cost: a few nanoseconds for each vertex and edge.
 
@@ -28,8 +28,8 @@ struct LineCrossing {
     double distance = 0;  ///< from the origin, in lengths of the direction; negative behind it
 };
 
-/// A closed solid that need not be convex. Directions need not be unit; distances are in lengths of
-/// the direction and never negative. Rays may start on edges and vertices.
+/// A closed solid that need not be convex. Distances are in lengths of the direction (any length)
+/// and never negative. Rays may start on edges and vertices.
 class PolyhedronBody {
 public:
     /// Throws InputError if the facets do not close, edge by edge.
@@ -41,7 +41,7 @@ public:
 
     /// Facet where a ray leaves that runs inwards from a point on facet `from` (-1: from anywhere
     /// inside). A start that rounding put outside is moved in by the shortest way, so a corner
-    /// becomes two hits, the second at distance 0. Returns a facet for every start.
+    /// becomes two hits, the second at distance 0. Every start gets a facet.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const;
 
     /// Facet where a ray enters again that runs outwards from a point on facet `from` (-1: from

@@ -3,9 +3,9 @@
 // leaves along a direction is the part of the light from there that the eye sees.
 //
 // All rays of a beam (render/beams) hit the same facets, and for a parallel eye they are parallel.
-// Areas, directions and weights are therefore exact for each beam, and continuous in the facets'
-// angles. Unpolarised Fresnel reflection splits the power at every face; polarisation is not
-// carried on, as in the programs used for comparison (docs/grade.md).
+// So areas, directions and weights are exact for each beam, and continuous in the facets' angles.
+// Unpolarised Fresnel reflection splits the power at every face; polarisation is not carried on, as
+// in the programs used for comparison (docs/grade.md).
 
 #include <functional>
 #include <vector>

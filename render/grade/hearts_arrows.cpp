@@ -160,8 +160,8 @@ Arrows find_arrows(const ScopeMap& map) {
         return map.inside[static_cast<std::size_t>(at)] != 0 &&
                map.brightest[static_cast<std::size_t>(at)] == ScopeBand::eye;
     };
-    // Heads and shafts may touch, and shafts may touch in the middle. So heads are patches, and a
-    // shaft is the dark area between a head and the middle.
+    // Heads and shafts may touch, as may shafts in the middle. So heads are patches, and a shaft is
+    // what is dark between a head and the middle.
     const std::vector<Patch> heads = large_ones(patches_of(
         map, [&](int at) { return dark(at) && polar_of(map, at).radius >= k_head_from; }));
     Arrows arrows;

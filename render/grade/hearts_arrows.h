@@ -3,7 +3,7 @@
 //
 // Arrows (face up): patches near the rim that show the eye's hole (heads), each with a shaft
 // towards the middle. Hearts (from the pavilion): patches between the arrows that show the
-// reflector. A patch is a connected region where that band is brightest; patches below 0.4 of the
+// reflector. A patch is a connected region where that band is brightest; those below 0.4 of the
 // largest of their kind do not count.
 
 #include <vector>

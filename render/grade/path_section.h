@@ -1,6 +1,6 @@
 #pragma once
 // Light paths as cutters draw them: in a vertical section through the stone's middle, with light
-// from straight above that the section's sides reflect.
+// from straight above.
 
 #include <array>
 #include <string>

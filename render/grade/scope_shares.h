@@ -1,6 +1,6 @@
 #pragma once
-// What the trade's scopes show, as numbers: the parts of the eye's light that leave into each band
-// of directions. The bands are those of the lights of the same names (scene/light_presets.h).
+// What the trade's scopes show, as numbers: the parts of the eye's light that leave into bands of
+// directions, those of the lights of the same names (scene/light_presets.h).
 
 #include <array>
 
@@ -34,8 +34,8 @@ struct AsetShares {
 AsetShares aset_shares(const EyeLight& light, int facet = -1,
                        const ScopeBands& bands = aset_bands());
 
-/// The table's reflection: light that enters through the table, is reflected by two pavilion facets
-/// and leaves through the table. Its colour in ASET indicates the pavilion's angle.
+/// Light that enters and leaves through the table, reflected by two pavilion facets. Its colour in
+/// ASET indicates the pavilion's angle.
 struct TableReflection {
     double share = 0;         ///< of the light on the table
     double elevation = 0;     ///< elevation at which its largest part leaves, radians

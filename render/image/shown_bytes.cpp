@@ -24,9 +24,9 @@ std::uint8_t encoded(float shown) {
     return static_cast<std::uint8_t>(std::lround(255 * srgb_encoded(static_cast<double>(shown))));
 }
 
-// The byte of a positive number, which is monotonic for every tone map. It uses a table by the
-// upper half of the number's bits, and the numbers where bytes begin. A power per value would cost
-// more than the picture.
+// The byte of a positive number, monotonic for every tone map: a table by the upper half of the
+// number's bits, and the numbers where bytes begin. A power per value would cost more than the
+// picture.
 class ByteTable {
 public:
     explicit ByteTable(ToneMap map) {

@@ -1,12 +1,12 @@
 #pragma once
 // Waves in a crystal, and their reflection and refraction at faces.
 //
-// Fields ~ exp(i k0 N.r - i w t), H = N x E, D = eps E, mu = 1. A mode has a wave normal along N,
-// which obeys Snell's law, and a ray along the Poynting vector S = Re(E x H*), along which its
-// light travels. At a face of normal n every wave has the same tangential part K of N; s = K x n /
-// |K| and p = N/|N| x s. Amplitudes at a face are in units of the root of normal flux |S.n|, so
-// powers are their squares and a face is a unitary matrix. Formulas: Born & Wolf, Principles of
-// Optics, chapter 15; Beyerle & McDermid 1998 for the uniaxial face.
+// Fields ~ exp(i k0 N.r - i w t), H = N x E, D = eps E, mu = 1. A mode's wave normal is along N,
+// which obeys Snell's law; its light travels along the ray, the Poynting vector S = Re(E x H*). At
+// a face of normal n every wave has the same tangential part K of N; s = K x n / |K| and p = N/|N|
+// x s. Amplitudes at a face are in units of the root of normal flux |S.n|, so powers are their
+// squares and a face is a unitary matrix. Formulas: Born & Wolf, Principles of Optics, chapter 15;
+// Beyerle & McDermid 1998 for the uniaxial face.
 
 #include <array>
 #include <complex>

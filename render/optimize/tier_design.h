@@ -36,7 +36,7 @@ public:
     /// `steeper`: per tier, radians added to the angle from the horizontal. Nothing if the meets
     /// cannot be kept, or if facets would appear, vanish or change neighbours: every edge keeps
     /// half of its length, or 0.5 % of the diameter if that is less. The girdle stays, and corners
-    /// lie at their meets. Angles may differ from the wanted ones if meets tie them.
+    /// lie at their meets. Meets may tie angles, which then differ from the wanted ones.
     std::optional<Solid> with(const std::vector<double>& steeper) const;
 
 private:

@@ -1,7 +1,7 @@
 #pragma once
 // The exact tree of light paths behind one eye ray, for stones of every optical class and shape,
-// with polarisation at both ends. It is the reference. light_paths.h is its special case for
-// isotropic, convex stones seen without a polariser.
+// with polarisation at both ends: the reference. light_paths.h is its special case for isotropic,
+// convex stones seen without a polariser.
 //
 // A face is a unitary matrix on amplitudes, so for every ray
 //   exits + remainder + absorbed + cut + roulette = 1

@@ -1,8 +1,7 @@
 #pragma once
-// The exact light paths behind one eye ray in an isotropic, convex stone, a special case of
+// The exact light paths behind one eye ray in an isotropic, convex stone: a special case of
 // crystal_paths.h. There is a single path, with an exit at every face. In a non-convex stone (Body:
-// StoneBody) light that would meet the stone again after leaving it counts as gone; the rest is
-// exact.
+// StoneBody) light that would meet the stone again after leaving counts as gone; the rest is exact.
 //
 // Paths are traced backwards from the eye. This is exact because a face's power fractions are the
 // same when every wave vector is reversed: the eye emits an unpolarised ray, and the radiance seen
@@ -125,9 +124,8 @@ private:
     }
 
     // Power carried by a path for two orthogonal eye polarisations of power 1/2 each, as Stokes
-    // parameters: the sum of s and p, their difference, and twice the real and imaginary part of
-    // E_s E_p*. Each face rotates the frame (s, direction x s). No frame degenerates, and I is the
-    // weight.
+    // parameters: sum and difference of s and p, and twice the real and imaginary part of E_s E_p*.
+    // Each face rotates the frame (s, direction x s). No frame degenerates, and I is the weight.
     struct Carried {
         double I, Q, U, V;
 

@@ -77,8 +77,8 @@ void set_limits(const Scene& scene, PreparedScene& prepared) {
     }
     const double mean = pilot_mean(scene, prepared);
     const double brightest = prepared.surroundings->max_radiance();
-    // A cut path would see at most the brightest light. Use half of the weight that this permits,
-    // because the pilot's mean has an error of a few per cent.
+    // A cut path would see at most the brightest light. Half of that bound is used, because the
+    // pilot's mean is off by a few per cent.
     limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
                                                   : settings.tolerance;
     limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);

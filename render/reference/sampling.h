@@ -13,7 +13,7 @@ struct SamplePoint {
     double x = 0.5, y = 0.5, pupil_x = 0, pupil_y = 0;
 };
 
-/// The same in every pixel and run. Square counts form a regular grid in the pixel. Other counts,
+/// The same in every pixel and run. Square counts form a regular grid in the pixel; other counts,
 /// and the pupil, use an additive recurrence with the generalised golden ratio (Roberts 2018).
 std::vector<SamplePoint> sample_pattern(int count, bool pupil, PixelFilter filter,
                                         double filter_radius);

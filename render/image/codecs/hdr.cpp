@@ -62,7 +62,7 @@ public:
 
 private:
     // The row's four parts follow each other in runs. A count over 128 repeats the next byte (count
-    // - 128) times; a smaller count precedes that many literal bytes.
+    // - 128) times; a smaller one precedes that many literal bytes.
     void unpack_row(std::vector<Rgbe>& row) {
         for (std::size_t part = 0; part < 4; ++part) {
             for (std::size_t x = 0; x < row.size();) {

@@ -23,8 +23,8 @@ namespace culet {
 
 namespace {
 
-// libjpeg exits by longjmp, which runs no destructors. Functions that call setjmp therefore hold
-// plain values only; everything else is in their callers.
+// libjpeg exits by longjmp, which runs no destructors, so functions that call setjmp hold plain
+// values only; the rest is in their callers.
 struct JpegInput {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
@@ -45,8 +45,8 @@ struct JpegInput {
     std::longjmp(input->leave, 1);
 }
 
-// libjpeg continues after damage and fills in grey. Half a photograph is not a measurement, so it
-// is refused. Other warnings are ignored: cameras cause some (bytes between segments) with no data
+// libjpeg continues after damage and fills in grey. Half a photograph is no measurement, so it is
+// refused. Other warnings are ignored: cameras cause some (bytes between segments), and no data are
 // missing.
 void judge_jpeg_warning(j_common_ptr info, int level) {
     if (level >= 0) return;

@@ -18,8 +18,8 @@ namespace culet {
 
 namespace {
 
-// libpng exits by longjmp, which runs no destructors. Functions that call setjmp therefore hold
-// plain values only; everything else is in their callers.
+// libpng exits by longjmp, which runs no destructors, so functions that call setjmp hold plain
+// values only; the rest is in their callers.
 struct PngInput {
     png_structp png = nullptr;
     png_infop info = nullptr;
