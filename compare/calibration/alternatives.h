@@ -1,5 +1,5 @@
 #pragma once
-// The worlds whose photographs a calibration is made of: the model with other facets, another
+// The alternatives whose photographs a calibration simulates: the model with other facets, another
 // light, pose or material, or one thing wrong.
 
 #include <glm/mat3x3.hpp>
@@ -18,26 +18,25 @@ struct WorldsAsked {
     int null_draws = 24;  ///< of each null
     std::uint64_t seed = 1;
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
-    /// What the pose is not known to: one standard deviation about either axis across the line of
-    /// sight, radians. Every draw but a wrong pose is turned by so much at random.
+    /// Standard uncertainty of the pose about either axis across the line of sight, radians. Every
+    /// draw except a wrong pose is turned at random by this much.
     double view_sigma = 0;
 };
 
-/// One draw of one world.
 struct WorldDraw {
     World world = World::facet_error;
     std::string name;
     double facet_error_deg = 0;
     std::uint64_t seed = 0;
-    int which = 0;  ///< of the world's kinds
+    int which = 0;  ///< index among the alternatives of this kind
 };
 
 class Alternatives {
 public:
-    /// `notes` gets which worlds there are none of, and why. The model must outlive this.
+    /// Adds to `notes` which alternatives do not exist, and why. The model must outlive this.
     Alternatives(const Scene& model, const WorldsAsked& asked, std::vector<std::string>& notes);
 
-    /// Of every world some early on, so that a budget that ends leaves a whole.
+    /// Every kind comes up early, so that a time budget that runs out leaves a complete set.
     const std::vector<WorldDraw>& draws() const { return draws_; }
     Scene scene_of(const WorldDraw& draw) const;
 

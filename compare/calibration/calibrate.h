@@ -1,5 +1,5 @@
 #pragma once
-// What the scores of a photograph would be if its stone, light or pose were this or that.
+// Which scores a photograph would have if its stone, light or pose were another.
 
 #include <cstdint>
 #include <functional>
@@ -25,39 +25,41 @@ struct CalibrateOptions {
     std::uint64_t seed = 1;
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     double largest = 256;  ///< as for `aligned`
-    /// In the frame of the model's picture; over a half is left out. Empty: nothing is.
+    /// In the frame of the model's picture: pixels over 0.5 are left out. Empty: none is.
     std::vector<float> ignored{};
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
-    /// Of the same model, renderer and camera; null: its score is missing. Not owned.
+    /// For the same model, renderer and camera. Null: that score is missing. Not owned.
     const FacetTilts* tilts = nullptr;
 };
 
-/// Everything that the calibration of this scene depends on, as a hash: a key for a cache.
+/// Hash of everything that this scene's calibration depends on, as the key of a cache.
 std::string calibration_hash(const Scene& model, const CalibrateOptions& options);
 
-/// `model`: the stone in its pose under its lights, its camera at the size at which photographs
-/// are compared; `model_picture`: as `renderer` draws it. Each draw is a picture of another world,
-/// photographed by the camera, registered by its outline with the model's picture and scored
-/// against it, as the photograph was. A stone that is not convex has no draws of facet errors, and
-/// a note says so. Throws Interrupted.
+/// Draws pictures of the alternatives. Each is photographed by the simulated camera, registered
+/// with the model's picture by its outline, and scored against it, as the photograph was.
+///
+/// `model`: the stone in its pose under its lights; its camera has the size at which photographs
+/// are compared. `model_picture`: the model as `renderer` draws it. For a stone that is not convex
+/// there are no draws of facet errors, and a note says so. Throws Interrupted.
 Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
                       const CalibrateOptions& options, const Progress& progress = {});
 
-/// One for each of several cameras, instead of `options.camera`; each world is drawn once for all.
+/// One calibration for each of several cameras (not `options.camera`); each alternative is drawn
+/// once.
 std::vector<Calibration> calibrate(const Scene& model, const Photo& model_picture,
                                    const DraftRenderer& renderer, const CalibrateOptions& options,
                                    const std::vector<CameraModel>& cameras,
                                    const Progress& progress = {});
 
-/// A photograph aligned with the picture and scored: one a row of the table of scores, without
-/// nulls; without `tilts` theirs is missing. The picture must be as soft as the photograph
-/// (photo_blur.h): against a sharp one the blur alone outweighs facet errors under a tenth of a
-/// degree.
+/// Aligns a photograph with the picture and scores it: one score for each row of the score table,
+/// without nulls. Without `tilts` their score is missing. The picture must be as soft as the
+/// photograph (photo_blur.h): against a sharp one the blur outweighs facet errors under 0.1
+/// degrees.
 std::vector<Score> scores_against(const Photo& photo, const Photo& soft_picture, double largest,
                                   const FacetTilts* tilts);
 
-/// The scores of one photograph against the model's picture, softened by the camera's point spread,
-/// as the calibration has them.
+/// The scores of one photograph in the calibration's order. `soft_picture` is the model's picture
+/// softened by the camera's point spread.
 std::vector<std::optional<double>> calibration_scores(const Photo& photo, const Photo& soft_picture,
                                                       const CalibrateOptions& options);
 

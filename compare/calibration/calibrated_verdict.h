@@ -1,6 +1,6 @@
 #pragma once
-// What a photograph's scores mean: how large an error of the facets would lower them as much, and
-// how far they are from chance.
+// What a photograph's scores mean: how large a facet error would lower them as much, and how far
+// they are from chance.
 
 #include <optional>
 #include <string>
@@ -12,21 +12,21 @@
 
 namespace culet {
 
-/// The photograph against the draws of one null.
+/// The photograph against the draws of one null distribution.
 struct NullStatistics {
     World world = World::light;
     int draws = 0;
     double mean = 0, sd = 0;  ///< of zncc
     double z = 0;             ///< of atanh, see `fill_null`
-    /// Draws whose equivalent facet error is no larger than the photograph's, and their honest
-    /// share, (as_good + 1) / (draws + 1).
+    /// Draws whose equivalent facet error is no larger than the photograph's, and the p-value
+    /// (as_good + 1) / (draws + 1).
     int as_good = 0;
     double p = 1;
-    /// Equivalent facet errors of the null's draws: their smallest and their middle, degrees.
+    /// Smallest and median equivalent facet error of the null's draws, degrees.
     double least_deg = 0, median_deg = 0;
 };
 
-/// A hypothesis, and the facet error that it would look like if it were true.
+/// A hypothesis, and the facet error it would be equivalent to if it were true.
 struct HypothesisWorth {
     World world = World::wrong;
     std::string name;
@@ -34,27 +34,26 @@ struct HypothesisWorth {
     EquivalentError equivalent;
 };
 
-/// A calibrated comparison's verdict, and what it rests on.
 struct CalibratedVerdict {
     Verdict verdict = Verdict::no_evidence;
     /// The verdict in one sentence: "The photograph agrees with this stone: as well as with facets
     /// off by 0.2 degrees (0.17 to 0.24); 0 of 12 wrong lights agree as well".
     std::string headline;
     EquivalentError equivalent;
-    std::vector<SensitivityCurve> curves;  ///< one a score that takes part
-    std::vector<NullStatistics> nulls;     ///< the worst, that of the smallest z, first
+    std::vector<SensitivityCurve> curves;  ///< one for each score that takes part
+    std::vector<NullStatistics> nulls;     ///< smallest z first
     std::vector<HypothesisWorth> hypotheses;
     bool geometry_only = false;  ///< the photograph cannot serve for photometry
     Calibration calibration;
-    /// Minus the logarithm of the scores' average answer (degrees), which goes on where the
-    /// equivalent error ends: for ranking photographs of one calibration.
+    /// Minus the logarithm of the scores' mean answer (degrees). Unlike the equivalent error it has
+    /// no end, so it can rank photographs of one calibration.
     double evidence = 0;
 };
 
-/// How the verdict is reached, for people.
+/// Explains to people how the verdict is reached.
 extern const char* const k_calibrated_rule;
 
-/// `scores` of the photograph against the model's render, at the size of the calibration.
+/// `scores`: the photograph's against the model's render, at the calibration's size.
 CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibration calibration,
                                      bool geometry_only = false);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Calibrations that were made before, in a folder.
+// A folder of calibrations made earlier.
 
 #include <filesystem>
 #include <optional>
@@ -12,14 +12,14 @@ namespace culet {
 
 struct KeptCalibration {
     Calibration calibration;
-    TiltVariance tilts;  ///< what a photograph is held against for the score of the facets' tilts
+    TiltVariance tilts;  ///< from which the score of the facets' tilts is computed
 };
 
-/// A table (JSON) and a picture of numbers (PFM, one row a direction) for each hash. Whatever is
-/// wrong with the folder or a file in it, the calibration is made anew.
+/// Keeps a table (JSON) and a picture of numbers (PFM, one row for each direction) under each hash.
+/// If the folder or one of its files is unusable, the calibration is made anew.
 class CalibrationCache {
 public:
-    /// Of an empty name nothing is kept.
+    /// With an empty name nothing is kept.
     explicit CalibrationCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     std::optional<KeptCalibration> find(const std::string& hash) const;

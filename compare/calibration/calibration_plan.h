@@ -1,5 +1,5 @@
 #pragma once
-// What a budget of work allows a calibration: how fine its pictures are, and how many it draws.
+// How fine a calibration's pictures are and how many it draws, within a time budget.
 
 #include "compare/calibration/draft_renderer.h"
 
@@ -8,13 +8,14 @@ namespace culet {
 struct CalibrationPlan {
     DraftRenderer renderer;  ///< of all its pictures
     int rounds = 8;          ///< draws at each facet error; nulls have three times as many
-    bool tilts = true;       ///< whether what each facet's tilt changes is drawn
+    bool tilts = true;       ///< whether the effect of each facet's tilt is drawn
 };
 
-/// Of the pictures that are tried, the finest with which four rounds fit into `allowed_ns`, else as
-/// many rounds as the coarsest allow, two at least. Work is counted, so that the plan is the same
-/// on every machine. `allowed_ns` of 0: no limit, the finest. `photometric`: whether the photograph
-/// serves for photometry; the facets' tilts are not read from one that does not.
+/// Tries resolutions from fine to coarse and takes the finest for which four rounds fit into
+/// `allowed_ns`. Otherwise takes the coarsest, with as many rounds as fit, at least two. Work is
+/// counted, not timed, so the plan is the same on every machine. `allowed_ns` 0: no limit, the
+/// finest. `photometric`: whether the photograph can serve for photometry; if not, facet tilts are
+/// not read from it.
 CalibrationPlan plan_calibration(const Scene& model, const DraftRenderer& fine, int most_rounds,
                                  double allowed_ns, bool photometric);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Many pictures of scenes that differ a little from one, quickly and all in one manner.
+// Draws many pictures of slightly different scenes, quickly and with the same settings.
 
 #include <memory>
 #include <optional>
@@ -9,32 +9,33 @@
 
 namespace culet {
 
-/// What the first scene calls for is planned once; the others are drawn with the same settings and
-/// are not held against the reference one by one.
+/// Plans the settings once for the first scene. The others are drawn with them and are not checked
+/// against the reference one by one.
 class DraftRenderer {
 public:
-    /// `allowed_ns`: of counted work (render/work/price.h) for the first picture, which is then as
-    /// fine as that allows; 0: as long as it takes. Throws InputError as `render` does.
+    /// `allowed_ns`: counted work (render/work/price.h) for the first picture, which is as fine as
+    /// that allows; 0: no limit. Throws InputError as `render` does.
     DraftRenderer(const Scene& model, double tolerance, double allowed_ns = 0);
-    /// For pictures of the same scene that need only be alike among themselves: paths that carry
-    /// less than `cut_weight` are left out, and borders of beams are coarser. What is drawn by rays
-    /// stays as it is.
+    /// A coarser renderer of the same scene, for pictures that are compared only with each other:
+    /// leaves out paths that carry less than `cut_weight`, and draws beam borders more coarsely.
+    /// Ray-traced pictures stay as they are.
     DraftRenderer coarser(const Scene& model, double cut_weight) const;
 
-    /// With coverage. Same scene, same bytes. Throws InputError for a stone that cannot be drawn.
+    /// With coverage. The same scene gives the same bytes. Throws InputError for a stone that
+    /// cannot be drawn.
     Photo draw(const Scene& scene, const Progress& progress = {}) const;
-    /// At one wavelength and with only the paths of some weight: for how a picture changes, not for
-    /// the picture. A crystal's takes a thirtieth of the time. Nothing when the scene is drawn by
-    /// rays, whose noise would be all that there is between two pictures.
+    /// A picture at one wavelength with only the stronger paths, which shows how the picture
+    /// changes. For a crystal it takes a thirtieth of the time. Nothing when the scene is
+    /// ray-traced: the difference of two pictures would be mostly noise.
     std::optional<Photo> sketch(const Scene& scene) const;
-    /// By the reference renderer with `samples` rays a pixel: an independent picture of the same.
+    /// An independent picture of the scene by the reference renderer, `samples` rays a pixel.
     Photo draw_exactly(const Scene& scene, int samples, const Progress& progress = {}) const;
 
-    /// Of the first scene.
+    /// The first scene's picture.
     const Photo& picture() const { return picture_; }
     const RenderSettings& settings() const { return settings_; }
     const RenderStats& stats() const { return stats_; }
-    /// Work of all pictures so far, counted; of rays, by what the first picture's took.
+    /// Counted work of all pictures so far; for ray-traced ones, estimated from the first picture.
     double worked_ns() const;
 
 private:
@@ -46,8 +47,8 @@ private:
     std::shared_ptr<WorkMeter> meter_ = std::make_shared<WorkMeter>();
 };
 
-/// The scene with its environment map no finer than 256 directions round: averaging it for beams
-/// takes as long as a picture, and every turned light has to be averaged anew.
+/// Reduces the environment map to at most 256 directions round: averaging it for beams takes as
+/// long as a picture, and has to be repeated for every turned light.
 Scene with_coarse_environment(const Scene& scene);
 
 }  // namespace culet

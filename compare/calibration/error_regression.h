@@ -1,29 +1,29 @@
 #pragma once
-// From several scores of one stone to the logarithm of its facet error, by what draws of known
-// error have: multivariate inverse regression.
+// Predicts the logarithm of a stone's facet error from its scores, learnt from draws of known
+// error: multivariate inverse regression.
 
 #include <optional>
 #include <vector>
 
 namespace culet {
 
-/// The logarithm is a weighted sum of the scores. Scores of one stone go up and down together, and
-/// there are hardly more draws than scores: weights are held near zero by ridge regression (Hoerl
-/// and Kennard 1970) of the standardised scores, as strongly as generalised cross-validation wants
-/// it (Golub, Heath and Wahba 1979). All levels of error share the weights, so that no level hangs
-/// on its own few draws. A missing score is a NaN.
+/// The logarithm is a weighted sum of the scores. Scores of one stone are correlated, and there are
+/// hardly more draws than scores, so the weights of the standardised scores are shrunk by ridge
+/// regression (Hoerl and Kennard 1970) with a strength chosen by generalised cross-validation
+/// (Golub, Heath and Wahba 1979). All levels of error share the weights, because each level has few
+/// draws. A missing score is a NaN.
 class ErrorRegression {
 public:
     ErrorRegression() = default;
-    /// `scores`: a draw, a score; of about equal slope against the logarithm. Draws that lack one
-    /// of the scores that are asked about are left out.
+    /// `scores[draw][score]`, with about equal slopes against the logarithm. Draws that lack one of
+    /// the scores that are asked for are left out.
     ErrorRegression(std::vector<double> log_errors, std::vector<std::vector<double>> scores);
 
-    /// Nothing when all scores are missing, or fewer than three draws have those that are not.
+    /// Nothing when all scores are missing, or fewer than three draws have those that are present.
     std::optional<double> of(const std::vector<double>& scores) const;
 
-    /// By how much each draw's answer is off when the draw itself is left out of the fit (Cook and
-    /// Weisberg 1982, 2.2: residual over one less its leverage); NaN for one that lacks a score.
+    /// Each draw's leave-one-out error (Cook and Weisberg 1982, 2.2: residual / (1 - leverage));
+    /// NaN for a draw that lacks a score.
     const std::vector<double>& left_out() const { return left_out_; }
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// Stones that are not quite the model: the yardstick by which a photograph's scores are read.
+// Stones that differ slightly from the model, as the yardstick for a photograph's scores.
 
 #include <cstdint>
 #include <optional>
@@ -8,30 +8,31 @@
 
 namespace culet {
 
-/// The convex solid with each facet's plane tilted about an axis of random direction in the facet's
-/// plane through the mean of its corners, so that it stays in its place. The angles are of normal
-/// distribution, their root mean square over the stone's facets is `rms` (radians): a stone's facet
-/// error is that of its own tilts. Those of 25 facets drawn with one standard deviation would
-/// differ by 14 % from stone to stone, and no picture could tell which it was drawn with.
-/// Names are kept; a facet that is tilted out of the stone is gone. Nothing when the planes bound
-/// no solid any more, or `solid` is not convex. The same seed gives the same tilts, in proportion.
+/// Tilts each facet of a convex solid about a random axis in its plane through the mean of its
+/// corners, so that the facet stays in its place. The angles are normally distributed and then
+/// scaled so that their root mean square over the facets is exactly `rms` (radians). Without the
+/// scaling, stones of 25 facets would differ by 14 % in facet error, and no picture could tell
+/// which error it was drawn with.
+///
+/// Names are kept; a facet that is tilted out of the stone disappears. The same seed gives the same
+/// tilts, in proportion to `rms`. Nothing when the planes no longer bound a solid or `solid` is not
+/// convex.
 std::optional<Solid> with_facet_error(const Solid& solid, double rms, std::uint64_t seed);
 
-/// The same of one facet alone: tilted by `angle` (radians) about the first (0) or second (1) of
-/// two axes in its plane that are square to each other. A facet error of s gives each of the two
-/// angles the mean square s^2 / 2.
+/// Tilts one facet by `angle` (radians) about the first (0) or second (1) of two perpendicular axes
+/// in its plane. A facet error s gives each of the two angles the mean square s^2 / 2.
 std::optional<Solid> with_facet_tilted(const Solid& solid, std::size_t facet, int axis,
                                        double angle);
 
-/// The stone as a catalogue would have it: the most symmetrical of the solids near to it. Its
-/// symmetry is the largest n (2 to 16) for which turning about `up` by 1/n, and mirroring where
-/// that holds too, takes every facet near to another one (normals within 3 degrees, offsets within
-/// 3 % of the diameter); planes that go into each other are then made alike by their mean. Nothing
-/// when there is no such n, or nothing changes by it.
+/// The stone as a catalogue would have it: the most symmetrical solid near it. Its order of
+/// symmetry is the largest n (2 to 16) for which a turn about `up` by 1/n (and a mirror plane, if
+/// there is one) takes every facet near another one: normals within 3 degrees, offsets within 3 %
+/// of the diameter. Corresponding planes are then replaced by their mean. Nothing when there is no
+/// such n, or nothing changes.
 std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up);
 
-/// By what part of a full turn about `up` a stone looks much like itself: that n, 1 if there is
-/// none.
+/// The n of `symmetrised`: the stone looks much the same after 1/n of a turn about `up`. 1: no
+/// symmetry.
 int turns_alike(const Solid& solid, const Vec3& up);
 
 }  // namespace culet

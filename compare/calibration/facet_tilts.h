@@ -1,6 +1,6 @@
 #pragma once
-// The facets' tilts, read from the picture itself: how much of what a photograph is off by is what
-// tilted facets change.
+// Estimates the facets' tilts from the picture: how much of a photograph's error is what tilted
+// facets would change.
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -13,57 +13,56 @@
 
 namespace culet {
 
-/// The model's picture is drawn with each facet tilted a little either way about each of two axes.
-/// The differences are what a photograph's difference from the model's render is held against
-/// (tilt_variance.h), all facets at once, so that how large their tilts are is known about as well
-/// as so many tilts can tell: a score that adds up differences hangs on the few facets that change
-/// most. Samples count by how straight the changes are there: where the tilts' second differences
-/// are large, tilts of other sizes change something else. Shift, scale, turn, exposure and blur are
+/// Draws the model with each facet tilted slightly both ways about each of two axes. The
+/// photograph's difference from the render is then fitted with these changes, all facets at once
+/// (tilt_variance.h). This uses all tilts about equally, whereas a score that adds up differences
+/// depends on the few facets that change most. Samples where the tilts' second differences are
+/// large (the change is not linear) get less weight. Shift, scale, turn, exposure and blur are
 /// projected out.
 ///
-/// All of it is in the root of luminance, clipped at white, blurred by 0.8 % of the stone's
-/// diameter, on a picture of the stone 192 pixels across in the model's frame.
+/// All of this works on the root of luminance, clipped at white and blurred by 0.8 % of the stone's
+/// diameter, with the stone 192 pixels across in the model's frame.
 class FacetTilts {
 public:
-    /// `model`, `renderer` and its picture, `camera`: as for a calibration. Draws four sketches a
-    /// facet (`sketches_for`). Throws Interrupted.
+    /// `model`, `renderer` with its picture, `camera`: as for a calibration. Draws four sketches
+    /// for each facet (`sketches_for`). Throws Interrupted.
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
                int threads, const Progress& progress = {});
-    /// The same without its sketches, which `kept` stands for: the `variance()` of one of the same
-    /// model and camera.
+    /// The same without drawing the sketches: `kept` is the `variance()` of an earlier object with
+    /// the same model and camera.
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
                TiltVariance kept);
 
-    /// How many it draws.
+    /// Number of sketches that the constructor draws.
     static double sketches_for(const Solid& solid) {
         return 4.0 * static_cast<double>(solid.facets.size());
     }
 
-    /// False: the stone is not convex, is drawn by rays, or shows nothing of its facets.
+    /// False when the stone is not convex, is ray-traced, or its facets do not show.
     bool usable() const { return variance_.usable(); }
 
     const TiltVariance& variance() const { return variance_; }
 
-    /// Degrees: the facet error (facet_error.h) by which the photograph differs from the model. It
-    /// is about right from 0.05 to 0.5 degrees; larger ones are read too small, and what else there
-    /// is in the picture counts as facet error, so that it needs a calibration like any score.
-    /// `pair`: the photograph and the model's picture; of that only the place is used. `picture`: a
-    /// finer one of the model in the renderer's place; null: the renderer's own.
+    /// The facet error (facet_error.h) by which the photograph differs from the model, degrees.
+    /// About right from 0.05 to 0.5 degrees. Larger errors are underestimated, and other
+    /// differences count as facet error too, so it needs a calibration like any score. `pair`: the
+    /// photograph and the model's picture, of which only the registration is used. `picture`: a
+    /// finer picture of the model in the renderer's frame; null: the renderer's own.
     std::optional<double> facet_error_deg(const AlignedPair& pair,
                                           const Photo* picture = nullptr) const;
 
 private:
-    /// The model's picture on its samples; false when there is nothing to be told.
+    /// Samples the model's picture; false when nothing can be told from it.
     bool lay_samples(const Scene& model, const DraftRenderer& renderer);
 
-    /// A picture through a lens, as fine as it is drawn.
+    /// The picture through a lens, at its full resolution.
     cv::Mat seen_finely(const Photo& picture, double psf_px) const;
     cv::Mat at_samples(const Photo& picture) const;
 
     StoneSamples samples_;
-    cv::Mat mask_;  // CV_8U: those that are used
+    cv::Mat mask_;  // // CV_8U: the samples used
     CameraModel camera_;
-    cv::Mat picture_;  // CV_32F: the model's picture at the samples' places, as the camera sees it
+    cv::Mat picture_;  // // CV_32F: the model's picture at the samples, as the camera sees it
     TiltVariance variance_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Other worlds than the model's: what the photograph might be of instead.
+// Changes of the model that the photograph might show instead.
 
 #include <glm/mat3x3.hpp>
 #include <string>
@@ -9,21 +9,20 @@
 
 namespace culet {
 
-/// The stone turned about a point, its crystal with it.
 Stone turned_stone(const Stone& stone, const glm::dmat3& turn, const Vec3& about);
 
-/// True when turning the lights changes nothing: the same light from everywhere.
+/// True when turning the lights changes nothing because the same light comes from everywhere.
 bool same_light_from_everywhere(const Lights& lights);
 
-/// The stone with all its refractive indices `by` higher, whatever their form.
+/// Adds `by` to all refractive indices, whatever their dispersion formula.
 Material with_index_changed(const Material& material, double by);
-/// With its indices at the sodium line at all wavelengths.
+/// Uses the indices at the sodium line for all wavelengths.
 Material without_dispersion(const Material& material);
 Material with_absorption_times(const Material& material, double factor);
 
-/// The materials of the catalogue whose mean index at the sodium line lies nearest, of other
-/// indices than this one's (by 0.002 at least), nearest first. They keep this one's absorption, so
-/// that it is the index that is asked about.
+/// The catalogue's materials with the nearest mean index at the sodium line that differs by at
+/// least 0.002, nearest first. They keep this material's absorption, so that only the index is
+/// tested.
 std::vector<Material> neighbouring_materials(const Material& material, int count);
 
 }  // namespace culet

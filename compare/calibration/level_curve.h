@@ -1,23 +1,24 @@
 #pragma once
-// Curves that are known at a few rising levels x, straight between them: y has a value for each.
+// Piecewise linear curves: a value y at each of a few rising levels x.
 
 #include <vector>
 
 namespace culet {
 
-/// Beyond the ends: as at the ends.
+/// Constant beyond the ends.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
 
 /// Where a non-increasing curve has this value: the middle of a flat stretch, or the nearer end.
 double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y, double value);
 
-/// Non-decreasing least-squares fit (pool adjacent violators), weights alike (isotonic regression,
-/// Barlow et al. 1972).
+/// Non-decreasing least-squares fit with equal weights (isotonic regression by pool adjacent
+/// violators, Barlow et al. 1972).
 std::vector<double> monotone(const std::vector<double>& values);
 /// The same, non-increasing.
 std::vector<double> falling(std::vector<double> values);
 
-/// Each shared with its neighbours, at half of its own weight: for variances of a few draws each.
+/// Averages each value with its neighbours, which have half its weight: for variances of a few
+/// draws each.
 std::vector<double> smoothed(const std::vector<double>& values);
 
 }  // namespace culet

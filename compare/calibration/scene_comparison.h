@@ -1,6 +1,6 @@
 #pragma once
-// A photograph against a scene: the stone's pose is found, the scene drawn at the photograph's
-// scale, compared, and on request calibrated.
+// Compares a photograph with a scene: finds the stone's pose, draws the scene at the photograph's
+// scale, compares, and calibrates on request.
 
 #include <filesystem>
 #include <optional>
@@ -15,32 +15,32 @@
 
 namespace culet {
 
-/// A pose that is sure (99 %) to so much, radians, is taken as it is.
+/// A pose with a 99 % uncertainty up to this, radians, is not refined.
 constexpr double k_sure_pose = radians(2.0);
 
 struct SceneCompareOptions {
     CompareOptions compare;
-    bool find_pose = true;  ///< false: the scene's camera stands where it says
+    bool find_pose = true;  ///< false: the scene's camera is used as it is
     bool calibrate = false;
-    /// Of two processors, in counted work (render/work/price.h), for all of a calibrated
-    /// comparison: as fine and as many pictures are drawn as that allows. 0: no limit.
+    /// Time budget of a calibrated comparison on two processors, in counted work
+    /// (render/work/price.h). It limits how fine and how many pictures are drawn. 0: no limit.
     double budget_seconds = 30;
     int draws = 8;  ///< at each facet error, at most; nulls have three times as many
-    /// Pixels that the stone is across at most: every draw of the calibration is drawn at it.
+    /// Largest size of the stone in pixels, at which every draw of the calibration is made.
     double largest = 256;
-    std::filesystem::path cache{};  ///< folder of calibrations; empty: none is kept
+    std::filesystem::path cache{};  ///< folder of calibrations; empty: no cache
     std::optional<Solid> start{};   ///< the mesh that the fit started from
-    /// How sure the stone's facets are: then `Comparison::within` says how much of the photograph
-    /// is within it, by so many drawn stones.
+    /// The uncertainty of the stone's facets. If given, `Comparison::within` says how much of the
+    /// photograph is within it, from `drawn_stones` random stones.
     std::optional<StoneUncertainty> uncertainty{};
     int drawn_stones = 100;
 };
 
 struct SceneComparison {
-    Comparison comparison;  ///< where it is calibrated, with that verdict and its reason
+    Comparison comparison;  ///< with the calibrated verdict and reason, if there is one
     std::optional<CalibratedVerdict> calibrated;
-    Scene scene;   ///< as drawn: camera at the photograph's pose and at the compared size
-    Photo render;  ///< of it
+    Scene scene;   ///< as drawn: the camera in the photograph's pose, at the compared size
+    Photo render;  ///< of `scene`
     RenderStats stats;
     std::optional<FoundPose> pose;
     bool pose_used = false;

@@ -1,5 +1,5 @@
 #pragma once
-// From scores to the facet error that would lower them as much.
+// Finds the facet error that would lower the scores as much.
 
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@ namespace culet {
 
 struct ScoreKind;
 
-/// Facet errors are drawn at these, degrees; and at 0, the ceiling.
+/// Levels at which facet errors are drawn, degrees; beside 0, the ceiling.
 std::vector<double> facet_errors_deg();
 
 /// One score against facet error.
@@ -28,39 +28,42 @@ struct SensitivityCurve {
     std::vector<Level> levels;  ///< rising error; the first is the ceiling
     bool higher_is_better = true;
     std::optional<double> value;           ///< the photograph's
-    std::optional<double> equivalent_deg;  ///< where the curve has it; ends: see EquivalentError
+    std::optional<double> equivalent_deg;  ///< where the curve has this value; beyond its ends see
+                                           ///< EquivalentError
     double weight = 0;                     ///< share in the combined answer
 };
 
-/// Degrees; the curve ends at 2, and below `k_least_deg` nothing is told apart.
+/// Degrees. The curve ends at 2; errors below `k_least_deg` cannot be told apart.
 struct EquivalentError {
     std::optional<double> deg;
     double low_deg = 0,
-           high_deg = 0;  ///< 95 % of right stones are within, by draws left out one by one
+           high_deg = 0;  ///< 95 % interval for right stones, from leave-one-out errors
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
-    /// For ranking: the logarithm of the error, larger by half the logarithm of what the scores'
-    /// misfit is over the largest of right stones (as errors are scaled whose residuals are too
-    /// large: Birge 1932).
+    /// For ranking: the logarithm of the error. If the misfit exceeds the largest of right stones
+    /// by a factor f, log(f) / 2 is added, as errors are scaled when residuals are too large (Birge
+    /// 1932).
     std::optional<double> rank;
 };
 
-/// Equivalent facet errors by several scores together: by regression on all draws with facet errors
-/// (error_regression.h). Where the scores disagree as no right stone's do (joint_scores.h), each
-/// score's curve is made monotone and inverted in the logarithm of the error; the scores' answers
-/// are averaged with weights that are the inverse of the variance that each shows for right stones
-/// of about that error; and the average's own curve is inverted in turn, which takes its bias away.
+/// Combines several scores into an equivalent facet error, by regression on all draws with facet
+/// errors (error_regression.h).
+///
+/// Where the scores disagree more than those of any right stone (joint_scores.h), each score's
+/// curve is made monotone and inverted in the logarithm of the error. These answers are averaged
+/// with inverse-variance weights, from the variance that each shows for right stones of about that
+/// error. The average's own curve is inverted in turn, which removes its bias.
 class FacetErrorScale {
 public:
-    /// Of the calibration's draws with facet errors; `keys`: the scores that take part.
+    /// Uses the calibration's draws with facet errors; `keys`: the scores that take part.
     FacetErrorScale(const Calibration& calibration, const std::vector<std::string>& keys);
 
-    /// False: too few levels were drawn.
+    /// False when too few levels were drawn.
     bool usable() const { return curves_.size() > 0 && levels_.size() >= 3; }
-    /// `scores`: one a key of the calibration.
+    /// `scores`: one for each key of the calibration.
     EquivalentError of(const std::vector<std::optional<double>>& scores) const;
-    /// The curves with values, equivalents and weights of these scores.
+    /// The curves with the values, equivalent errors and weights of these scores.
     std::vector<SensitivityCurve> curves(const std::vector<std::optional<double>>& scores) const;
-    /// The rank of what is as far from the stone as any.
+    /// The rank of a picture that is as wrong as the scale reaches.
     double largest_rank() const { return levels_.empty() ? 0 : levels_.back(); }
 
     static constexpr double k_least_deg = 0.01;  ///< stands for an error of 0
@@ -69,10 +72,11 @@ private:
     struct Curve {
         std::size_t key = 0;
         const ScoreKind* kind = nullptr;
-        std::vector<double> mean, sd, fitted;  // a level each
+        std::vector<double> mean, sd, fitted;  // // one for each level
         std::vector<int> draws;
-        std::vector<double> stabilised_scores;  // fitted, on the scale of `stretch`
-        std::vector<double> variance;  // of the log of its own equivalent error, a level each
+        std::vector<double> stabilised_scores;  // // fitted, on the scale of `stabilised`
+        std::vector<double> variance;  // // of the log of its own equivalent error, one for each
+                                       // level
     };
     double logarithm(const Curve& curve, double score) const;
     double weight(const Curve& curve, double log_deg) const;
@@ -88,10 +92,10 @@ private:
     std::vector<double> levels_;      // log degrees
     std::vector<double> levels_deg_;  // 0 for the ceiling
     std::vector<Curve> curves_;
-    std::vector<double> average_;  // the average's own monotone curve, a level each
+    std::vector<double> average_;  // // the average's own monotone curve, one for each level
     JointScores joint_;
     ErrorRegression regression_;
-    std::vector<double> spread_;  // root mean square of what answers are off, a level each
+    std::vector<double> spread_;  // // root mean square error of the answers, one for each level
 };
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Several photographs of one stone: what they say together, and what each of them adds to that.
+// Combines several photographs of one stone, and finds what each of them contributes.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 namespace culet {
 
 struct PhotographRow {
-    std::string name;  ///< of the file
+    std::string name;
     std::string page;  ///< its own report, relative to the common one
     std::string scores_json;
     Comparison comparison;
@@ -24,21 +24,22 @@ const EquivalentError* equivalent_of(const PhotographRow& row);
 struct SeveralPhotographs {
     Verdict verdict = Verdict::no_evidence;
     std::string reason;
-    /// Weighted mean of the logarithms of the photographs' equivalent facet errors, each weighted
-    /// by the inverse of its variance; the interval is the wider of what those variances and the
-    /// photographs' scatter give.
+    /// Weighted mean of the logarithms of the photographs' equivalent facet errors, with
+    /// inverse-variance weights. The interval is the wider of the one from those variances and the
+    /// one from the photographs' scatter.
     EquivalentError together;
     /// The same without each of the photographs, in their order.
     std::vector<EquivalentError> without;
-    /// Largest change of the common answer by leaving one out, as a factor, 1 or more.
+    /// Largest change of the combined answer when one photograph is left out, as a factor of at
+    /// least 1.
     double largest_change = 1;
 };
 
-/// The verdict is that of most photographs, the worse one in a tie; refused ones have no say
-/// unless all are.
+/// The verdict is that of most photographs, in a tie the worse one. Refused photographs count only
+/// when all are refused.
 SeveralPhotographs together(const std::vector<PhotographRow>& rows);
 
-/// One object: the common answer, and every photograph's scores under "photographs".
+/// One JSON object: the combined answer, and every photograph's scores under "photographs".
 std::string several_json(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows);
 
 }  // namespace culet

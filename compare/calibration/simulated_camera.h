@@ -1,5 +1,5 @@
 #pragma once
-// What a camera makes of a picture: the render as it would look, had it been photographed.
+// Simulates a camera: the render as it would look if it had been photographed.
 
 #include <array>
 #include <cstdint>
@@ -8,27 +8,27 @@
 
 namespace culet {
 
-/// Of the photograph that is being judged, at the size at which it is compared.
+/// The camera of the photograph being assessed, at the size of the comparison.
 struct CameraModel {
     double psf_px = 0.7;                   ///< standard deviation of the point spread
-    double electrons = 10000;              ///< at the clipping level: shot noise is their root
+    double electrons = 10000;              ///< at the clipping level; shot noise is their root
     double read_noise = 6;                 ///< electrons
     int bits = 8;                          ///< of the sRGB-encoded file; 0: linear floats
     bool clips = true;                     ///< at 1
     std::array<double, 3> gain{1, 1, 1};   ///< exposure and white balance: 1 is the clipping level
-    std::array<float, 3> ground{0, 0, 0};  ///< what surrounds the stone, after the gain
-    /// The stone's outline is found in the picture, as it was in the photograph; false: the
-    /// coverage is kept, as a mask or an alpha channel would tell it.
+    std::array<float, 3> ground{0, 0, 0};  ///< colour around the stone, after the gain
+    /// True: the outline is found against the background, as in the photograph. False: the coverage
+    /// is kept, as from a mask or an alpha channel.
     bool outline_from_background = true;
-    /// The picture is moved by up to half a pixel either way and scaled by up to so much: the
-    /// registration must undo it, resampling as it does for the photograph.
+    /// The picture is moved at random by up to half a pixel and scaled by up to this share, so that
+    /// registration must undo it and resample, as for the photograph.
     double scale_error = 0.002;
 };
 
 /// `stone` must have coverage.
 Photo photographed(const Photo& stone, const CameraModel& camera, std::uint64_t seed);
 
-/// The factor on the gain that brings the 99th percentile of the stone to where `model`'s is.
+/// The factor on the gain that brings the stone's 99th percentile to that of `model`.
 double exposure_like(const Photo& stone, const Photo& model);
 
 }  // namespace culet

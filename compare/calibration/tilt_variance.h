@@ -1,50 +1,49 @@
 #pragma once
-// How large many small causes are together, from what they changed in a picture, without telling
-// one from another: a variance component.
+// Estimates how large many small causes are together from what they change in a picture, without
+// separating them: a variance component.
 
 #include <optional>
 #include <vector>
 
 namespace culet {
 
-/// What is known of a picture's samples before it is seen. All columns have a value a sample.
+/// What is known of a picture's samples beforehand. Each column has one value for each sample.
 struct TiltModel {
-    /// What a unit of each cause (each facet's tilts) changes.
+    /// The change by a unit of each cause (each facet's tilts).
     std::vector<std::vector<double>> changes;
     /// Directions in which pictures differ for other reasons, by unknown amounts.
     std::vector<std::vector<double>> nuisances;
-    /// Standard deviation of each sample for all other reasons, in any unit: only their ratios
-    /// count. Over zero.
+    /// Each sample's standard deviation for all other reasons, positive, in any unit: only ratios
+    /// count.
     std::vector<double> noise;
 };
 
-/// The causes' root mean square, in their unit: the square root of Rao's quadratic estimate of a
+/// The causes' root mean square in their unit: the square root of Rao's quadratic estimate of a
 /// variance component (Rao 1971, MINQUE; the first iterate of restricted maximum likelihood,
-/// Patterson and Thompson 1971). With the noise made equal, the nuisances projected out, and
-/// y, s the difference and the singular values along the changes' principal directions, it is
+/// Patterson and Thompson 1971). After whitening the noise and projecting out the nuisances, with y
+/// and s the difference and the singular values along the changes' principal directions, it is
 ///     sum w (y / s)^2 / sum w,   w = (s^2 / (s^2 + t^2))^2,
-/// so that directions hardly seen do not count and those well seen count alike, however strong.
-/// t is the median of s: which noise there is beside the causes is not known beforehand (mostly it
-/// is what is not linear in them). The noise's own share is left in, so that the logarithm exists:
-/// what the estimate is of pictures with no cause at all, and how it bends for large ones, is for a
-/// calibration to tell.
+/// so that barely visible directions do not count and clearly visible ones count alike. t is the
+/// median of s, because the noise beside the causes is unknown beforehand (it is mostly the causes'
+/// non-linear effect). The noise's share is not subtracted, so that the logarithm always exists. A
+/// calibration must find the estimate's value for no causes and its bias for large ones.
 class TiltVariance {
 public:
     /// Not usable.
     TiltVariance() = default;
     explicit TiltVariance(const TiltModel& model);
-    /// One that was kept: its `rows()` and `samples()`.
+    /// From the `rows()` and `samples()` of an earlier one.
     TiltVariance(std::vector<float> rows, std::size_t samples)
         : samples_(samples), rows_(std::move(rows)) {}
 
-    /// False: no cause changes any sample otherwise than a nuisance does.
+    /// False: every change of a cause is also a nuisance.
     bool usable() const { return !rows_.empty(); }
     std::size_t samples() const { return samples_; }
-    /// One of `samples()` values a direction: the estimate is the root of the sum of the squares of
-    /// their products with a difference.
+    /// One direction each, of `samples()` values. The estimate is the root of the sum of their
+    /// squared products with a difference.
     const std::vector<float>& rows() const { return rows_; }
-    /// `difference`: of a picture from the one without causes, a value a sample; nothing when not
-    /// usable.
+    /// `difference`: a picture minus the one without causes, one value for each sample. Nothing
+    /// when not usable.
     std::optional<double> rms(const std::vector<double>& difference) const;
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a photograph is within what the readings of a stone leave open.
+// Whether a photograph is within the uncertainty of a stone's readings.
 
 #include "compare/scores/compare.h"
 
@@ -7,10 +7,9 @@ namespace culet {
 
 struct AlignedPair;  // compare/scores/aligned_pair.h
 
-/// Of a pair that was laid on each other; nothing where the render has no bands (Photo::bands), or
-/// nothing is to be compared. The bands are blurred as the photograph is, and widened by its noise
-/// and by the steps of its file; pixels that the camera clipped are left out. What the registration
-/// is off by is not in them.
+/// For a registered pair; nothing where the render has no bands (Photo::bands) or no pixel is
+/// compared. The bands are blurred as the photograph is, and widened by its noise and quantisation.
+/// Clipped pixels are left out. Registration errors are not included in the bands.
 std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Photo& photo,
                                               const Photo& render);
 
