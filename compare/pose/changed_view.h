@@ -1,5 +1,5 @@
 #pragma once
-// A view as it changes, worked out once for all the points that are looked at in it.
+// A changing view, computed once for all the points that are projected through it.
 
 #include <array>
 
@@ -7,25 +7,24 @@
 
 namespace culet {
 
-/// Where a point of the stone is seen, and how that place moves with the view and with the point.
+/// Where a point of the stone is seen, and the derivatives by the view and by the point.
 struct SeenPoint {
     PicturePoint at;
     std::array<double, k_view_unknowns> x_by_change, y_by_change;
     Vec3 x_by_point, y_by_point;
 };
 
-/// The view after a change, with its derivatives by the change.
 class ChangedView {
 public:
     explicit ChangedView(const StoneView& view) : view_(view) { set({}); }
-    /// Sets the change. A point then costs some 150 multiplications.
+    /// A point then costs some 150 multiplications.
     void set(const ViewChange& change);
     SeenPoint operator()(const Vec3& point) const;
 
 private:
     // A number and its derivatives by the change.
     using Number = std::array<double, 1 + k_view_unknowns>;
-    // c[0] + c[1] x + c[2] y + c[3] z of the point, reckoned from the stone's middle.
+    // c[0] + c[1] x + c[2] y + c[3] z of the point, relative to the stone's middle.
     using Linear = std::array<Number, 4>;
     StoneView view_;
     Linear beside_x_, beside_y_, depth_;

@@ -1,6 +1,6 @@
 #pragma once
-// From a rough view to a handful of views worth refining: every turn of the stone near the start is
-// laid over the photograph, sized by its outline and judged by the edges under its wireframe.
+// From a rough view to a few views worth refining: tries all rotations near the start, fits size
+// and place to the outline, and scores the photograph's edges under the wireframe.
 
 #include <vector>
 
@@ -13,10 +13,10 @@ namespace culet {
 
 struct CoarseView {
     StoneView view;
-    double score = 0;  ///< higher is better: log-likelihood, about
+    double score = 0;  ///< approximate log-likelihood, higher is better
 };
 
-/// What a wireframe is laid over: one photograph, as it is or mirrored.
+/// What a wireframe is compared with: one photograph, as it is or mirrored.
 struct Target {
     const WireSolid& wire;
     const OutlineShape& shape;
@@ -25,15 +25,15 @@ struct Target {
     double facet_error = 0;
 };
 
-/// The view turned as `start` is, sized and placed by the outline, with its score.
+/// The view with the rotation of `start`; size and place come from the outline. With its score.
 CoarseView score_view(const Target& target, const StoneView& start);
 
-/// Up to `most` views that differ, best first. `angle`: how far the start may be off.
+/// Up to `most` different views, best first. `angle`: how far off the start may be, radians.
 std::vector<CoarseView> search_views(const Target& target, const StoneView& start, double angle,
                                      int most, const Progress& progress);
 
-/// The best views among `view` turned about the stone's z axis, all round, each improved; those
-/// that differ from each other, best first.
+/// Tries `view` turned all round about the stone's z axis and improves the best. Returns those that
+/// differ, best first.
 std::vector<CoarseView> turned_views(const Target& target, const StoneView& view, int most);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// All edges of a photograph, sorted by direction, as maps that tell how near the next one is: for
-// laying many thousands of wireframes over it.
+// Distance maps of a photograph's edges, one for each direction, for comparison with many thousands
+// of wireframes.
 
 #include <array>
 #include <opencv2/core/mat.hpp>
@@ -12,18 +12,17 @@ namespace culet {
 
 constexpr int k_edge_directions = 12;
 
-/// Made once for a photograph, from pixels brought to about `k_map_diameter` across the stone.
+/// Made once for a photograph that was resized to about `k_map_diameter` across the stone.
 class EdgeMap {
 public:
-    /// `colour`: CV_32FC3, linear; `mask`: CV_8U, the stone. Edges within `reach` (a share of the
-    /// stone's diameter, `diameter_px`) are near.
+    /// `colour`: CV_32FC3, linear; `mask`: CV_8U, the stone. `reach`: edges nearer than this share
+    /// of the stone's diameter (`diameter_px`) count.
     EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px, double reach);
 
-    /// The map of one direction.
     class Direction {
     public:
-        /// 1 on an edge of this direction, falling to 0 at `reach` from it, less what is found on
-        /// the average of the stone.
+        /// 1 on an edge of this direction, falling to 0 at `reach` from it, minus the mean over the
+        /// stone.
         float agreement(const PicturePoint& at) const {
             const int x = static_cast<int>(at.x * scale_), y = static_cast<int>(at.y * scale_);
             if (x < 0 || y < 0 || x >= near_.cols || y >= near_.rows) return -chance_;
@@ -38,14 +37,14 @@ public:
         float chance_;
         double scale_;
     };
-    /// Of lines with this unit normal.
+    /// The map for lines with this unit normal.
     Direction direction(double normal_x, double normal_y) const {
         const auto k = static_cast<std::size_t>(direction_of(normal_x, normal_y));
         return {near_[k], chance_[k], scale_};
     }
     /// Standard deviation of `agreement` over the stone.
     double spread() const { return spread_; }
-    /// Length of a pixel of the maps, in the photograph's.
+    /// Size of a map's pixel, in pixels of the photograph.
     double pixel() const { return 1 / scale_; }
 
 private:

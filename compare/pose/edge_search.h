@@ -1,5 +1,5 @@
 #pragma once
-// Where, along the normals of a predicted wireframe, the photograph has edges.
+// Finds the photograph's edges along the normals of a predicted wireframe.
 
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace culet {
 
-/// A photograph made ready for looking across edges.
+/// A photograph prepared for that search.
 struct EdgePicture {
     /// `colour`: CV_32FC3, linear; `saturation` as in Photo.
     EdgePicture(const cv::Mat& colour, double saturation);
-    cv::Mat linear;         ///< CV_32FC3, smoothed a little
-    cv::Mat encoded;        ///< the same through the sRGB curve: noise is about even there
+    cv::Mat linear;         ///< CV_32FC3, slightly smoothed
+    cv::Mat encoded;        ///< the same through the sRGB curve, where noise is nearly uniform
     cv::Mat clipped;        ///< CV_8U, 255 where the camera clipped; empty: nowhere
-    double least_step = 0;  ///< an edge's least contrast, encoded
+    double least_step = 0;  ///< least contrast of an edge, encoded
 };
 
 struct FoundEdge {
@@ -24,8 +24,8 @@ struct FoundEdge {
     double sigma = 0;     ///< of the offset, pixels
 };
 
-/// All edges within `reach` pixels, by offset. An edge is where the picture in linear light is
-/// steepest: a lens blurs light, not its encoding, so there it leaves the place unmoved.
+/// All edges within `reach` pixels, sorted by offset. An edge is where linear light is steepest: a
+/// lens blurs linear light, so blur does not move that place.
 std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint& point,
                                     double reach);
 

@@ -1,6 +1,6 @@
 #pragma once
-// How well a wireframe is met by the edges of a photograph, against the same wireframe laid
-// elsewhere: what chance meets.
+// How well the photograph's edges match a wireframe, compared with chance: the same wireframe
+// shifted.
 
 #include "compare/pose/edge_search.h"
 
@@ -8,14 +8,14 @@ namespace culet {
 
 struct EdgeSupport {
     double met = 0;     ///< share of the crown's points that have an edge near
-    double chance = 0;  ///< the same where the wireframe is shifted
-    double z = 0;       ///< (met - chance) over the latter's standard deviation among shifts
-    /// Logarithm of how much likelier the photograph is with this wireframe than by chance.
+    double chance = 0;  ///< the same for the shifted wireframe
+    double z = 0;       ///< (met - chance) over the standard deviation of the shifted ones
+    /// Log-likelihood ratio of this wireframe to chance.
     double log_likelihood = 0;
 };
 
-/// `points` from `points_along`. Near is within a pixel and one and a half times what facet errors
-/// move the edge. `diameter_px`: shifts are 2.5 to 7 % of it.
+/// `points` come from `points_along`. An edge is near within a pixel plus 1.5 sigma of the facet
+/// errors' effect. Shifts are 2.5 to 7 % of `diameter_px`.
 EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint>& points,
                          double diameter_px);
 

@@ -1,6 +1,6 @@
 #pragma once
-// An outline as the distances of its tangents from a point (its support function), and how a
-// stone's outline from some side fits it: size and place follow from it in closed form.
+// An outline as the distances of its tangents from a point (its support function). Fitting a
+// stone's outline to it gives size and place in closed form.
 
 #include <array>
 #include <opencv2/core/mat.hpp>
@@ -19,17 +19,17 @@ struct OutlineShape {
     double diameter = 0;  ///< of the circle of the same area
 };
 
-/// Of the convex hull of a mask's pixels (their areas, not their centres).
+/// From the convex hull of a mask's pixels (their areas, not their centres).
 OutlineShape outline_shape(const cv::Mat& mask);
 
-/// A view with size and place such that the stone's outline fits, turned as given.
+/// A view with the given rotation, with size and place fitted to the outline.
 struct FittedOutline {
     StoneView view;
-    double rms = 0;  ///< of the distances between tangents, pixels
+    double rms = 0;  ///< root mean square of the tangents' residuals, pixels
 };
 
-/// `focal_px` 0: orthographic. Least squares over the tangents; a second round takes the
-/// perspective at the size found in the first.
+/// Least squares over the tangents; a second round computes the perspective at the size from the
+/// first. `focal_px` 0: orthographic.
 FittedOutline fit_outline(const WireSolid& wire, const OutlineShape& shape, const StoneView& start,
                           double focal_px);
 

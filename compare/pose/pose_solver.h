@@ -1,6 +1,6 @@
 #pragma once
-// The view and the facets' small errors that best explain where edges were met: least squares with
-// a robust loss (Ceres).
+// Fits the view and the facets' small errors to the edges that were met: least squares with a
+// robust loss (Ceres).
 
 #include <array>
 #include <vector>
@@ -9,39 +9,39 @@
 
 namespace culet {
 
-/// An edge of the photograph taken for the wireframe's edge at `point`.
+/// An edge of the photograph that corresponds to the wireframe's edge at `point`.
 struct MetEdge {
     WirePoint point;
     double offset = 0;  ///< along the point's normal, pixels
-    double sigma = 1;   ///< of it
+    double sigma = 1;   ///< of `offset`
 };
 
 struct SolverSettings {
     bool facets_free = false;
-    /// Expected of the facets, one sigma: angle to the true facet, and distance of its plane from
-    /// the facet's middle. Free facets are held by them.
+    /// Expected errors of the facets, one sigma, as their prior: angle to the true facet, and
+    /// distance of its plane from the facet's middle.
     double facet_error = 0.0035, facet_offset = 0;
-    double focal_error = 0;            ///< relative, of the start's focal length; 0: held
-    double principal_point_error = 0;  ///< pixels; 0: held
+    double focal_error = 0;            ///< relative, of the start's focal length; 0: fixed
+    double principal_point_error = 0;  ///< pixels; 0: fixed
     bool with_covariance = false;
 };
 
 struct SolvedView {
     StoneView view;
-    std::vector<FacetChange> facets;  ///< one a facet of the solid, zero where not free
-    /// Of `ViewChange` at `view`, rows one after the other; zero where held. Empty unless asked
-    /// for.
+    std::vector<FacetChange> facets;  ///< one for each facet of the solid, zero where fixed
+    /// Of `ViewChange` at `view`, row by row; zero where fixed. Empty unless requested.
     std::vector<double> covariance;
-    /// Residuals over their sigmas, as many as there were edges.
+    /// Residuals over their sigmas, one for each edge.
     std::vector<double> residuals;
-    /// The expected errors as the edges show them, drawn a little towards what was expected. With
-    /// the covariance only.
+    /// Facet errors estimated from the edges, shrunk slightly towards the prior. Set only with the
+    /// covariance.
     double facet_error = 0, facet_offset = 0;
-    int tilts_found = 0;  ///< tilts that the edges could find: what `facet_error` is from
+    int tilts_found = 0;  ///< number of tilts that the edges determine, from which `facet_error` is
+                          ///< estimated
     bool converged = false;
 };
 
-/// `prior_focal_px`: 0 for orthographic views. `sight`: the principal point that is expected.
+/// `prior_focal_px`: 0 for orthographic views. `sight`: prior principal point.
 SolvedView solve_view(const WireSolid& wire, const StoneView& start,
                       const std::vector<MetEdge>& edges, double prior_focal_px,
                       const PicturePoint& sight, const SolverSettings& settings);

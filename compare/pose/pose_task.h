@@ -1,6 +1,6 @@
 #pragma once
-// What a pose is looked for in: the photograph as it is and turned left to right, the solid, and
-// where the camera about stood.
+// The input of a pose search: the photograph as it is and flipped left to right, the solid, and the
+// approximate camera.
 
 #include <memory>
 #include <vector>
@@ -14,7 +14,6 @@
 
 namespace culet {
 
-/// One photograph as it is, or turned left to right.
 struct PhotoSide {
     PhotoSide(const cv::Mat& colour, const cv::Mat& mask, double saturation,
               const Camera& start_camera, const Vec3& middle, bool mirrored_);
@@ -32,19 +31,20 @@ struct PoseTask {
     Camera start;                        ///< with the photograph's size
     const PoseOptions& options;
     const Progress& progress;
-    std::vector<std::unique_ptr<PhotoSide>> sides;  ///< one, or two with both chiralities
+    std::vector<std::unique_ptr<PhotoSide>> sides;  ///< one; two when both chiralities are tried
     double prior_focal_px = 0;
 };
 
-/// Throws InputError for what no pose can be found of.
+/// Throws InputError for input for which no pose can be found.
 void require_suitable(const Photo& photo, const Solid& solid, const Camera& start);
 
-/// The start with the photograph's size. Of the start's shape, the photograph is the same picture
-/// with more or fewer pixels. Of another it was cropped: unless the start has a principal point,
-/// where that is and how long the lens is are known less well then, and `options` say so.
+/// The start with the photograph's size. If the aspect ratios agree, the photograph is the same
+/// picture with more or fewer pixels. Otherwise it was cropped: unless the start has a principal
+/// point, the principal point and focal length are then less well known, which is recorded in
+/// `options`.
 Camera start_for(const Camera& start, int width, int height, PoseOptions& options);
 
-/// Brought to a common exposure: its bright parts near 1; `saturation` is where it clips then.
+/// Scales the photograph so that its bright parts are near 1. `saturation`: where it clips then.
 cv::Mat exposed(const Photo& photo, double& saturation);
 
 void make_sides(PoseTask& task, const cv::Mat& colour, const cv::Mat& mask, double saturation);

@@ -1,6 +1,6 @@
 #pragma once
-// From a view that is right to a degree or so to the best one: edges are looked for along the
-// wireframe's normals, the view is fitted to them, and the search draws in.
+// Refines a view that is right to about a degree: searches edges along the wireframe's normals,
+// fits the view to them, and repeats with a narrower search.
 
 #include "compare/pose/edge_search.h"
 #include "compare/pose/pose_solver.h"
@@ -17,25 +17,25 @@ struct RefineSettings {
 
 struct RefinedView {
     SolvedView solved;
-    std::vector<WirePoint> points;  ///< at the view that was found
-    std::vector<MetEdge> met;       ///< those that were used last
-    /// Of the model, as the edges show it (`settle`): one sigma, tilt and offset.
+    std::vector<WirePoint> points;  ///< at the found view
+    std::vector<MetEdge> met;       ///< those used last
+    /// Facet errors of the model from the edges (`settle`), one sigma: tilt and offset.
     double facet_error = 0, facet_offset = 0;
-    bool lost = false;  ///< too few edges were met, or the view ran away
+    bool lost = false;  ///< too few edges were met, or the view diverged
 };
 
-/// Without facets and covariance: fast, for choosing among views.
+/// Fast, for choosing among views: the facets stay fixed, without covariance.
 RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
                     const RefineSettings& settings);
 
-/// From there on with everything free, and how sure it is. How wrong the model's facets are is
-/// found on the way.
+/// Continues from `draw_in` with all parameters free, and computes the covariance. Estimates the
+/// model's facet errors on the way.
 RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
                    const RefineSettings& settings);
 
-/// Variances of the view's turn (three axes), place (two) and logarithm of scale as the edges
-/// themselves show them: the jackknife (Quenouille 1949, Tukey 1958) over sixteen groups of edges.
-/// Edges that were mistaken for the stone's show here, where the covariance believes them.
+/// Jackknife variances (Quenouille 1949, Tukey 1958) over sixteen groups of edges: of the view's
+/// rotation (three axes), place (two) and logarithm of scale. They show the effect of mistaken
+/// edges, which the covariance ignores.
 std::array<double, 6> variances_by_groups(const WireSolid& wire, const RefinedView& refined,
                                           const RefineSettings& settings);
 

@@ -1,22 +1,21 @@
 #pragma once
-// A stone's own symmetry as two views of it show it: whether they look alike but for small
-// irregularities.
+// Symmetry of a stone: whether two views of it look alike except for small irregularities.
 
 #include "compare/pose/wireframe.h"
 
 namespace culet {
 
-/// `mirrored`: one of the two pictures is turned left to right. Alike when nearly all of the area
-/// seen in the first belongs to facets that have a counterpart of about the same direction and size
-/// in the second.
+/// Views are alike when nearly all of the area seen in the first belongs to facets with a
+/// counterpart of about the same direction and size in the second. `mirrored`: one of the two
+/// pictures is flipped left to right.
 bool look_alike(const WireSolid& wire, const StoneView& a, const StoneView& b, bool mirrored);
 
-/// All turns, and turns with a mirroring, about its middle that leave a solid as it is, to
-/// rounding; the first is the one that changes nothing.
+/// All rotations about its middle, with and without a reflection, that map the solid onto itself up
+/// to rounding error. The first is the identity.
 std::vector<glm::dmat3> symmetries_of(const WireSolid& wire);
 
-/// The turn from whose direction a stone with a mirror plane through z and x looks, left to right,
-/// as it does from `turn`.
+/// For a stone with the mirror plane y = 0: the rotation from which it looks like the picture from
+/// `turn` flipped left to right.
 glm::dmat3 mirrored_turn(const glm::dmat3& turn);
 
 }  // namespace culet

@@ -1,12 +1,12 @@
 #pragma once
-// The formulas of a view, for plain numbers and for numbers that carry derivatives.
+// The formulas of a view, for plain numbers and for automatic differentiation.
 
 #include <array>
 #include <cmath>
 
 namespace culet {
 
-/// Rows of the rotation by the vector w (Rodrigues 1840).
+/// The rotation by the vector w, row by row (Rodrigues 1840).
 template <class Number>
 std::array<Number, 9> rotation_of(const Number& x, const Number& y, const Number& z) {
     using std::cos;
@@ -25,7 +25,7 @@ std::array<Number, 9> rotation_of(const Number& x, const Number& y, const Number
         Number(1) - b * (x * x + y * y)};
 }
 
-/// Rows of the least rotation that takes z to the direction (x, y, 1).
+/// The smallest rotation that takes z to the direction (x, y, 1), row by row.
 template <class Number>
 std::array<Number, 9> least_rotation_to(const Number& x, const Number& y) {
     using std::sqrt;
