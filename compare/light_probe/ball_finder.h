@@ -1,5 +1,5 @@
 #pragma once
-// Where the mirror ball is in a photograph.
+// Finds the mirror ball in a photograph.
 
 #include <optional>
 #include <vector>
@@ -11,22 +11,22 @@ namespace culet {
 
 struct FoundBall {
     BallCircle circle;
-    double support = 0;  ///< 0..1: share of the outline along which there is an edge
-    /// How much speaks for a mirror ball: the support times what the compression at the rim
-    /// (rim_compression.h) is over 1.
+    double support = 0;  ///< 0..1: share of the outline where there is an edge
+    /// How likely it is a mirror ball: the support times the rim's compression in excess of 1
+    /// (rim_compression.h).
     double evidence = 0;
     double sigma_px = 0;  ///< of the centre and the radius, one standard deviation
-    /// Of the first ball: another circle, elsewhere, with nearly as much evidence.
+    /// For the first ball: another circle elsewhere with nearly as much evidence.
     std::optional<BallCircle> rival = {};
 };
 
-/// Evidence of a rival over that of the ball.
+/// Evidence of a rival, as a share of the ball's.
 inline constexpr double k_rival_evidence = 0.8;
 
-/// The likeliest balls, most evidence first: circles by Hough's transform at several scales and
-/// thresholds, each fitted to the edges that rays from its middle meet (RANSAC over three points,
-/// then iterated least squares with Tukey's weights, to a fraction of a pixel). Of a ball cut by
-/// the picture's border only what is seen counts. Empty when there is none of `least_support`.
+/// The likeliest balls, by falling evidence. Finds circles with Hough's transform at several scales
+/// and thresholds. Then fits each to the edges on rays from its middle, to a fraction of a pixel
+/// (RANSAC over three points, then iterated least squares with Tukey's weights). For a ball cut off
+/// by the picture's border only the visible part counts. Empty when no ball has `least_support`.
 /// Deterministic.
 std::vector<FoundBall> find_balls(const Photo& photo, double least_support = 0.45);
 

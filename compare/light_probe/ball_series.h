@@ -1,6 +1,5 @@
 #pragma once
-// From the photographs named on a command line to the views of a ball: which shots belong together,
-// and what their exposures are.
+// Groups the photographs of a command line into views of a ball, and finds their exposures.
 
 #include <filesystem>
 #include <optional>
@@ -15,10 +14,10 @@ namespace culet {
 
 struct BallSeries {
     std::vector<std::filesystem::path> files;
-    /// Files of each view in order, when the user said so; else found.
+    /// Each view's files in order, if the user gave them; otherwise found.
     std::vector<std::vector<std::filesystem::path>> views;
-    std::vector<double> exposures;  ///< of the files in the order named; empty: from EXIF
-    /// Taken out of the pictures; its focal length and middle stand in for those of EXIF.
+    std::vector<double> exposures;  ///< of the files in the order given; empty: from EXIF
+    /// Its distortion is corrected; its focal length and principal point replace those of EXIF.
     std::optional<Lens> lens;
 };
 
@@ -27,10 +26,10 @@ struct SortedShot {
     std::optional<double> exposure;
 };
 
-/// Which shots make up one view. In the order given: shots of rising or falling exposure belong
-/// together; a new view starts where an exposure comes again. Files without a known exposure (HDR
-/// pictures, or one shot a view) are views of their own. Throws InputError when neither can be: the
-/// line says how to name the views.
+/// Groups shots into views, in the order given. Shots of rising or falling exposure belong
+/// together; a new view starts when an exposure repeats. Files without a known exposure (HDR
+/// pictures, or one shot a view) are views of their own. Throws InputError when neither applies;
+/// the message says how to name the views.
 std::vector<std::vector<std::size_t>> views_of(const std::vector<SortedShot>& shots);
 
 struct ReadSeries {
@@ -38,8 +37,9 @@ struct ReadSeries {
     std::vector<std::string> notes;
 };
 
-/// Reads, groups and merges. Throws InputError: unreadable, exposures missing or of the wrong
-/// number, the same exposure twice in a view, NaN, pictures of another shape than the lens's.
+/// Reads, groups and merges the shots. Throws InputError for unreadable files, missing exposures or
+/// a wrong number of them, the same exposure twice in a view, NaN, or pictures whose shape is not
+/// the lens's.
 ReadSeries read_ball_series(const BallSeries& series, const Progress& progress = {});
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// A circle fitted to the edges of a picture. Inside this room only.
+// Fits a circle to the edges of a picture. Private to the folder.
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace culet {
 
-/// The circle to the edges that rays from its middle meet within `reach` of its radius (RANSAC over
-/// three points, then iterated least squares with Tukey's weights): wide, then narrower about what
-/// was found. With its support and sigma. `plane`: CV_32F, one channel, 0 to 1. Deterministic.
+/// Fits the circle to the edges that rays from its middle meet within `reach` of its radius (RANSAC
+/// over three points, then iterated least squares with Tukey's weights); then again in narrower
+/// ranges. With support and sigma. `plane`: CV_32F, one channel, 0 to 1. Deterministic.
 std::optional<FoundBall> fitted_in_steps(const cv::Mat& plane, const BallCircle& rough,
                                          double reach);
 
-/// The same circle to where light crosses the middle between inside and outside. `linear`: CV_32F,
-/// linear light, for the pixels of an edge are means of it. As it was where too few rays have a
-/// clear step.
+/// Refits the circle to where light crosses the middle between inside and outside. `linear`:
+/// CV_32F, linear light, because edge pixels are means of it. Returns the ball unchanged when too
+/// few rays have a clear step.
 FoundBall to_a_fraction_of_a_pixel(const cv::Mat& linear, FoundBall ball);
 
 }  // namespace culet

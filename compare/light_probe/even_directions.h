@@ -1,5 +1,4 @@
 #pragma once
-// Directions spread evenly over the sphere.
 
 #include <vector>
 
@@ -7,8 +6,7 @@
 
 namespace culet {
 
-/// `count` unit vectors on a spiral from +z to -z, each a golden angle on: equal shares of the
-/// sphere.
+/// `count` unit vectors with equal shares of the sphere, on a golden-angle spiral from +z to -z.
 std::vector<Vec3> even_directions(int count);
 
 }  // namespace culet

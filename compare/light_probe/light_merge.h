@@ -1,5 +1,5 @@
 #pragma once
-// Views of a mirror ball as one picture of all directions.
+// Merges views of a mirror ball into one picture of all directions.
 
 #include <vector>
 
@@ -11,22 +11,21 @@ namespace culet {
 
 struct MergedLight {
     EnvironmentMap map;               ///< lat-long, radiance as the ball shows it
-    std::vector<float> coverage;      ///< a texel: 0 not seen .. 1 seen in the ball's middle
+    std::vector<float> coverage;      ///< for each texel: 0 not seen .. 1 seen in the ball's middle
     std::vector<float> disagreement;  ///< stops between two views; NaN where fewer than two see it
-    double filled_sr = 0;             ///< solid angle that no view shows, filled from around it
+    double filled_sr = 0;             ///< solid angle that no view shows, filled in
 };
 
-/// The mean of all views weighted by their quality, then sharpened: the map is corrected until the
-/// ball's pictures computed from it are the pictures taken (`passes` of Richardson 1972 and Lucy
-/// 1974 over all views' pixels, weighted by quality), which undoes the blur of resampling and
-/// keeps the light's energy. What no view shows is filled with the mean of what surrounds it, over
-/// ever larger distances. The views' pictures need not be exposed alike: `gain` (one a view) brings
-/// them to the first.
+/// The quality-weighted mean of all views, then sharpened: `passes` of Richardson (1972) and Lucy
+/// (1974) correct the map until the views' pictures computed from it match the ones taken. This
+/// removes the blur of resampling and conserves energy. Texels that no view shows are filled with
+/// the mean of their surroundings, over ever larger distances. `gains`: one for each view, to bring
+/// differently exposed pictures to the first.
 MergedLight merge_views(const std::vector<BallView>& views, const std::vector<double>& gains,
                         int width, int passes, const Progress& progress = {});
 
-/// Means over blocks of `factor` x `factor` texels by solid angle: no light is lost. The width is a
-/// multiple of 2 `factor`.
+/// Solid-angle-weighted means over blocks of `factor` x `factor` texels, which conserve the light.
+/// The width must be a multiple of 2 `factor`.
 MergedLight coarsened(const MergedLight& light, int factor);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Photographs of a mirror ball in, the light around it out.
+// From photographs of a mirror ball to the light around it.
 
 #include <optional>
 #include <string>
@@ -14,40 +14,40 @@
 
 namespace culet {
 
-/// One camera position; several exposures have been merged (bracket.h).
+/// One camera position, its exposures already merged (bracket.h).
 struct ProbeView {
     std::string name;  ///< for messages
     Photo photo;
-    std::optional<BallCircle> ball;  ///< given; else it is found
-    double focal_px = 0;             ///< from a camera file or EXIF; 0: not known
+    std::optional<BallCircle> ball;  ///< as given; otherwise found
+    double focal_px = 0;             ///< from a camera file or EXIF; 0: unknown
     std::optional<PixelPlace> principal;
 };
 
 struct ProbeOptions {
-    double distance = 0;       ///< camera to ball in ball radii, may be infinite; 0: not known
+    double distance = 0;       ///< camera to ball in ball radii, may be infinite; 0: unknown
     Rgb reflectance{1, 1, 1};  ///< of the ball, 0..1
     PhotographerCone photographer;
-    /// Where the first camera looked, in the stone's frame: azimuth counter-clockwise from +x and
-    /// elevation over the horizontal. Looking straight down, the picture's top is towards the
+    /// Where the first camera looked, in the stone's frame: azimuth counter-clockwise from +x, and
+    /// elevation over the horizontal. If it looks straight down, the picture's top points to the
     /// azimuth.
     double towards_azimuth = 0, towards_elevation = 0;
-    /// The second camera's place, when it is known: turned so far about the vertical of the first
-    /// picture, counter-clockwise from above; else found.
+    /// The second camera's rotation about the vertical of the first picture, counter-clockwise from
+    /// above, if known; otherwise found.
     std::optional<double> turned;
     int width = 0;    ///< of the lat-long map; 0: as fine as the ball shows it
     int passes = 20;  ///< of sharpening (light_merge.h)
-    /// The camera stood still, and the ball was moved: further views tell how far near lights are,
-    /// and nothing else.
+    /// The camera stood still and the ball was moved. Further views then only give the distances of
+    /// near lights.
     bool moved = false;
-    /// Lights to be taken out of the map and found as windows; lengths in the stone's unit.
+    /// Lights to remove from the map and to find as windows; lengths in the stone's unit.
     std::vector<NearLightRequest> near_lights;
-    double ball_radius = 0;  ///< in the stone's unit; needed with near lights
+    double ball_radius = 0;  ///< in the stone's unit; required with near lights
 };
 
 struct ProbeViewResult {
     std::string name;
     BallCircle circle;
-    double support = 1;  ///< of the outline, when it was found
+    double support = 1;  ///< of the outline, if it was found
     bool found = false;
     std::optional<BallCircle> rival;  ///< see FoundBall
     double distance = 0, focal_px = 0;
@@ -56,37 +56,37 @@ struct ProbeViewResult {
     double over_exposed = 0;    ///< share of the ball
     glm::dmat3 world_from_camera{1.0};
     double turned = 0;     ///< from the first view, radians
-    Vec3 centre{0, 0, 0};  ///< of a ball that was moved, in its radii, in the stone's frame
+    Vec3 centre{0, 0, 0};  ///< of a ball that was moved, in ball radii, in the stone's frame
 };
 
 struct LightProbe {
     MergedLight light;  ///< radiance in the units of the first view
     std::vector<ProbeViewResult> views;
     std::vector<ViewAlignment> alignments;  ///< of the second and further views to the first
-    /// Stops between two views: the mean, half and 99 % of what two see are below.
+    /// Stops between two views where both see: mean, median and 99 % quantile.
     double mean_disagreement = 0, middle_disagreement = 0, worst_disagreement = 0;
     double covered = 0;                  ///< share of all directions
-    bool moved = false;                  ///< views are balls, not cameras
-    std::vector<NearLight> near_lights;  ///< lengths in the stone's unit, radiance as the map's
+    bool moved = false;                  ///< the ball was moved, not the camera
+    std::vector<NearLight> near_lights;  ///< lengths in the stone's unit; radiance as in the map
     std::vector<std::string> notes;      ///< for people, one line each
-    /// Empty when the result can be trusted; else why not.
+    /// Empty when the result can be trusted; otherwise why not.
     std::string doubt;
     bool usable() const { return doubt.empty(); }
 };
 
-/// Throws InputError naming the view: no ball found (with what to do), a ball outside the picture
-/// or too small, a black picture.
+/// Throws InputError naming the view: no ball found (with advice), a ball outside the picture or
+/// too small, or a black picture.
 LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
                        const Progress& progress = {});
 
 /// The `[light]` table of a scene: the environment, and the near lights as `[[light.plane]]`.
-/// `environment` is its path as the scene will say it.
+/// `environment`: its path as written in the scene.
 std::string light_toml(const LightProbe& probe, const std::string& environment);
 
 /// One JSON object with `schema`; angles in degrees.
 std::string light_json(const LightProbe& probe, const ProbeOptions& options);
 
-/// Coverage above, disagreement below, each with its scale: PNG bytes.
+/// PNG bytes: coverage above, disagreement below, each with its scale.
 std::string coverage_png(const LightProbe& probe);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// Lights so near that each end of a stone sees them in another direction: where they are, how large
-// and how bright, from their reflexes in a mirror ball.
+// Finds lights so near that the two ends of a stone see them in different directions: their place,
+// size and radiance, from their reflexes in a mirror ball.
 //
 // Lengths in radii of the ball, in the world's frame with the first ball's centre at the origin.
 
@@ -13,16 +13,17 @@
 
 namespace culet {
 
-/// What the user says of a near light: where its reflex is, or where it stands.
+/// What the user gives of a near light: where its reflex is, or where it stands.
 struct NearLightRequest {
-    std::string name;                    ///< for messages: the pixel as the user said it
+    std::string name;                    ///< for messages: the pixel as the user wrote it
     std::optional<PixelPlace> at;        ///< on its reflex in the first picture
-    std::optional<PixelPlace> at_other;  ///< in the second picture; else searched
-    std::optional<double> distance;      ///< of its middle from the ball's centre; else by parallax
+    std::optional<PixelPlace> at_other;  ///< in the second picture; otherwise searched
+    std::optional<double> distance;      ///< of its middle from the ball's centre; otherwise by
+                                         ///< parallax
     std::optional<Window> measured;      ///< with a ruler; then nothing else is given
 };
 
-/// A ball where a picture shows it.
+/// A ball and the picture that shows it.
 struct BallPlace {
     BallView view;
     Vec3 centre{0, 0, 0};
@@ -36,26 +37,26 @@ struct NearLight {
     Rgb radiance{};    ///< as the first picture shows it; not divided by the ball's reflectance
     std::string from;  ///< "parallax", "distance" or "measured"
     double distance = 0, distance_sigma = 0;
-    double tilt = 0, tilt_sigma = 0;  ///< radians against facing the ball
-    bool facing = false;              ///< the tilt could not be told: taken as 0
-    double residual = 0;              ///< of its edges, radians (root mean square)
+    double tilt = 0, tilt_sigma = 0;  ///< radians; 0: facing the ball
+    bool facing = false;              ///< the tilt is not identifiable and taken as 0
+    double residual = 0;              ///< of its edges, root mean square, radians
     double over = 0;                  ///< share of its reflex that is over-exposed
     std::vector<std::string> notes;
-    /// Empty when the light can be trusted; else it has no window, and is not among what is shown.
+    /// Empty when the light can be trusted; otherwise it has no window and is not in `shown`.
     std::string doubt;
     bool usable() const { return doubt.empty(); }
 };
 
 struct FoundNearLights {
     std::vector<NearLight> lights;
-    /// A place's pixels that show any of the lights, as `BallView::left_out`.
+    /// For each place the pixels that show any of the lights, as `BallView::left_out`.
     std::vector<std::shared_ptr<const std::vector<std::uint8_t>>> shown;
 };
 
-/// With two or more places the middle's distance follows from the parallax between the places where
-/// the ball mirrors the light: some 0.6 of a radius apart when a camera went round a quarter, any
-/// distance when the ball was moved. Throws InputError: no light at the pixel, or one of which the
-/// places given cannot tell the distance.
+/// With two or more places, the middle's distance follows from the parallax between the points of
+/// the ball that reflect the light. These are about 0.6 radii apart when a camera went round a
+/// quarter turn, and any distance apart when the ball was moved. Throws InputError when there is no
+/// light at the pixel, or the places cannot determine its distance.
 FoundNearLights find_near_lights(const std::vector<BallPlace>& places,
                                  const std::vector<NearLightRequest>& requests);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What one light looks like in a mirror ball: which pixels, and where its edge runs.
+// The picture of one light in a mirror ball: its pixels and its outline.
 
 #include <cstdint>
 #include <optional>
@@ -13,18 +13,19 @@
 namespace culet {
 
 struct Reflex {
-    std::vector<std::uint8_t> inside;   ///< a pixel of the picture: 1 in the light, dark bars too
+    std::vector<std::uint8_t> inside;  ///< for each pixel of the picture: 1 in the light, dark bars
+                                       ///< too
     std::vector<std::uint8_t> touched;  ///< 1 also where the picture's blur carries its light
-    /// Where the luminance between two neighbouring pixels passes half way from what lies around
-    /// the light to the light: the edge of a box-filtered straight line to a tenth of a pixel.
+    /// Where the luminance between two neighbouring pixels passes half way between the light and
+    /// its surroundings. Accurate to 0.1 pixels for a box-filtered straight edge.
     std::vector<PixelPlace> outline;
-    Rgb radiance{};                 ///< mean of the pixels inside whose neighbours are inside, too
-    double within = 0, around = 0;  ///< luminance: median of the light, and of what lies around it
-    double over = 0;                ///< share of the pixels inside that are over-exposed
+    Rgb radiance{};                 ///< mean of the inside pixels whose neighbours are inside too
+    double within = 0, around = 0;  ///< luminance: median of the light, and of its surroundings
+    double over = 0;                ///< share of the inside pixels that are over-exposed
     int pixels = 0;
 };
 
-/// Why there is no light to be told apart at a pixel.
+/// Why there is no separate light at a pixel.
 enum class NoReflex : std::uint8_t { beside_the_ball, not_brighter, at_the_rim, too_small };
 
 struct ReflexSearch {
@@ -32,10 +33,10 @@ struct ReflexSearch {
     NoReflex why = NoReflex::not_brighter;
 };
 
-/// The light at a pixel of the ball: all that hangs together and is brighter than half way between
-/// the light and what lies around it, holes filled. It must be at least twice as bright as what
-/// lies around it, at least nine pixels, and end before the ball's rim, where the picture is
-/// pressed flat.
+/// The light at a pixel of the ball: the connected pixels brighter than half way between the light
+/// and its surroundings, with holes filled. It must be at least twice as bright as its
+/// surroundings, have at least nine pixels, and end before the ball's rim, where the picture is
+/// compressed.
 ReflexSearch reflex_at(const Photo& picture, const BallCircle& ball, const PixelPlace& seed);
 
 }  // namespace culet

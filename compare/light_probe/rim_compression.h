@@ -1,5 +1,5 @@
 #pragma once
-// Whether a circle in a photograph is a mirror ball.
+// Tells whether a circle in a photograph is a mirror ball.
 
 #include <opencv2/core.hpp>
 
@@ -7,19 +7,18 @@
 
 namespace culet {
 
-/// What lies in a ring inside a circle's rim.
+/// What a ring just inside a circle's rim shows.
 struct RimLook {
-    /// How many times more the light changes along the radius than across it. A mirror ball presses
-    /// the room together towards its rim: at the share rho of its radius 1 / (1 - rho^2) times,
-    /// from the angles of reflection; 7 to 50 times in this ring, less where the picture is soft.
-    /// Elsewhere it is about 1.
+    /// How many times more the light changes along the radius than across it. A mirror ball
+    /// compresses its picture towards the rim, at the share rho of its radius by 1 / (1 - rho^2): 7
+    /// to 50 times in this ring, less in a soft picture. Elsewhere the ratio is about 1.
     double compression = 0;
     /// 0..1: how much of the change along the radius is the same all round. A ball shows something
-    /// else on each side; a lid, a ring or a plate has the same edge everywhere.
+    /// different on each side; a lid, a ring or a plate has the same edge everywhere.
     double alike = 0;
 };
 
-/// `light`: CV_32F, one channel, 0 to 1. Zeros where the ring is not in the picture.
+/// `light`: CV_32F, one channel, 0 to 1. Zeros where the ring is outside the picture.
 RimLook rim_look(const cv::Mat& light, const BallCircle& circle);
 
 }  // namespace culet

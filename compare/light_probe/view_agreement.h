@@ -1,5 +1,5 @@
 #pragma once
-// What two views of a ball that were brought together have in common.
+// Agreement of two aligned views of a ball.
 
 #include <opencv2/core/mat.hpp>
 
@@ -7,19 +7,19 @@
 
 namespace culet {
 
-/// Luminance below which stops say nothing: 1 / 500 of the picture's mean.
+/// Luminance below which stops are meaningless: 1 / 500 of the picture's mean.
 double floor_of(const Photo& picture);
 
-/// Log2 of luminance above the picture's floor, CV_32F; linear light is blurred, not stops.
+/// Log2 of luminance over the picture's floor, CV_32F. Linear light is blurred, not stops.
 cv::Mat stops_of(const Photo& picture, double sigma_px);
 /// Bilinear.
 double stops_at(const cv::Mat& stops, const PixelPlace& place);
 
-/// Correlation of stops, over what both show well.
+/// Correlation of stops where both views show well.
 double correlation_of(const ViewPair& pair, const ViewParameters& p);
 
-/// First over second, from linear light: the median over blocks of directions of the ratio of what
-/// they hold. Sums of light do not care about blur, which shifts medians of stops.
+/// Gain, first over second: the median over blocks of directions of their ratios of linear light.
+/// Blur hardly changes sums of light, but it shifts medians of stops.
 double gain_of(const ViewPair& pair, const ViewParameters& p);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// Where the views of a ball were taken: cameras around one ball, or one camera and a ball that
-// moved.
+// Finds where the views of a ball were taken: cameras around one ball, or one camera and a moved
+// ball.
 
 #include <vector>
 
@@ -10,32 +10,32 @@
 
 namespace culet {
 
-/// One entry a view each.
+/// One entry for each view.
 struct PlacedViews {
     std::vector<CutToBall> cuts;
     std::vector<BallView> seen;
     std::vector<double> gains;      ///< to the first view's units
-    std::vector<BallPlace> places;  ///< centre and turned_sigma; the view as of the last call
-    /// Of the second and further views to the one that placed them.
+    std::vector<BallPlace> places;  ///< centre and turned_sigma; `view` as of the last call
+    /// Of the second and further views, each to the view that it was aligned with.
     std::vector<ViewAlignment> alignments;
 };
 
-/// Columns: right, up, backwards of a camera that looks to this azimuth and elevation.
+/// Columns: right, up and backwards of a camera that looks to this azimuth and elevation.
 glm::dmat3 world_from_camera(double azimuth, double elevation);
 
-/// Every view against one that is placed already, the surest pair first; from all turns or from the
-/// one that is known.
+/// Aligns every view with an already placed one, the surest pair first. Searches all rotations, or
+/// starts from the known one.
 void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress);
 
-/// The last fraction of the turns to the first view again, by what is not left out, and from the
-/// outlines as they were found (`priors`): near light has bent those of the first time.
+/// Refines the rotations to the first view again without left-out pixels, from the outlines as
+/// found (`priors`), because near lights distorted the first alignment.
 void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors);
 
-/// The views of balls that one camera saw, and where they lay: the focal length is the first's.
-/// Throws InputError: a camera too far away to tell, or a ball that went less than its radius.
+/// Places the balls that one camera saw; the focal length is the first view's. Throws InputError
+/// when the camera is too far away to tell, or a ball moved less than its radius.
 void place_moved_balls(PlacedViews& views);
 
-/// From now on the lights' pixels are not used.
+/// Excludes the lights' pixels from now on.
 void leave_out(const FoundNearLights& near, PlacedViews& views);
 
 }  // namespace culet

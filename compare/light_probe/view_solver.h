@@ -1,5 +1,5 @@
 #pragma once
-// Least squares for the turn between two views of a ball, and how sure of it they make us.
+// Least squares for the rotation between two views of a ball, and its uncertainty.
 
 #include <Eigen/Core>
 #include <functional>
@@ -13,7 +13,7 @@ namespace culet {
 constexpr int k_view_parameters = 11;
 using ViewParameters = Eigen::Matrix<double, k_view_parameters, 1>;
 
-/// Two views, what is known of them beforehand, and the rotation that parameters start from.
+/// Two views, their priors, and the rotation from which the parameters start.
 struct ViewPair {
     const BallView &first, &second;
     ViewPrior first_prior, second_prior;
@@ -24,14 +24,14 @@ struct ViewPair {
     MirrorBall ball(const ViewParameters& p, bool is_second) const;
 };
 
-/// What the two views say of one direction or pixel.
+/// What the two views show in one direction or pixel.
 struct ViewCorrespondence {
-    double weight = 0;  ///< over 0
-    Vec3 direction{0};  ///< in the first camera's frame: neighbours err together
+    double weight = 0;  ///< positive
+    Vec3 direction{0};  ///< in the first camera's frame; neighbours have correlated errors
 };
 
-/// Differences in stops, one a witness: second plus gain less first; k_unseen where a side sees
-/// nothing.
+/// Differences in stops, one for each correspondence: second plus gain minus first; k_unseen where
+/// a side sees nothing.
 using ViewResiduals = std::function<std::vector<double>(const ViewParameters&)>;
 constexpr double k_unseen = 1e9;
 
@@ -40,21 +40,22 @@ struct ViewSolution {
     double residual = 0;  ///< median disagreement, stops
     double sigma = 0;     ///< of the rotation about one axis, radians
     double correspondences =
-        0;  ///< so many independent ones are all of them worth; 0: not known yet
+        0;  ///< the number of independent ones that they are worth; 0: unknown yet
 };
 
-/// Least squares with Cauchy's loss (Ceres), the outlines held by their sigmas.
+/// Least squares with Cauchy's loss (Ceres), with the outlines' sigmas as priors.
 ///
-/// Neighbouring pixels are wrong together: each edge of a light is off by what the pictures' grids
-/// do to it. Counted as independent they would outvote the outlines' sigmas and promise too much.
-/// So the scatter of their pull is taken over patches of the sphere (White 1980; Liang and Zeger
-/// 1986): how much larger it is than that of independent ones says by what all are to be divided
-/// (from `start` on, for the next solution), and gives the rotation's sigma.
+/// Neighbouring pixels have correlated errors: the sampling grids shift each edge of a light as a
+/// whole. Treated as independent, they would outweigh the outlines' priors and give too small a
+/// sigma. So the scatter of the gradient is taken over patches of the sphere (clustered errors:
+/// White 1980; Liang and Zeger 1986). Its ratio to that of independent residuals gives the
+/// effective number of correspondences, which the next solution uses (from `start`), and the
+/// rotation's sigma.
 ViewSolution solve_views(const ViewPair& pair,
                          const std::vector<ViewCorrespondence>& correspondences,
                          const ViewResiduals& residuals, ViewSolution start);
 
-/// Where a parameter of 1 / distance begins that is to be found.
+/// Start value of an unknown distance.
 constexpr double k_unknown_distance = 30;
 
 }  // namespace culet

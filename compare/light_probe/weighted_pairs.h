@@ -1,5 +1,5 @@
 #pragma once
-// Weighted moments of pairs of numbers. Private to the room.
+// Weighted moments of pairs of numbers. Private to the folder.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-// The rectangle whose edges lie on the outlines that several places saw of it.
+// Fits a rectangle whose edges lie on the outlines seen from several places.
 
 #include <array>
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace culet {
 
-/// A line of sight from a place near the origin: it passes the light's edge.
+/// A line of sight from a place near the origin to the light's edge.
 struct EdgeSight {
     Vec3 from, direction;  ///< unit direction
 };
 
-/// All that one place saw of the edge. What places after the first saw may be turned, about the
-/// place, by some unknown small angle against the first.
+/// All edge sights from one place. Places after the first may be rotated about themselves by an
+/// unknown small angle against the first.
 struct SeenOutline {
     std::vector<EdgeSight> sights;
     Vec3 place{0, 0, 0};
@@ -23,7 +23,7 @@ struct SeenOutline {
     double turned_sigma = 0;  ///< of the whole place about each axis, radians; 0: exact
 };
 
-/// Middle and half-extents; u and v are at right angles.
+/// Middle and half-extents; u and v are perpendicular.
 struct Window {
     Vec3 middle, u, v;
 };
@@ -31,23 +31,22 @@ struct Window {
 struct WindowFit {
     Window window;
     double nearness = 0, nearness_sigma = 0;  ///< 1 / distance of the middle from the origin
-    double tilt = 0, tilt_sigma = 0;          ///< radians against facing the origin
-    bool facing = false;                      ///< the tilt could not be told: taken as 0
+    double tilt = 0, tilt_sigma = 0;          ///< radians; 0: facing the origin
+    bool facing = false;                      ///< the tilt is not identifiable and taken as 0
     double residual = 0;                      ///< root mean square over all sights, radians
 };
 
-/// Least squares over the angles by which lines of sight miss the nearest edge (Ceres). Free are
-/// the middle's direction and 1 / distance, the turn, the extents, the tilt, and the places' turns
-/// within their sigmas; nothing in the formulas blows up where the light is infinitely far. With
-/// `nearness` given it is held, and the window faces the origin: one place alone cannot tell a
-/// tilted window from a narrower one. The tilt is kept where it is known to half a radian; a window
-/// of which less is known is taken to face the origin. Sigmas are those of the sights or of what
-/// the residuals show, whichever is more. Nothing: the outlines are too short for eight unknowns.
+/// Minimises the angles by which lines of sight miss the nearest edge (Ceres). Free are the
+/// middle's direction and 1 / distance, the turn, the extents, the tilt, and the places' rotations
+/// within their sigmas. No formula is singular for an infinitely far light. With `nearness` given
+/// it is fixed and the window faces the origin, because a single place cannot tell a tilted window
+/// from a narrower one. A tilt with a sigma over half a radian is dropped, and the window faces the
+/// origin. Sigmas come from the sights' sigmas or the residuals, whichever is larger. Nothing when
+/// the outlines are too short for eight unknowns.
 std::optional<WindowFit> fit_window(const std::vector<SeenOutline>& outlines,
                                     const std::optional<double>& nearness);
 
-/// Root mean square angle by which the sights miss the edges of a window that was measured
-/// otherwise.
+/// Root mean square angle by which the sights miss the edges of a window measured in another way.
 double missed_angle(const Window& window, const std::vector<SeenOutline>& outlines);
 
 }  // namespace culet
