@@ -1,5 +1,5 @@
 #pragma once
-// A photograph and a render, aligned once, as pictures that can be scored: mask, white level, gain.
+// A photograph and a render, aligned once and ready to be scored: mask, white level, gain.
 
 #include <array>
 
@@ -10,37 +10,37 @@ namespace culet {
 
 struct AlignedPair {
     Frame frame;
-    double photo_saturation = 0, render_saturation = 0;  ///< where they clip; 0: they do not
-    MatchedPictures pictures;                            ///< the gain is on the render
+    double photo_saturation = 0, render_saturation = 0;  ///< where they clip; 0: nowhere
+    MatchedPictures pictures;                            ///< with the gain on the render
     cv::Mat usable;  ///< CV_8U: compared, and clipped in neither picture
     std::array<double, 3> gain{1, 1, 1};
     double saturated = 0;  ///< share of compared pixels that the photo's camera clipped
     int compared_pixels = 0;
 
     bool enough() const { return compared_pixels >= k_least_pixels; }
-    /// The outlines fit, and there is something to compare.
+    /// The outlines fit, and there are enough pixels to compare.
     bool comparable() const { return frame.match.usable && enough(); }
-    /// Fewer pixels than this hold no pattern: a stone of 32 pixels has some 700.
+    /// Fewer pixels hold no pattern: a stone of 32 pixels has some 700.
     static constexpr int k_least_pixels = 400;
 };
 
-/// Aligns by the outlines, then compares what lies inside both by two pixels, or by half a per cent
-/// of a large stone: there the outlines' error lives; and what the photo does not ignore.
-/// With too few pixels no gain is solved. The one way from a photograph and a render to pictures of
-/// one raster: `photo` with its mask and what is left out, `largest` as for `align`.
+/// Aligns `photo` (with its mask and ignored pixels) and `render` by their outlines. Compares
+/// pixels that are not ignored and lie inside both outlines by two pixels, or by 0.5 % of a large
+/// stone, to keep clear of the outlines' errors. With too few pixels no gain is solved. `largest`:
+/// as for `align`. This is the only way to compared pictures of one raster.
 AlignedPair aligned(const Photo& photo, const Photo& render, double largest = 640);
 
-/// The pair with another picture in the render's place, of the same size and outline: as a lens
-/// would show it, say. Its place is the same; the gain is solved anew.
+/// Replaces the render by another picture of the same size and outline, such as a blurred one. The
+/// registration stays; the gain is solved anew.
 AlignedPair with_render(AlignedPair pair, const Photo& render);
 
-/// Of the frame, what the scores need: the mask's box and as much around it as they look beyond.
+/// The part of the frame that the scores need: the mask's box plus the margin that they look beyond
+/// it.
 cv::Rect part_to_score(const MatchedPictures& pictures);
 
-/// A copy of a part of the pictures.
 MatchedPictures part_of(const MatchedPictures& pictures, const cv::Rect& part);
 
-/// The white level of a stone's picture: where its camera clips, else its 99.5 % quantile (`mask`
+/// White level of a stone's picture: where its camera clips, otherwise its 99.5 % quantile (`mask`
 /// as for `quantile`).
 double white_level(const cv::Mat& colour, const cv::Mat& mask, double saturation);
 

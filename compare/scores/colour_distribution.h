@@ -1,6 +1,6 @@
 #pragma once
-// Which colours a stone shows, wherever they are: its material and the white balance, not its
-// geometry.
+// Compares which colours a stone shows, wherever they are. This depends on material and white
+// balance, not on geometry.
 
 #include "compare/scores/metrics.h"
 
@@ -10,12 +10,11 @@ struct ColourDistributions {
     /// CIEDE2000 between the mean CIELAB colours under the mask.
     double body_difference = 0;
     /// Earth mover's distance (Rubner, Tomasi, Guibas 2000) between the distributions of CIELAB
-    /// colours, in units of CIELAB: how far, on average, a pixel's colour must be moved for the one
-    /// picture to have as much of every colour as the other. Colours are gathered in cells of 8
-    /// units or coarser, so that no more than 96 are left: distances below some 2 units say
-    /// nothing.
+    /// colours, in CIELAB units: how far a pixel's colour must move on average to turn one
+    /// distribution into the other. Colours are grouped into at most 96 cells of 8 units or more,
+    /// so distances below about 2 units mean nothing.
     double emd = 0;
-    /// Mean luminance under the mask, 1 being the white level.
+    /// Mean luminance under the mask; 1 is the white level.
     double photo_light = 0, render_light = 0;
 };
 

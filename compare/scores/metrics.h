@@ -1,5 +1,5 @@
 #pragma once
-// Scores of two pictures that lie on one another. Each looks only at pixels under the mask.
+// Scores of two registered pictures. Each uses only pixels under the mask.
 
 #include <array>
 #include <opencv2/core/mat.hpp>
@@ -13,27 +13,27 @@ struct MatchedPictures {
     cv::Mat photo, render;
     cv::Mat mask;         ///< CV_8U: inside both outlines, by a margin
     double diameter = 0;  ///< of the stone, pixels
-    double white = 1;     ///< linear value that is shown as white; both are clipped there
+    double white = 1;     ///< linear value shown as white; both are clipped there
 };
 
-/// Factor for each of the render's channels that brings it onto the photo's: exposure and white
-/// balance. Weighted least squares in linear light through zero, with Huber weights (1964) so that
-/// single reflexes do not decide. `usable` marks the pixels that may be used (not saturated).
-/// 1 for a channel in which either picture is black. Misplaced reflexes pull the factor towards 0:
-/// it is the factor of least error, not a photometric measurement, unless the pictures match.
+/// Factor for each channel of the render that brings it to the photo's: exposure and white balance.
+/// Weighted least squares in linear light through zero, with Huber weights (1964) so that single
+/// reflexes do not dominate. `usable`: pixels that may be used (not saturated). 1 for a channel in
+/// which either picture is black. Misplaced reflexes pull the factor towards 0, so unless the
+/// pictures match it is not a photometric measurement.
 std::array<double, 3> solve_gain(const cv::Mat& photo, const cv::Mat& render,
                                  const cv::Mat& usable);
 
-/// Both encoded (sRGB, clipped at white) once for all scores that need it.
+/// Both pictures, encoded (sRGB, clipped at white) once for all scores that need it.
 struct ShownPictures {
     cv::Mat photo, render;            ///< CV_32FC3, 0..1
     cv::Mat photo_luma, render_luma;  ///< CV_32F, 0..1: encoded luminance
 };
 ShownPictures shown(const MatchedPictures& pictures);
 
-/// Correlation coefficient of the square roots of luminance, each blurred by a Gaussian of
-/// so many diameters inside the mask: are the same places bright and dark? -1..1; blind to gain.
-/// Nothing when either is of one brightness. One for each of `blurs`.
+/// For each of `blurs`, the correlation coefficient of the square roots of luminance, each blurred
+/// inside the mask by a Gaussian of that many diameters: are the same places bright and dark?
+/// -1..1; independent of the gain. Nothing when either picture is uniform.
 std::vector<std::optional<double>> zncc(const MatchedPictures& pictures,
                                         const std::vector<double>& blurs);
 std::optional<double> zncc(const MatchedPictures& pictures, double blur);
@@ -46,8 +46,7 @@ struct ScoreMap {
 };
 ScoreMap ssim(const ShownPictures& pictures, const cv::Mat& mask);
 
-/// Peak signal to noise of the encoded colours, decibel, peak 1. Nothing for equal pictures, whose
-/// noise is zero.
+/// Peak signal-to-noise ratio of the encoded colours, decibel, peak 1. Nothing for equal pictures.
 std::optional<double> psnr(const ShownPictures& pictures, const cv::Mat& mask);
 
 struct ColourScore {

@@ -1,6 +1,5 @@
 #pragma once
-// The verdict of a comparison that is not calibrated: its deciding score beside the same render
-// rotated.
+// The verdict of an uncalibrated comparison: its deciding score against the rotated render.
 
 #include "compare/scores/compare.h"
 

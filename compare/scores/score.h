@@ -1,5 +1,5 @@
 #pragma once
-// One figure of a comparison, and what it is worth.
+// One score of a comparison, with its significance.
 
 #include <optional>
 #include <string>
@@ -15,19 +15,18 @@ enum class Verdict {
 };
 const char* name_of(Verdict verdict);
 
-/// One score beside what it is worth. The null is the same score for the same render, turned or
-/// mirrored in the picture's plane: what the stone's outline and its general brightness reach
-/// without any agreement of its pattern.
+/// A score and its null: the same score for the render rotated or mirrored in the picture's plane.
+/// The null shows what outline and general brightness reach without any agreement of the pattern.
 struct Score {
     std::string key;              ///< as in the JSON: "zncc", "ssim", ...
-    std::optional<double> value;  ///< nothing: not defined for these pictures, see `note`
+    std::optional<double> value;  ///< nothing: undefined for these pictures, see `note`
     bool higher_is_better = true;
-    bool is_correlation = false;  ///< z is then taken of atanh (Fisher 1915)
-    std::vector<double> null;     ///< one value a draw, in the order drawn
+    bool is_correlation = false;  ///< z is then computed from atanh (Fisher 1915)
+    std::vector<double> null;     ///< one value for each draw, in order
     double null_mean = 0, null_sd = 0;
-    /// (value - null_mean) / null_sd, positive when the value is better than the null.
+    /// (value - null_mean) / null_sd, with the sign that is positive when the value is better.
     std::optional<double> z;
-    /// Share of draws at least as good as the value, (count + 1) / (draws + 1).
+    /// (count + 1) / (draws + 1) for the count of draws at least as good as the value.
     std::optional<double> p;
     std::string note;
 };

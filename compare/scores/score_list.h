@@ -1,5 +1,5 @@
 #pragma once
-// All scores of two pictures that lie on one another: one table, a row a score.
+// All scores of two registered pictures: one table with a row for each score.
 
 #include <optional>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace culet {
 
-/// What scores are read from: the pictures, and what several scores share or the report draws.
+/// The input of the scores: the pictures, and what several scores share or the report draws.
 struct Measures {
     MatchedPictures pictures;
     ShownPictures shown;
@@ -24,29 +24,29 @@ struct Measures {
     ScoreMap structure, visible;  ///< SSIM, FLIP
     ColourScore colour;
     ColourDistributions colours;
-    /// Read from the facets' tilts (calibration/facet_tilts.h); nothing: not known.
+    /// Estimated from the facets' tilts (calibration/facet_tilts.h); nothing: unknown.
     std::optional<double> facet_error_deg;
-    bool calibrating = false;  ///< scores that need a model of the stone are asked for, too
+    bool calibrating = false;  ///< also compute scores that need a model of the stone
 };
 Measures measures_of(const MatchedPictures& pictures, const WaveletBank& wavelets);
 
-/// What a score runs against, which says which way is better and how it is stretched so that it
-/// falls about straight with the logarithm of the facet error.
+/// The range of a score. It says which way is better, and which variance-stabilising transform
+/// makes the score nearly linear in the logarithm of the facet error.
 enum class ScoreScale {
-    correlation,  ///< up to 1; z is taken of atanh (Fisher 1915)
+    correlation,  ///< up to 1; z is computed from atanh (Fisher 1915)
     up_to_one,    ///< 1 is perfect
     down_to_zero,
     down_to_one,  ///< 1 is chance
     decibel
 };
 
-/// Light that is light, or shapes and places: a tone curve, even one that differs from place to
-/// place, does these little harm.
+/// Whether a score needs linear light, or only shapes and places. Tone curves, even local ones, do
+/// the latter little harm.
 enum class Needs { photometry, geometry };
 
-/// Whether the equivalent facet error is read from it, for a photograph whose brightness is light
-/// or of which only geometry is used. Colours alone see no geometry; counts of reflexes are coarse
-/// beside their areas.
+/// Whether the equivalent facet error uses this score: never, only for photometric photographs,
+/// only when just geometry is used, or always. Pure colour scores see no geometry, and counts of
+/// reflexes are coarser than their areas.
 enum class InCalibration { no, photometric, geometry_only, always };
 
 struct ScoreKind {
@@ -57,15 +57,15 @@ struct ScoreKind {
     Needs needs;
     InCalibration in_calibration;
     std::optional<double> (*read)(const Measures& measures);
-    const char* why_none = "";     ///< where it is not defined
-    bool calibrated_only = false;  ///< it needs a model of the stone
+    const char* why_none = "";     ///< why it can be undefined
+    bool calibrated_only = false;  ///< needs a model of the stone
 
     bool higher_is_better() const { return scale != ScoreScale::down_to_zero; }
 };
-/// Read from the picture by a calibrated comparison alone (calibration/facet_tilts.h).
+/// Score of calibrated comparisons only (calibration/facet_tilts.h).
 inline constexpr const char* k_facet_tilts = "facet_tilts_deg";
 
-/// All there are, in the order in which they are reported.
+/// In the order in which they are reported.
 std::span<const ScoreKind> score_kinds();
 /// Null for a key that is not in the table.
 const ScoreKind* score_kind(const std::string& key);
@@ -73,16 +73,16 @@ const ScoreKind* score_kind(const std::string& key);
 /// The scores without their nulls.
 std::vector<Score> scores_of(const Measures& measures);
 
-/// Takes away the scores that need light to be light, where the photograph cannot serve for
-/// photometry; `why` says why it cannot.
+/// Removes the scores that need linear light, for photographs that cannot serve for photometry;
+/// `why` gives the reason.
 void keep_geometry_only(std::vector<Score>& scores, const std::string& why);
 
-/// Falls about straight with the logarithm of the facet error.
+/// The variance-stabilising transform: nearly linear in the logarithm of the facet error.
 double stabilised(double score, ScoreScale scale);
 
-/// Mean, spread, z and p of a score from the values of its null. z of a correlation is taken of
-/// atanh (Fisher 1915): its spread does not depend on its value, so that a perfect match is not
-/// held back by the end of the scale.
+/// Sets mean, spread, z and p from the values of the score's null. A correlation's z is computed
+/// from atanh (Fisher 1915), whose spread does not depend on the value, so that the end of the
+/// scale does not limit a perfect match.
 void fill_null(Score& score);
 
 }  // namespace culet

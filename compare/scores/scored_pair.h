@@ -1,5 +1,5 @@
 #pragma once
-// The scores of a pair that is aligned already. Private to the room: shows OpenCV.
+// Scores of an aligned pair. Private to the folder, because it exposes OpenCV.
 
 #include <optional>
 
@@ -10,15 +10,15 @@
 
 namespace culet {
 
-/// For a calibration, whose render is as soft as the photograph.
+/// For a calibrated comparison, whose render is as soft as the photograph.
 struct CalibratedScoring {
-    double render_blur_px = 0;              ///< that the pair's render was given
-    std::optional<double> facet_error_deg;  ///< read from the facets' tilts
+    double render_blur_px = 0;              ///< blur of the pair's render
+    std::optional<double> facet_error_deg;  ///< estimated from the facets' tilts
 };
 
-/// What the scores of a pair are read from: the part of it that they see.
+/// The measures of the part of a pair that the scores see.
 struct MeasuredPair {
-    /// `calibrated`: null, or what a calibration gives beside the pair.
+    /// `calibrated`: null, or the calibration's input.
     MeasuredPair(const AlignedPair& pair, const CalibratedScoring* calibrated);
     MeasuredPair(const MeasuredPair&) = delete;  // the measures point to the wavelets
     MeasuredPair& operator=(const MeasuredPair&) = delete;

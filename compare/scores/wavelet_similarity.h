@@ -1,5 +1,5 @@
 #pragma once
-// Are the same edges in the same places? Structural similarity of complex wavelets.
+// Structural similarity of complex wavelets: are the same edges in the same places?
 
 #include <vector>
 
@@ -7,26 +7,26 @@
 
 namespace culet {
 
-/// Log-Gabor wavelets (Field 1987) of six directions and wavelengths of 3 % and 6 % of the diameter
-/// in the frequency plane, for pictures of one size.
+/// Log-Gabor wavelets (Field 1987) of six directions and wavelengths of 3 % and 6 % of the
+/// diameter, in the frequency plane, for pictures of one size.
 struct WaveletBank {
-    double scale = 1;  ///< the pictures are reduced so that the stone is 256 pixels across at most
+    double scale = 1;  ///< reduces the pictures to at most 256 pixels across the stone
     cv::Size size;     ///< of the frequency plane
-    /// Its answer has few frequencies, and is taken at as few places: the band is moved to zero,
-    /// which changes all phases alike, and transformed by itself.
+    /// The response has a narrow band, so it is computed at few places: the band is moved to
+    /// frequency zero, which shifts all phases alike, and transformed by itself.
     struct Wavelet {
         double wavelength_px = 0;
-        cv::Rect band;    ///< of frequencies, from the plane's zero; may be negative
-        cv::Mat filter;   ///< CV_32F, of the band
-        cv::Size places;  ///< at which the answer is taken, evenly over the plane's pictures
+        cv::Rect band;    ///< of frequencies, relative to zero; may be negative
+        cv::Mat filter;   ///< CV_32F, for the band
+        cv::Size places;  ///< size of the response's grid, spread evenly over the plane
     };
     std::vector<Wavelet> wavelets;
 };
 WaveletBank wavelet_bank(cv::Size picture_size, double diameter);
 
 /// CW-SSIM (Sampat, Wang, Gupta, Bovik, Markey 2009, equation 7) of encoded luminance under the
-/// mask: 0 to 1, indifferent to small shifts and to slow changes of brightness. The pictures must
-/// have the size that the bank was made for.
+/// mask: 0 to 1, insensitive to small shifts and slow changes of brightness. The pictures must have
+/// the size that the bank was made for.
 double cw_ssim(const ShownPictures& pictures, const cv::Mat& mask, const WaveletBank& bank);
 
 }  // namespace culet
