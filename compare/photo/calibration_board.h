@@ -1,6 +1,6 @@
 #pragma once
-// A board of squares and markers (ChArUco: Garrido-Jurado et al. 2014, in OpenCV) to print, and the
-// lens that photographs of it tell.
+// A printable board of squares and markers (ChArUco: Garrido-Jurado et al. 2014, in OpenCV), and
+// the lens calibration from photographs of it.
 
 #include <filesystem>
 #include <functional>
@@ -17,13 +17,13 @@ struct BoardShape {
     double square_mm = 25;
 };
 
-/// The board as an SVG of its true size, black on white, with a line that says what it is.
+/// The board as an SVG in true size, black on white, with a line of description.
 std::string board_svg(const BoardShape& shape);
 
 struct BoardPicture {
     std::string name;
-    int corners = 0;         ///< found
-    double residual_px = 0;  ///< root mean square; 0 where it was left out
+    int corners = 0;         ///< number found
+    double residual_px = 0;  ///< root mean square; 0: left out
 };
 
 struct LensCalibration {
@@ -31,11 +31,11 @@ struct LensCalibration {
     double focal_sigma_px = 0, principal_sigma_px = 0;
     std::vector<BoardPicture> pictures;
     std::vector<std::string> notes;
-    std::string doubt;  ///< empty: to be trusted
+    std::string doubt;  ///< empty: can be trusted
 };
 
-/// Throws InputError: unreadable pictures, pictures of several sizes, fewer than three with at
-/// least eight corners. Doubtful above one pixel, or when the board was never tilted.
+/// Throws InputError for unreadable pictures, different sizes, or fewer than three pictures with at
+/// least eight corners. Sets `doubt` above one pixel, or when the board was never tilted.
 LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& pictures,
                                const BoardShape& shape, const Progress& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Shots of one series added up, one after the other. Inside this room only.
+// Sums up the shots of a series, one after the other. Private to the folder.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace culet {
 
-/// 1 where a pixel is well below the level at which the camera clips, 0 at it.
+/// 1 where a pixel is well below the clipping level, falling smoothly to 0 just below it.
 inline float unclipped(const Photo& photo, std::size_t pixel) {
-    constexpr float k_fade_from = 0.85f, k_fade_to = 0.97f;  // of saturation
+    constexpr float k_fade_from = 0.85f, k_fade_to = 0.97f;  // // of saturation
     if (!photo.saturated.empty() && photo.saturated[pixel] > 0) return 0;
     if (photo.saturation <= 0) return 1;
     const float* rgb = photo.rgb.data() + 3 * pixel;
@@ -21,13 +21,13 @@ inline float unclipped(const Photo& photo, std::size_t pixel) {
     return u * u * (3 - 2 * u);
 }
 
-/// Variance of a shot's value: shot noise and reading noise of a small camera, and rounding where
-/// the file has 8 bits.
+/// Variance of a shot's value: shot noise and read noise of a small camera, and the rounding of
+/// 8-bit files.
 class ShotNoise {
 public:
     /// `saturation` as in Photo.
     ShotNoise(double saturation, bool eight_bits);
-    /// Of a value that was read as about `value`.
+    /// Variance of a value read as about `value`.
     float variance(float value) const {
         const float level = std::max(value / full_, 0.0f);
         float variance =
@@ -40,31 +40,31 @@ public:
     }
 
 private:
-    static constexpr float k_full_well = 20000;  // electrons at saturation, of a small camera
+    static constexpr float k_full_well = 20000;  // // electrons at saturation, of a small camera
     static constexpr float k_read_noise = 4;     // electrons
-    // Finer than the steps of an 8-bit file where it is dark (1 / (255 * 12.92)).
+    // Finer than an 8-bit file's steps in the dark (1 / (255 * 12.92)).
     static constexpr std::size_t k_steps = 4096;
     float full_ = 1;
-    std::vector<float> rounding_;  // over value / full, evenly; empty: none
+    std::vector<float> rounding_;  // // at even steps of value / full; empty: no rounding
 };
 
-/// The mean of the shots' values over their exposures, weighted by the inverse of their variance.
+/// Mean of the shots' values over their exposures, with inverse-variance weights.
 class ExposureSum {
 public:
     explicit ExposureSum(std::size_t pixels);
 
-    /// From the brightest shot to the darkest: what the brighter ones say sets the variance, so
-    /// that a shot's noise does not choose its own weight. The `last` one's value is taken where
-    /// every shot is over-exposed.
+    /// Call from the brightest shot to the darkest: the variance comes from the sum of the brighter
+    /// shots, so that a shot's noise does not choose its own weight. The `last` shot's value is
+    /// used where every shot is over-exposed.
     void add(const Photo& shot, double exposure, const ShotNoise& noise, bool last);
 
-    /// Into `rgb`, `variance` and `saturated`, in the units of a shot of `exposure`. The sums are
-    /// spent. Returns how many pixels every shot over-exposed.
+    /// Writes `rgb`, `variance` and `saturated`, in the units of a shot of `exposure`, and consumes
+    /// the sums. Returns the number of pixels that every shot over-exposed.
     std::size_t take(double exposure, Photo& merged);
 
 private:
-    std::vector<float> sum_, weight_;  // a sample
-    std::vector<float> over_;          // a pixel
+    std::vector<float> sum_, weight_;  // // for each sample
+    std::vector<float> over_;          // // for each pixel
 };
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Parallel work that tells its progress. Private to the room: shows TBB.
+// Parallel loops that report progress. Private to the folder, because it exposes TBB.
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -11,8 +11,8 @@
 
 namespace culet {
 
-/// `work(i)` for each i below `count` on so many threads (0: one a processor); some at a time, so
-/// that progress is told from this thread. Throws Interrupted.
+/// Runs `work(i)` for each i below `count` on `threads` (0: one for each processor), in batches, so
+/// that this thread can report progress. Throws Interrupted.
 template <class Work>
 void in_batches(std::size_t count, int threads, const Progress& progress, const Work& work) {
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

@@ -1,5 +1,5 @@
 #pragma once
-// A picture as it comes from a camera or from the renderer, in linear light.
+// A picture from a camera or the renderer, in linear light.
 
 #include <filesystem>
 #include <string>
@@ -9,57 +9,57 @@
 
 namespace culet {
 
-/// Rows from the top, pixels from the left, three floats (R, G, B in sRGB primaries) a pixel.
+/// Rows from the top, pixels from the left, three floats (R, G, B in sRGB primaries) per pixel.
 struct Photo {
     int width = 0, height = 0;
     std::vector<float> rgb;  ///< linear light; finite, not negative
-    /// 0..1 for each pixel: how much of it the stone covers; empty when the file has no alpha.
+    /// The stone's share of each pixel, 0..1; empty when the file has no alpha.
     std::vector<float> coverage;
-    /// Painted by hand (`read_mask`), one value a pixel: over a half is the stone; empty: it is
+    /// Hand-painted (`read_mask`), one value for each pixel: over 0.5 is stone. Empty: the stone is
     /// found in the picture.
     std::vector<float> mask;
-    /// Likewise: over a half is left out of every comparison (dust, inclusions, a holder); empty:
+    /// Likewise: over 0.5 is left out of every comparison (dust, inclusions, a holder). Empty:
     /// nothing is.
     std::vector<float> ignored;
-    /// Linear value at which the camera clips: 1 for integer files; 0: it does not (EXR, HDR).
+    /// Linear value at which the camera clips: 1 for integer files; 0: it does not clip (EXR, HDR).
     double saturation = 0;
-    /// One variance (of the linear value) a sample, from a merged series; empty: not known.
+    /// Variance of each sample (linear), from a merged series; empty: unknown.
     std::vector<float> variance;
-    /// 0..1 for each pixel: over-exposed in every exposure there was; empty: see `saturation`.
+    /// 0..1 for each pixel: over-exposed in every exposure. Empty: see `saturation`.
     std::vector<float> saturated;
-    /// Of a render with its stone's uncertainty (render/image/picture.h, k_band_channels): four
-    /// levels of the luminance a pixel; empty: not known.
+    /// For a render with its stone's uncertainty (render/image/picture.h, k_band_channels): four
+    /// luminance levels for each pixel. Empty: unknown.
     std::vector<float> bands;
-    /// False: the values do not stand for light (a tone-mapped JPEG); shapes and places only.
+    /// False: the values are not linear light (a tone-mapped JPEG); only shapes and places count.
     bool photometric = true;
-    std::string not_photometric;  ///< why, in a few words; empty when `photometric`
-    ShotData shot;                ///< what the camera noted (EXIF)
+    std::string not_photometric;  ///< the reason in a few words; empty when `photometric`
+    ShotData shot;                ///< what the camera recorded (EXIF)
     std::size_t not_finite = 0;   ///< samples that were NaN or infinite in the file, now 0
     std::string encoding;         ///< for the record: "8-bit sRGB", "linear EXR", ...
-    /// What was repaired on reading, assumed, or not followed; one line each.
+    /// What was repaired, assumed or ignored on reading; one line each.
     std::vector<std::string> notes;
 };
 
-/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM (render/image/image_io.h: what the file says of its numbers
-/// is followed or noted; without a word, integers are sRGB and floats are linear), or a camera's
-/// raw file (raw_file.h). A JPEG is not photometric: cameras write them through a tone curve of
-/// their own, phones through one that differs from place to place. Throws InputError for a file
-/// that is missing, broken, or of more than `k_max_photo_pixels`. `mask`, `ignored`: files of
-/// Photo::mask and Photo::ignored, these one upon the other; may be empty.
+/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h).
+/// render/image/image_io.h follows or notes what the file says of its encoding; by default integers
+/// are sRGB and floats are linear. A JPEG is not photometric, because cameras apply their own tone
+/// curves, and phones even local ones. `mask`, `ignored`: files for Photo::mask and Photo::ignored
+/// (all of the latter combined); may be empty. Throws InputError for a file that is missing,
+/// broken, or over `k_max_photo_pixels`.
 Photo read_photo(const std::filesystem::path& file, const std::filesystem::path& mask = {},
                  const std::vector<std::string>& ignored = {});
 
-/// What the camera noted, without the picture. Throws InputError for a file that is missing or, a
-/// raw file, broken.
+/// What the camera recorded, without the picture. Throws InputError for a missing file or a broken
+/// raw file.
 ShotData read_shot_data(const std::filesystem::path& file);
 
 constexpr double k_max_photo_pixels = 2e8;
 
-/// Of a sample in the file: 8 or 16; 0 for floats.
+/// Bits of a sample in the file: 8 or 16; 0 for floats.
 int bits_of(const Photo& photo);
 
-/// A hand-painted mask: white (over half) is stone. One value 0 or 1 a pixel.
-/// Throws InputError when its size is not `width` x `height`.
+/// Reads a hand-painted mask: over 0.5 (white) is stone. One value 0 or 1 for each pixel. Throws
+/// InputError when its size is not `width` x `height`.
 std::vector<float> read_mask(const std::filesystem::path& file, int width, int height);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as OpenCV matrices, inside this room only. Colour is CV_32FC3 in the order R, G, B,
+// Pictures as OpenCV matrices. Private to the folder. Colour is CV_32FC3 in the order R, G, B,
 // linear light; masks are CV_8U, 0 or 255. Positions are in pixels with the centre of the first
 // pixel at (0, 0), x to the right, y down.
 
@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// A view on (not a copy of) the photo's pixels.
+/// A view of the photo's pixels, not a copy.
 cv::Mat colour_of(const Photo& photo);
 
 /// Luminance of linear sRGB primaries (Rec. ITU-R BT.709-6, item 3.2), CV_32F.
@@ -21,15 +21,15 @@ cv::Mat encoded(const cv::Mat& linear);
 /// PNG file bytes; CV_8U with 1 channel, or 3 in the order R, G, B.
 std::string png_bytes(const cv::Mat& pixels);
 
-/// Of CV_32F, between the four pixels around a place (x to the right, y down); at the border where
-/// that lies outside.
+/// Bilinear interpolation of CV_32F (x to the right, y down); beyond the border, the border's
+/// value.
 double between_pixels(const cv::Mat& plane, double x, double y);
 
 /// The largest of the three colours.
 cv::Mat brightest_channel(const cv::Mat& colour);
 
-/// Value below which `share` (0..1) of the pixels under the mask lie; 0 where it holds none.
-/// Without a mask: of all pixels.
+/// The `share` quantile (0..1) of the pixels under the mask; 0 for an empty mask. Without a mask:
+/// of all pixels.
 double quantile(const cv::Mat& plane, const cv::Mat& mask, double share);
 
 }  // namespace culet

@@ -1,12 +1,12 @@
 #pragma once
-// A render in a photograph's place.
+// A render used as a photograph.
 
 #include "compare/photo/photo.h"
 #include "render/render.h"
 
 namespace culet {
 
-/// The render as a camera without fault would have taken it: linear, with its coverage.
+/// The render as a perfect camera would have taken it: linear, with its coverage.
 Photo photo_of(const Picture& picture);
 
 }  // namespace culet

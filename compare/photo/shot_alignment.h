@@ -1,30 +1,31 @@
 #pragma once
-// How far the camera moved between two shots, and by how much their light differs. Inside this room
-// only.
+// Finds how far the camera moved between two shots, and the ratio of their light. Private to the
+// folder.
 
 #include "compare/photo/bracket.h"
 #include "compare/photo/photo.h"
 
 namespace culet {
 
-/// What is needed of a shot to align it: means of `factor` x `factor` pixels; a mean with a pixel
-/// in it that is over-exposed is marked as `saturated`.
+/// Means of `factor` x `factor` pixels, for the alignment; a mean that contains an over-exposed
+/// pixel is `saturated`.
 Photo reduced(const Photo& photo, int factor);
 
-/// Every `step`-th pixel of every `step`-th row, and what is known of the photo.
+/// Every `step`-th pixel of every `step`-th row, and the photo's other data.
 Photo thinned(const Photo& photo, int step);
 
 /// The factor that leaves at most about `pixels`; 1 for a small photo.
 int factor_to(const Photo& photo, double pixels);
 
-/// Shift of `b` against `a`; ECC (Evangelidis & Psarakis 2008) on log-luminance over what both
-/// expose well, from coarse to fine. None where they share too little.
+/// Shift of `b` against `a`: ECC (Evangelidis & Psarakis 2008) on log-luminance where both are well
+/// exposed, coarse to fine. Zero where they share too little.
 FrameShift shift_between(const Photo& a, double exposure_a, const Photo& b, double exposure_b);
 
-/// The shot's content moved back by `shift`; over-exposure spreads with it.
+/// Moves the shot's content back by `shift`; over-exposure spreads in resampling.
 void move_back(Photo& photo, const FrameShift& shift);
 
-/// Ratio of the light in `a` to that in `b`: the median over what both expose well. 0: too few.
+/// Ratio of the light in `a` to that in `b`: the median where both are well exposed. 0: too few
+/// pixels.
 double light_ratio(const Photo& a, const Photo& b);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// What is grey in a photograph, from a card or a colour chart in it.
+// Measures what is grey in a photograph, from a card or a colour chart.
 
 #include <array>
 #include <optional>
@@ -11,7 +11,8 @@ namespace culet {
 struct GreyCard {
     std::array<double, 3> gain{1, 1, 1};  ///< per channel; green's is 1
     double level = 0;                     ///< luminance of the card after balancing, linear
-    double unevenness = 0;    ///< standard deviation over mean within it: a shadow, a print
+    double unevenness = 0;    ///< standard deviation over mean within it; large for a shadow or a
+                              ///< print
     double over_exposed = 0;  ///< share of the rectangle
 };
 
@@ -19,23 +20,22 @@ struct PixelRectangle {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Medians of the rectangle's pixels. Throws InputError: outside the picture, smaller than 4 x 4,
-/// over-exposed, black.
+/// Medians of the rectangle's pixels. Throws InputError for a rectangle outside the picture,
+/// smaller than 4 x 4, over-exposed or black.
 GreyCard measure_grey(const Photo& photo, const PixelRectangle& card);
 
 struct ChartBalance {
     std::array<double, 3> gain{1, 1, 1};  ///< from the four middle greys of the chart's last row
-    /// 3 x 3 from the photo's linear RGB, balanced, to linear sRGB: least squares over 24 patches.
+    /// 3 x 3 from the photo's balanced linear RGB to linear sRGB: least squares over 24 patches.
     std::array<double, 9> matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};
     double before = 0,
-           after = 0;  ///< mean CIEDE2000 of the patches, with the gains; and the matrix
+           after = 0;  ///< mean CIEDE2000 of the patches: with the gains only, and with the matrix
 };
 
-/// Finds a ColorChecker Classic (24 patches) by OpenCV's mcc. Nothing when there is none to be
-/// found.
+/// Finds a ColorChecker Classic (24 patches) by OpenCV's mcc. Nothing when there is none.
 std::optional<ChartBalance> find_colour_chart(const Photo& photo);
 
-/// Multiplies; the clipping level goes with the brightest channel.
+/// Multiplies the values by the gain and the variances by its square; `saturation` stays as it is.
 void balance(Photo& photo, const std::array<double, 3>& gain);
 void apply_colour_matrix(Photo& photo, const std::array<double, 9>& matrix);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What one photograph of known light says about the planes of the stone in it: the front door of
-// compare/refine. Plain data in and out. Lengths in the stone's unit, angles in radians.
+// What one photograph in known light says about its stone's planes. The public interface of
+// compare/refine: plain data in and out. Lengths in the stone's unit, angles in radians.
 
 #include <memory>
 #include <string>
@@ -14,55 +14,54 @@
 namespace culet {
 
 struct PlaneEvidence {
-    /// For each row, the sum over the solid's facets of normal . dn + offset * dd is `value`,
-    /// within 1 and independently of the other rows; dn, dd: what the planes of the true stone are
-    /// off. Blind to how the stone as a whole is turned.
+    /// The sum over the solid's facets of normal . dn + offset * dd is `value` with sigma 1,
+    /// independently of the other rows; dn, dd: the true planes minus the solid's. Independent of
+    /// the stone's rotation as a whole.
     struct Row {
         std::vector<PlaneSlopes> facets;
         double value = 0;
     };
     std::vector<Row> rows;
-    double moves_told = 0;  ///< of three a facet, how many the photograph tells
+    double moves_told = 0;  ///< how many moves, of three per facet, the photograph determines
 };
 
-/// Where the photograph shows what the stone does not.
+/// A place where the photograph disagrees with the stone.
 struct Contradiction {
     double x = 0, y = 0;       ///< pixels of the photograph
     std::string facet;         ///< through which it is seen
     bool is_brighter = false;  ///< in the photograph
-    double deviations = 0;     ///< over what is usual in this photograph
-    double area = 0;           ///< as a share of the stone
+    double deviations = 0;     ///< size, relative to the usual difference in this photograph
+    double area = 0;           ///< share of the stone
 };
 
 struct EvidenceFit {
     /// Root mean square difference of the two pictures, in the root of light (white is 1).
     double rms = 0;
-    std::vector<Contradiction> contradictions;  ///< the strongest first
+    std::vector<Contradiction> contradictions;  ///< strongest first
 };
 
-/// Keeps what is known of how the photograph was taken: exposure, place in the picture, and small
-/// turns of light and camera (set_up.h), which get better with the stone.
+/// Keeps the estimated set-up of the photograph: exposure, place in the picture, and small
+/// rotations of light and camera (set_up.h). It improves with the stone.
 class PhotographEvidence {
 public:
-    /// `scene`: with the camera of the photograph's pose, and the stone as it is known at first;
-    /// convex. Throws InputError as `render` does, where the photograph's
-    /// stone is not the scene's by its outline, and where the scene can only be drawn by rays.
+    /// `scene`: with the camera of the photograph's pose and the initial stone, which must be
+    /// convex. Throws InputError as `render` does, when the photograph's outline does not fit the
+    /// stone, and when the scene can only be ray-traced.
     PhotographEvidence(const Photo& photo, const Scene& scene, int threads);
     ~PhotographEvidence();
     PhotographEvidence(PhotographEvidence&&) noexcept;
 
-    /// How the picture must change is found out around `solid`, facet by facet, two sketches for
-    /// each move; unless it is not to be sketched anew: a stone that has moved little changes as it
-    /// did. `spread`: standard deviation of each move (three a facet). `blur`: of both pictures, a
-    /// share of the diameter: as large as reflexes may be out of place.
+    /// Finds how the picture changes with the planes around `solid`, by two sketches for each move.
+    /// `sketch_anew` false: reuses the last changes, which still hold for a stone that moved
+    /// little. `spread`: prior standard deviation of each move (three per facet). `blur`: of both
+    /// pictures, a share of the diameter; as large as reflexes may be displaced.
     PlaneEvidence measure(const Solid& solid, const std::vector<double>& spread, double blur,
                           bool sketch_anew, const Progress& progress = {});
 
-    /// After `measure`: takes the set-up that suits this stone best, near the one that was
-    /// measured.
+    /// Call after `measure`: takes the set-up that fits this stone best, near the measured one.
     void settle(const Solid& solid);
 
-    /// How well the stone explains the photograph in the set-up as it is known.
+    /// How well the stone explains the photograph in the current set-up.
     EvidenceFit fit_of(const Solid& solid) const;
 
 private:

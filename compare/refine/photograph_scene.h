@@ -1,5 +1,5 @@
 #pragma once
-// The scene as a photograph shows it: its camera where the photograph's stood.
+// The scene from the photograph's camera position.
 
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace culet {
 
-/// Cut to the stone, at most 256 pixels across. `find_pose`: the pose is found in the photograph;
-/// else the scene's camera stands where it says. Throws InputError where it cannot be found.
+/// Cut to the stone, at most 256 pixels across. `find_pose`: finds the pose in the photograph;
+/// otherwise uses the scene's camera. Throws InputError when the pose cannot be found.
 Scene photograph_scene(const Photo& photo, const Scene& scene, bool find_pose, int threads,
                        const Progress& progress = {});
 

@@ -1,6 +1,6 @@
 #pragma once
-// How the stone's picture changes with the moves of its planes and the angles of its set-up, by
-// sketches a little either way.
+// Derivatives of the stone's picture by the moves of its planes and the angles of its set-up, by
+// finite differences of sketches.
 
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -12,23 +12,24 @@
 
 namespace culet {
 
-/// By how much planes are moved either way, radians: changes are straight up to about there, and
-/// smaller ones drown in what a sketch leaves out.
+/// Step of the differences, radians. Changes are linear up to about here; smaller ones drown in
+/// what a sketch leaves out.
 constexpr double k_move_step = radians(0.15);
 
-/// What a sketch is made of.
+/// The input of a sketch.
 struct SketchedStone {
     const DraftRenderer& renderer;
     const StoneSamples& samples;
     const Solid& solid;
     SetUp set_up;
-    Vec3 middle{0};      ///< about which the set-up turns
-    CameraModel camera;  ///< of the photograph
+    Vec3 middle{0};      ///< centre of the set-up's rotations
+    CameraModel camera;  ///< the photograph's
     double blur = 1;     ///< samples
 };
 
-/// Of the samples under `mask`: for each plane's moves, three a facet, then for each angle of the
-/// set-up, what a unit changes (per radian), and both sketches less twice the one between.
+/// For the samples under `mask`: for each plane's moves (three per facet), then for each set-up
+/// angle, the slope (per radian), and the second difference (both sketches minus twice the middle
+/// one).
 struct PictureChanges {
     std::vector<std::vector<double>> slopes, bends;
 };

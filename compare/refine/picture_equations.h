@@ -1,7 +1,6 @@
 #pragma once
-// From the difference of two pictures to what it says of the moves that may have made it: weighted
-// least squares whose noise is correlated between neighbours, by an amount that the pictures
-// themselves show.
+// Estimates the moves behind the difference of two pictures: weighted least squares with noise
+// correlated between neighbours, whose size the pictures themselves show.
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
@@ -9,37 +8,35 @@
 
 namespace culet {
 
-/// `difference` = `changes` * moves + `nuisances` * amounts + noise, a row a sample.
+/// `difference` = `changes` * moves + `nuisances` * amounts + noise, one row for each sample.
 struct PictureEquations {
     cv::Mat mask;  ///< CV_8U: where the samples are, row by row
     Eigen::MatrixXd changes, nuisances;
     Eigen::VectorXd difference;
     Eigen::VectorXd noise;   ///< of each sample; only the ratios count
-    Eigen::VectorXd bent;    ///< part of it: what of the changes is not straight, as it is expected
-    Eigen::VectorXd spread;  ///< standard deviation of each move before the picture is looked at
+    Eigen::VectorXd bent;    ///< part of it: the expected non-linear effect of the moves
+    Eigen::VectorXd spread;  ///< prior standard deviation of each move
     double blur = 1;         ///< of the pictures, standard deviation in samples
 };
 
-/// What a picture says: rows * moves = values, each row within 1 and independent of the others,
-/// whatever the nuisances are.
+/// rows * moves = values, each row with sigma 1, independent of the others and of the nuisances.
 struct MovesTold {
     Eigen::MatrixXd rows;
     Eigen::VectorXd values;
-    Eigen::VectorXd weights;  ///< of the samples: 1, less for those far off (Huber 1964)
+    Eigen::VectorXd weights;  ///< of the samples: 1, less for outliers (Huber 1964)
     double noise = 0;         ///< of a sample, in units of its own `noise`
-    double independent = 0;   ///< as many independent samples would know as much
-    double moves_told = 0;    ///< how many moves, of all, the picture tells
+    double independent = 0;   ///< effective number of independent samples
+    double moves_told = 0;    ///< number of moves that the picture determines
 };
 
-/// The covariance of the least-squares sums is estimated from products of the residuals near each
-/// other (Newey and West 1987, in the plane: Conley 1999): noise is as smooth as the blur, and what
-/// the pictures' models leave out is largest where moves change most. What is not straight is added
-/// as it is expected: moves take up as much of it as they can, and residuals do not show that. The
-/// nuisances' amounts are left open.
+/// The covariance of the least-squares sums is estimated from products of nearby residuals (Newey
+/// and West 1987, in the plane: Conley 1999), because noise is as smooth as the blur, and model
+/// errors are largest where moves change most. The expected non-linearity is added, because the
+/// moves absorb part of it and residuals do not show that. The nuisances have no prior.
 MovesTold moves_told(const PictureEquations& equations);
 
-/// The amounts of the first `spread.size()` nuisances that suit these moves best, without the
-/// others; each is held near 0 within its `spread` (0: it is free).
+/// The amounts of the first `spread.size()` nuisances that fit these moves best, without the
+/// others. `spread`: prior sigma about 0; 0: free.
 Eigen::VectorXd nuisances_beside(const PictureEquations& equations, const MovesTold& told,
                                  const Eigen::VectorXd& moves, const Eigen::VectorXd& spread);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where two pictures differ by more than is usual between them.
+// Finds where two pictures differ by more than usual.
 
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace culet {
 
-/// `difference`: CV_32F, photograph less picture. Places are in its samples. Usual is the median
-/// of the differences' sizes.
+/// `difference`: CV_32F, photograph minus picture; places are in its samples. Usual is the median
+/// absolute difference.
 EvidenceFit picture_misfit(const cv::Mat& difference, const cv::Mat& mask);
 
 /// The facet that the scene's camera sees at a point of its picture; empty: none.

@@ -1,6 +1,6 @@
 #pragma once
-// The small moves of a convex stone's planes: each facet turned about two axes through its middle,
-// and shifted along its normal.
+// Small moves of a convex stone's planes: each facet turns about two axes through its middle, and
+// shifts along its normal.
 
 #include <optional>
 #include <vector>
@@ -11,8 +11,8 @@ namespace culet {
 
 constexpr std::size_t k_moves_of_a_facet = 3;
 
-/// Where a facet's moves are counted from. Turns are radians about `u` and `v`; a shift is a length
-/// over `reach`, so that all three change a picture about alike.
+/// The reference frame of a facet's moves. Turns are radians about `u` and `v`. A shift is a length
+/// over `reach`, so that all three change a picture about equally.
 struct FacetMoves {
     Vec3 middle{0}, u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
     double reach = 1;  ///< a quarter of the stone's diameter
@@ -22,20 +22,20 @@ std::vector<FacetMoves> moves_of(const Solid& solid);
 /// The facet's plane after one of its moves (0 and 1: turns, 2: the shift).
 Plane moved_plane(const FacetMoves& facet, std::size_t move, double amount);
 
-/// The stone with one plane moved; nothing when the planes enclose none any more.
+/// The stone with one plane moved; nothing when the planes no longer enclose a solid.
 std::optional<Solid> with_plane_moved(const Solid& solid, std::size_t facet, const FacetMoves& from,
                                       std::size_t move, double amount);
 
-/// The moves, to first order, that bring each facet of `from` into the plane of the same name:
-/// three a facet. None for a facet that `to` has not.
+/// The moves (three per facet) that bring each facet of `from` into the plane of the same name, to
+/// first order. Zero for facets that `to` lacks.
 std::vector<double> moves_between(const Solid& from, const Solid& to);
 
-/// Moves, three a facet, of a stone that is shifted along x, y, z, turned about them (through its
-/// middle), or larger: of a unit of each.
+/// The moves (three per facet) for a unit of each change of the whole stone: shift along x, y, z,
+/// rotation about them (through its middle), and scale.
 std::vector<std::vector<double>> moves_of_the_whole(const Solid& solid);
 
-/// Slopes of one number by a facet's moves as slopes by its plane: the number changes by
-/// normal . dn + offset * dd.
+/// Derivatives by a facet's plane instead of its moves: the number changes by normal . dn + offset
+/// * dd.
 struct PlaneSlopes {
     Vec3 normal{0};
     double offset = 0;

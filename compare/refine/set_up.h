@@ -1,5 +1,5 @@
 #pragma once
-// How the set-up of a photograph may differ a little from the scene that stands for it.
+// How the set-up of a photograph may differ slightly from its scene.
 
 #include <array>
 
@@ -7,11 +7,11 @@
 
 namespace culet {
 
-/// Angles in radians. Where the stone lies in the picture is not in it.
+/// Angles in radians. The stone's place in the picture is not included.
 struct SetUp {
-    /// The stone and the camera turned together in the light, about the scene's axes.
+    /// Rotation of stone and camera together in the light, about the scene's axes.
     std::array<double, 3> light{};
-    /// The camera turned around the stone, about its picture's x (right) and y (down).
+    /// Rotation of the camera around the stone, about its picture's x (right) and y (down).
     std::array<double, 2> camera{};
 };
 constexpr std::size_t k_set_up_angles = 5;
@@ -19,7 +19,7 @@ constexpr std::size_t k_set_up_angles = 5;
 /// One of the angles, the light's first.
 double& angle_of(SetUp& set_up, std::size_t k);
 
-/// The scene with that stone in that set-up, turned about `middle`.
+/// The scene with `solid` in this set-up, rotated about `middle`.
 Scene set_up_scene(const Scene& scene, const Solid& solid, const SetUp& set_up, const Vec3& middle);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Where the stone is in a picture: its outline, found without looking at what is inside.
+// Finds the stone's outline in a picture, without using what is inside.
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
@@ -11,26 +11,26 @@ struct Silhouette {
     cv::Mat mask;         ///< CV_8U, 255 on the stone; the picture's size
     cv::Point2d centre;   ///< mean position of the mask's pixels
     double diameter = 0;  ///< of the circle of the same area, pixels
-    /// Root mean square of the outline's distance from that circle, over the diameter. A 16-gon
-    /// has 0.003, a 3:4 oval 0.05.
+    /// Root mean square distance of the outline from that circle, over the diameter: 0.003 for a
+    /// 16-gon, 0.05 for a 3:4 oval.
     double out_of_round = 0;
     std::string source;   ///< "mask", "coverage" or "background"
-    std::string trouble;  ///< why there is none, for people; empty when all is well
-    std::string warning;  ///< found, but look at it
+    std::string trouble;  ///< why none was found, for people; empty when found
+    std::string warning;  ///< found, but worth checking
     bool found() const { return trouble.empty(); }
 };
 
 /// From the file's coverage (CV_32F, 0..1): over one half is stone.
 Silhouette silhouette_from_coverage(const cv::Mat& coverage, const std::string& source);
 
-/// From the colours (CV_32FC3, linear): whatever differs from the background, which is what the
-/// picture's border shows (a plane in each colour, so that a light falling off sideways does no
-/// harm), closed over dark gaps and filled up to its convex hull: the outline of a convex stone is
-/// convex, and dark facets in a dark box would else be lost. The stone must not touch the border.
+/// From the colours (CV_32FC3, linear): pixels that differ from the background, closed over dark
+/// gaps and filled to the convex hull. A convex stone's outline is convex, and without the hull
+/// dark facets in a dark box would be lost. The background is a plane in each colour fitted to the
+/// picture's border, so that light may fall off sideways. The stone must not touch the border.
 Silhouette silhouette_from_background(const cv::Mat& colour);
 
 /// Signed distance to the mask's outline in pixels, positive outside (CV_32F), smoothed by a
-/// Gaussian of one pixel so that the stairs of the mask average out.
+/// Gaussian of one pixel against the mask's staircase.
 cv::Mat signed_distance(const cv::Mat& mask);
 
 }  // namespace culet

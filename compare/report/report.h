@@ -18,42 +18,42 @@ struct ReportFile {
     std::string name;
 };
 
-/// What the page shows. Every part is optional: a section appears when its data is there.
+/// Every part is optional: a section appears when its data is there.
 struct Report {
     std::string title = "culet report";
     std::string version;  ///< of the program
-    std::string command;  ///< as it was typed
+    std::string command;  ///< as typed
     std::vector<ReportFile> files;
 
     std::optional<Comparison> comparison;  ///< photo against render
     std::optional<CalibratedVerdict> calibrated;
-    std::string scores_json;  ///< what --json wrote; empty: made from `comparison`
+    std::string scores_json;  ///< the output of --json; empty: made from `comparison`
 
-    std::string fit_json;         ///< the fit report, as written by `culet fit --report`
-    std::optional<Solid> fitted;  ///< drawn, with its facets coloured by their readings' residuals
+    std::string fit_json;           ///< the fit report, as written by `culet fit --report`
+    std::optional<Solid> fitted;    ///< drawn with its facets coloured by their readings' residuals
     std::optional<Solid> starting;  ///< the hand-made or catalogue mesh, for the table of changes
     std::string length_unit = "mm";
 
-    /// The same scene with the starting mesh and with the fitted one, of one size.
+    /// The same scene with the starting mesh and with the fitted one, in one size.
     std::optional<Photo> starting_render, fitted_render;
     double renders_white =
-        0;  ///< linear value shown as white; 0: such that the stone is well exposed
+        0;  ///< linear value shown as white; 0: chosen so that the stone is well exposed
 
-    /// The photograph with the stone's edges where the pose puts them, PNG bytes; empty: none.
+    /// PNG bytes: the photograph with the stone's edges as the pose places them; empty: none.
     std::string pose_overlay_png;
     bool pose_used = false;
 
-    /// A page of the viewer with the stone, which a click on the picture opens; empty: none.
+    /// A viewer page with the stone, opened by a click on the picture; empty: none.
     std::string viewer_html;
 
     std::string stats_json;  ///< of the renderer: plan, error bounds, times
     std::string settings;    ///< the job or scene as text
 };
 
-/// The page as text. Throws InputError when one of the JSON texts is none.
+/// Throws InputError for invalid JSON texts.
 std::string report_page(const Report& report);
 
-/// Writes the page whole or not at all.
+/// Writes the whole page or nothing.
 void write_report(const Report& report, const std::filesystem::path& file);
 
 }  // namespace culet

@@ -12,15 +12,15 @@
 
 namespace culet {
 
-/// The linear value at which the stone is neither dull nor burnt out. `brightest` has the largest
-/// channel of each of its pixels. Nothing without light.
+/// The linear value at which the stone is well exposed. `brightest`: the largest channel of each of
+/// its pixels. Nothing without light.
 std::optional<double> white_for_stone(std::vector<float> brightest);
-/// The white that both of a comparison's pictures are shown with: never over the photograph's own.
+/// The white level for both pictures of a comparison, at most the photograph's own.
 double white_shown(const Comparison& comparison);
 
-/// PNG data URI of a linear picture, `white` shown as white.
+/// PNG data URI of a linear picture, with `white` shown as white.
 std::string picture_uri(const Photo& picture, double white);
-/// The same of a map; clear where it has no value.
+/// The same for a map; transparent where it has no value.
 std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high);
 
 std::string headline_section(const Report& report, const FitView& fitted);
@@ -34,7 +34,7 @@ std::string changes_section(const Report& report);
 std::string plan_section(const nlohmann::json& stats);
 std::string provenance_section(const Report& report);
 
-/// A verdict in words, with its colour and sign.
+/// A verdict in words, with its colour and symbol.
 struct VerdictShown {
     const char *word, *style, *symbol;
 };
@@ -43,7 +43,7 @@ VerdictShown verdict_shown(Verdict verdict);
 /// "ZNCC, 2 %": a score's name for people.
 std::string score_name(const std::string& key);
 
-/// "photograph", or "simulated photograph" wherever that is what it is.
+/// "photograph" or "simulated photograph".
 std::string photo_word(const Report& report);
 
 }  // namespace culet

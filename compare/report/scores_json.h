@@ -1,5 +1,5 @@
 #pragma once
-// A comparison for programs.
+// A comparison as JSON.
 
 #include <optional>
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace culet {
 
-/// What a program would want to know beside the scores themselves.
+/// Where the compared data came from.
 struct CompareSources {
     std::string photo_file, render_file, mask_file;
-    std::string pose{};  ///< JSON of the pose that was found; empty: none was looked for
+    std::string pose{};  ///< JSON of the found pose; empty: none was searched
 };
 
 /// The scores as one JSON object (schema 1).

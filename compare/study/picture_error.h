@@ -1,6 +1,6 @@
 #pragma once
-// How far a render is from a finer one of the same scene and view. No registration and no gain:
-// pixel is held against pixel.
+// The error of a render against a finer one of the same scene and view, pixel by pixel, without
+// registration or gain.
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -11,15 +11,16 @@
 
 namespace culet {
 
-/// Holds pictures against one that is taken for the truth.
+/// Measures pictures against a reference.
 class PictureMetric {
 public:
-    /// The stone's pixels are those that the truth's coverage says it touches; all, when it has
-    /// none. White, for the scores of what is shown, is five times their mean.
+    /// The stone's pixels are those with coverage in the reference; all, when it has none. White,
+    /// for the scores of encoded pictures, is five times their mean.
     explicit PictureMetric(Picture truth);
 
     PictureError error_of(const Picture& picture) const;
-    /// Luminance of `picture` less that of the truth, relative to the mean; NaN beside the stone.
+    /// Luminance of `picture` minus that of the reference, relative to the mean; NaN beside the
+    /// stone.
     PixelMap difference(const Picture& picture) const;
 
     const Picture& truth() const { return truth_; }
@@ -29,7 +30,7 @@ public:
 
 private:
     Picture truth_;
-    MatchedPictures matched_;  // `photo` is the truth
+    MatchedPictures matched_;  // // `photo` is the reference
     double mean_ = 0;
     int stone_pixels_ = 0;
 };

@@ -1,10 +1,11 @@
 #pragma once
-// What accuracy costs in time: one scene drawn in many ways, each held against the reference.
+// What accuracy costs in time: draws one scene with many settings and compares each with the
+// reference.
 //
-// The reference is the reference renderer with everything on, a third of the finest tolerance, and
-// as many rays a pixel as the budget allows. It is drawn twice, with other rays and other random
-// paths, and the mean of the two is the truth; half their difference is what the truth itself may
-// be off by, and no error below that is claimed.
+// The reference comes from the reference renderer with all effects, a third of the finest
+// tolerance, and as many rays per pixel as the budget allows. It is the mean of two drawings with
+// different rays and random paths. Half their difference estimates the reference's own error, and
+// no smaller error is claimed.
 
 #include <string>
 
@@ -13,8 +14,8 @@
 
 namespace culet {
 
-/// Studies the scene with the seed and threads of its settings. Throws InputError as `render` does,
-/// and when the camera does not see the stone; Interrupted.
+/// Uses the seed and threads of the scene's settings. Throws InputError as `render` does, and when
+/// the camera does not see the stone; Interrupted.
 SceneStudy study_scene(const Scene& scene, const SceneStudyOptions& options = {},
                        const Progress& progress = {});
 

@@ -1,5 +1,4 @@
 #pragma once
-// What a study recommends.
 
 #include <optional>
 #include <vector>
@@ -8,10 +7,11 @@
 
 namespace culet {
 
-/// Ids of the renders, quickest first; each is nearer to the truth by 2 % than any quicker one.
+/// Ids of the renders, fastest first; each has an error at least 2 % smaller than any faster one.
 std::vector<int> front_of(const SceneStudy& study);
 
-/// The id of the quickest render whose claimed error is within; nothing when none is.
+/// The id of the fastest render with a claimed error within `tolerance`; nothing when there is
+/// none.
 std::optional<int> cheapest_within(const SceneStudy& study, double tolerance);
 
 /// For each tolerance of the study.

@@ -1,5 +1,5 @@
 #pragma once
-// Processor time of a study: when a piece of work has had its share, and when a person stops it.
+// Processor time of a study: stops work that exceeds its share, or when the user interrupts.
 
 #include <algorithm>
 #include <ctime>
@@ -12,7 +12,7 @@ namespace culet {
 
 class StudyClock {
 public:
-    /// `seconds`: of processor time in all; 0: no limit.
+    /// `seconds`: total processor time; 0: no limit.
     StudyClock(double seconds, const Progress& progress) : budget_(seconds), progress_(progress) {}
 
     static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -23,8 +23,8 @@ public:
         return limited() ? of_budget * budget_ : std::numeric_limits<double>::infinity();
     }
 
-    /// Runs `work(Progress)` and stops it after that many seconds: false then. Throws Interrupted
-    /// when the person stops it.
+    /// Runs `work(Progress)`; returns false if it was stopped after `seconds`. Throws Interrupted
+    /// when the user stops it.
     template <class Work>
     bool within(double seconds, Work&& work) {
         const double end = spent() + seconds;
@@ -36,7 +36,7 @@ public:
             return false;
         }
     }
-    /// Tells the person; throws Interrupted when they stop the work.
+    /// Reports progress; throws Interrupted when the user stops the work.
     void report() {
         if (!goes_on()) throw Interrupted();
     }

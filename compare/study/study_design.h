@@ -1,5 +1,5 @@
 #pragma once
-// Which ways of drawing a scene a study tries.
+// The settings that a study tries.
 
 #include <string>
 #include <vector>
@@ -13,18 +13,18 @@ struct StudyCandidate {
     std::string sweep, setting;
     RenderSettings settings;
     bool automatic = false;
-    bool needed = false;  ///< drawn whatever the budget says
+    bool needed = false;  ///< drawn regardless of the budget
 };
 
-/// Everything on, and nothing left open for a plan: what the reference is drawn with, but for
-/// samples and seed. `nodes`: wavelengths, where a spectrum is called for.
+/// All effects on and nothing left to a plan: the reference's settings except samples and seed.
+/// `nodes`: number of wavelengths, if a spectrum is needed.
 RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes);
 
-/// Automatic settings at each tolerance, engines, and one thing varied at a time about the
-/// scene's tolerance; the most telling first.
+/// Automatic settings at each tolerance, the engines, and one setting varied at a time about the
+/// scene's tolerance; the most informative first.
 std::vector<StudyCandidate> study_design(const StudyGround& ground);
 
-/// One thing cheaper each: shallower, fewer wavelengths, an effect less, ...
+/// Settings that are cheaper in one respect: shallower, fewer wavelengths, one effect less, ...
 std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
                                                const RenderSettings& settings,
                                                const RenderStats& drawn);

@@ -1,5 +1,4 @@
 #pragma once
-// The scene as a study draws it.
 
 #include <vector>
 
@@ -12,7 +11,7 @@ struct StudyGround {
     Scene scene;                     ///< at the studied size
     RenderStats exact;               ///< of the reference: effects, wavelengths, depth
     bool beams = true;               ///< they can draw it
-    double tolerance = 0.01;         ///< that the sweeps are about: the scene's own
+    double tolerance = 0.01;         ///< the scene's own, about which settings are varied
     std::vector<double> tolerances;  ///< falling
 };
 

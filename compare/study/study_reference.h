@@ -1,21 +1,21 @@
 #pragma once
-// The picture that a study takes for the truth, and what it may itself be off by.
+// The reference picture of a study, and its own error.
 
 #include "compare/study/scene_study_result.h"
 #include "compare/study/study_clock.h"
 
 namespace culet {
 
-/// The longer side of a picture whose reference of 64 rays a pixel is expected to take `seconds` of
-/// processor time: 256, 192, 128, 96 or 64, and no more than the scene's own.
+/// The longer side (256, 192, 128, 96 or 64, at most the scene's own) for which a reference of 64
+/// rays per pixel should take `seconds` of processor time.
 int affordable_size(const Scene& scene, double tolerance, double seconds, StudyClock& clock);
 
-/// The camera's picture with that longer side.
+/// The camera with this longer side.
 Camera resized(const Camera& camera, int longer_side);
 
-/// Two references of ever more rays, other ones in each, until half their mean difference is below
-/// a tenth of the finest tolerance, or the next would take over `seconds` of processor time. The
-/// first is drawn in any case. Throws InputError when the stone is not in the picture.
+/// Draws two independent references with more and more rays until half their mean difference is
+/// below a tenth of the finest tolerance, or the next round would exceed `seconds` of processor
+/// time. The first round is always drawn. Throws InputError when the stone is not in the picture.
 StudyReference study_reference(const Scene& scene, double finest_tolerance, double seconds,
                                StudyClock& clock);
 

@@ -8,13 +8,14 @@
 
 namespace culet {
 
-/// The same for settings that draw the same: effects that are not called for do not count.
+/// Equal for settings that draw the same picture: effects that the scene does not need do not
+/// count.
 std::string key_of(const StudyGround& ground, const RenderSettings& settings);
 
 /// "beams, 15 wavelengths, depth 8, tolerance 0.01, without dispersion"
 std::string words_of(const StudyGround& ground, const RenderSettings& settings);
 
-/// The effects' names that these settings switch off although the reference has them on.
+/// Names of the effects that these settings switch off and the reference has on.
 std::vector<std::string> effects_left_out(const StudyGround& ground,
                                           const RenderSettings& settings);
 
