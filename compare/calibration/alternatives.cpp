@@ -106,7 +106,7 @@ Alternatives::Alternatives(const Scene& model, const WorldsAsked& asked,
             add(World::pose, "", 0, 0, k);
             if (!one_light) add(World::both, "", 0, 0, k);
         }
-        // After the second round: a budget that ends early ends these first.
+        // After the second round, because a budget that runs out drops the last draws first.
         if (round != std::min(1, rounds - 1)) continue;
         if (catalogue_) {
             add(World::catalogue, asked.start ? "the starting mesh" : "the symmetrical stone", 0, 0,
@@ -124,7 +124,7 @@ Alternatives::Alternatives(const Scene& model, const WorldsAsked& asked,
 }
 
 glm::dmat3 Alternatives::wrong_pose(Chance& chance) const {
-    // A stone of n-fold symmetry is the same stone again after 1/n of a turn: stay between.
+    // A stone of n-fold symmetry looks the same after 1/n of a turn: stay in between.
     const double period = 2 * std::numbers::pi / turns_alike_;
     const Vec3& up = model_.stone.up;
     const double azimuth = period * chance.uniform(0.12, 0.88);

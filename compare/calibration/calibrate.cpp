@@ -46,7 +46,7 @@ CalibrationDraw Draws::photograph(const WorldDraw& job, const Photo& stone,
     CalibrationDraw result{job.world, job.name, job.facet_error_deg, {}};
     CameraModel camera = cameras_[which];
     if (job.world == World::light || job.world == World::both || job.world == World::pose) {
-        // Under another light a photographer would meter again.
+        // A photographer would meter again under another light.
         const double exposure = exposure_like(stone, model_picture_);
         for (double& gain : camera.gain) gain *= exposure;
     }
@@ -61,7 +61,7 @@ CalibrationDraw Draws::photograph(const WorldDraw& job, const Photo& stone,
     const bool none = std::none_of(result.scores.begin(), result.scores.end(),
                                    [](const auto& s) { return s.has_value(); });
     if (none && camera.outline_from_background) {
-        // Too dark at its border to be found there: told by the coverage instead.
+        // The stone is too dark at its border for that: use the coverage instead.
         camera.outline_from_background = false;
         result.scores = taken();
     }

@@ -15,9 +15,9 @@ namespace {
 
 constexpr const char* k_primary = "zncc";
 
-// What can be said of a match, whatever the units: see docs/meaning.md.
+// Limits on the equivalent facet error for a verdict: see docs/meaning.md.
 constexpr double k_match_deg = 0.7, k_partial_deg = 1.4;
-// A light that is turned by little may do nearly as well as the right one: one draw of 24 may.
+// A slightly turned light may do nearly as well as the right one: one draw of 24 may.
 constexpr double k_most_p = 0.1, k_least_z = 2;
 
 std::size_t index_of(const Calibration& calibration, const std::string& key) {
@@ -46,7 +46,7 @@ std::optional<NullStatistics> null_statistics(World world, const Score& photo,
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.world != world) continue;
         if (draw.scores[primary]) against.null.push_back(*draw.scores[primary]);
-        // A draw that could not even be laid on the model is as far from it as any.
+        // A draw that could not be registered counts as the worst possible.
         const EquivalentError error = scale.of(draw.scores);
         ranks.push_back(error.rank.value_or(scale.largest_rank()));
         errors.push_back(error.deg.value_or(std::exp(scale.largest_rank())));
@@ -90,7 +90,7 @@ std::string facets_off(const EquivalentError& error) {
                        significant(error.high_deg, 2));
 }
 
-// Of the wrong lights and poses, what comes nearest.
+// The nearest of the wrong lights and poses.
 std::string chance_in_words(const CalibratedVerdict& verdict) {
     if (verdict.nulls.empty()) return "";
     const NullStatistics& worst = verdict.nulls.front();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* k_tilts_extension = ".pfm";
 
-// Does any draw have the score that the kept directions are for?
+// Whether any draw has the score for which the directions are kept.
 bool has_tilts(const Calibration& calibration) {
     const auto key = std::find(calibration.keys.begin(), calibration.keys.end(), k_facet_tilts);
     if (key == calibration.keys.end()) return false;

@@ -5,7 +5,7 @@ namespace culet {
 
 namespace {
 
-// Of the calibration's own workings: a cached table of another version is not used.
+// Version of the calibration's algorithm: cached tables of another version are not used.
 constexpr int k_version = 4;
 
 }  // namespace

@@ -70,7 +70,7 @@ std::string calibration_json(const Calibration& calibration) {
 }
 
 std::optional<Calibration> calibration_from(const std::string& text) {
-    // A cache is a convenience: whatever is wrong with it, it is made anew.
+    // Whatever is wrong with a cached file, the calibration is made anew.
     try {
         const Json json = Json::parse(text);
         if (json.at("schema") != k_schema || json.at("kind") != "calibration") return std::nullopt;

@@ -13,13 +13,14 @@ namespace culet {
 
 namespace {
 
-// Weights below which paths are left out of pictures that are compared among themselves.
+// Path weights below which coarser pictures leave paths out.
 constexpr std::array k_cuts{0.003, 0.01, 0.03};
 constexpr int k_enough_rounds = 4, k_least_rounds = 2;
-// Worlds that are drawn once: the symmetrical stone, two materials, six things a little wrong.
+// Alternatives that are drawn once: the symmetrical stone, two materials, six small errors.
 constexpr double k_single_draws = 9;
-constexpr double k_nulls = 3, k_null_draws = 3;  // a round: light, pose, both; of each
-// To photograph, align and score one picture of the stone, measured: nanoseconds a pixel.
+constexpr double k_nulls = 3, k_null_draws = 3;  // // per round: light, pose, both; three draws of
+                                                 // each
+// Measured cost of photographing, aligning and scoring one picture, nanoseconds per pixel.
 constexpr double k_scoring_ns = 800;
 
 struct Price {
@@ -56,7 +57,7 @@ CalibrationPlan plan_calibration(const Scene& model, const DraftRenderer& fine, 
         if (rounds >= enough)
             return {std::move(renderer), std::min(rounds, most_rounds), photometric};
         if (cut != k_cuts.back()) continue;
-        // Draws before tilts: of these the regression can do without.
+        // Draws come before tilts, because the regression can do without the tilts.
         const bool tilts = photometric && rounds >= k_least_rounds;
         return {std::move(renderer),
                 std::clamp(price.rounds_within(allowed_ns, tilts), k_least_rounds, most_rounds),

@@ -11,8 +11,8 @@
 namespace culet {
 
 std::vector<std::array<double, 2>> projected_corners(const Solid& solid, const Camera& camera) {
-    // The camera's own rays tell its frame: through the line of sight, one pixel to its right, and
-    // one pixel below.
+    // Derives the camera's frame from its own rays: the line of sight, one pixel to its right, and
+    // one below.
     const EyeRays rays(camera);
     const auto middle = line_of_sight_in(camera);
     const EyeRay ahead = rays.through(middle[0], middle[1]);
@@ -79,7 +79,7 @@ Camera cropped_to_stone(const Camera& camera, const Solid& solid, double diamete
     if (camera.orthographic_width) {
         result.orthographic_width = *camera.orthographic_width * size[0] / (scale * camera.width);
     } else {
-        // One focal length in pixels, times the scale.
+        // The focal length in pixels, scaled.
         const double half = std::tan(camera.fov / 2) * size[1] / (scale * camera.height);
         result.fov = 2 * std::atan(half);
     }

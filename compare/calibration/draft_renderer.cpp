@@ -29,15 +29,15 @@ DraftRenderer::DraftRenderer(const Scene& model, double tolerance, double allowe
     scene.settings.spectral = false;
     scene.settings.checked_pixels = k_checked_pixels;
     scene.settings.checked_samples = k_checked_samples;
-    // Beams wherever they can draw the scene at all: what they are off by is the same in all the
-    // pictures, and a hundred of them by the reference would take an hour.
+    // Prefer beams wherever they can draw the scene: their error is the same in all the pictures,
+    // and a hundred pictures by the reference would take an hour.
     if (model.settings.engine != k_reference_engine) {
         scene.settings.engine = k_beam_engine;
         try {
             settle(scene);
             return;
         } catch (const InputError&) {
-            // Drawn by the reference, which says better what is wrong if it cannot draw it either.
+            // The reference draws it instead; if it cannot either, its message is better.
         }
     }
     scene.settings.engine = k_reference_engine;

@@ -12,9 +12,9 @@ namespace culet {
 
 namespace {
 
-// Penalties that are tried, of standardised scores.
+// Ridge penalties that are tried, for standardised scores.
 constexpr double k_least_penalty = 1e-3, k_most_penalty = 1e4, k_penalty_step = 1.5;
-constexpr double k_constant = 1e-9;  // a score that scatters by less does not vary
+constexpr double k_constant = 1e-9;  // // a score with a smaller spread counts as constant
 constexpr Eigen::Index k_least_draws = 3;
 
 Eigen::VectorXd shrinkage(const Eigen::VectorXd& sizes, double penalty) {
@@ -69,7 +69,7 @@ std::optional<ErrorRegression::Fit> ErrorRegression::fit(
     for (double tried = k_least_penalty; tried <= k_most_penalty; tried *= k_penalty_step) {
         const Eigen::VectorXd kept = shrinkage(sizes, tried);
         const double off = (wanted - parts.u * kept.cwiseProduct(along)).squaredNorm();
-        // One more for the mean.
+        // One more degree of freedom for the mean.
         const double left = 1 - (kept.sum() + 1) / n;
         if (left > 0 && off / (left * left) < best) {
             best = off / (left * left);

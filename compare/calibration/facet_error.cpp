@@ -15,8 +15,8 @@ namespace culet {
 namespace {
 
 const double k_near_normal = std::cos(radians(3.0));
-constexpr double k_near_offset = 0.03;  // of the diameter
-constexpr double k_rounding = 1e-9;     // likewise
+constexpr double k_near_offset = 0.03;  // // of the diameter
+constexpr double k_rounding = 1e-9;     // // of the diameter
 constexpr int k_most_turns = 16;
 
 std::optional<Solid> solid_of(const std::vector<NamedPlane>& planes) {
@@ -26,12 +26,12 @@ std::optional<Solid> solid_of(const std::vector<NamedPlane>& planes) {
 }
 
 Plane mapped(const Plane& plane, const glm::dmat3& map) {
-    // About the origin: the caller has put the axis there.
+    // About the origin, through which the caller has put the axis.
     return {map * plane.normal, plane.offset};
 }
 
 struct Pairing {
-    std::vector<int> to;  // facet f goes near to facet to[f]
+    std::vector<int> to;  // // facet f goes near facet to[f]
 };
 
 std::optional<Pairing> pairing(const std::vector<Plane>& planes, const glm::dmat3& map,
@@ -56,7 +56,7 @@ std::optional<Pairing> pairing(const std::vector<Plane>& planes, const glm::dmat
     return result;
 }
 
-// Planes about an axis through the middle of the stone: parallel to `up`.
+// Planes relative to an axis through the stone's middle, parallel to `up`.
 struct Centred {
     std::vector<Plane> planes;
     Vec3 middle{0};
@@ -78,8 +78,8 @@ glm::dmat3 mirror_across(const Vec3& normal) {
     return glm::dmat3(1) - 2.0 * glm::outerProduct(normal, normal);
 }
 
-// The facet's plane turned about an axis through the mean of its corners; `turn` says which axis,
-// as an angle in the plane.
+// The facet's plane rotated about an axis in it through the mean of its corners; `turn` is the
+// axis' angle in the plane.
 NamedPlane tilted(const Solid& solid, const Facet& facet, double turn, double angle) {
     const Vec3& n = facet.plane.normal;
     const Vec3 away = std::abs(n.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
@@ -136,7 +136,8 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
     for (int k = 0; k < n; ++k) {
         group.push_back(rotation_about(up, 2 * std::numbers::pi * k / n));
     }
-    // Mirror planes of a cut pass through the middle of some facet: try each facet's azimuth.
+    // Mirror planes of a cut pass through the middle of some facet, so each facet's azimuth is
+    // tried.
     for (const Plane& plane : stone.planes) {
         const Vec3 across = plane.normal - glm::dot(plane.normal, up) * up;
         if (glm::length(across) < 0.05) continue;
@@ -148,7 +149,7 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
     }
     if (group.size() < 2) return std::nullopt;
 
-    // Each plane becomes the mean of all those that the group brings onto it.
+    // Each plane becomes the mean of all planes that the group maps onto it.
     std::vector<Plane> sums(stone.planes.size(), Plane{Vec3(0), 0});
     std::vector<double> counts(stone.planes.size(), 0);
     for (const glm::dmat3& map : group) {
@@ -172,7 +173,7 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
     }
     if (largest_change < radians(0.01)) return std::nullopt;
     auto result = solid_of(planes);
-    // Planes made alike meet in one point but for rounding: corners that fell apart are joined.
+    // Symmetrised planes meet in one point up to rounding error: join corners that split.
     if (result) result = contract_near_meets(*result, k_rounding * stone.size).solid;
     return result;
 }

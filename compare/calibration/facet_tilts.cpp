@@ -13,10 +13,10 @@ namespace culet {
 
 namespace {
 
-// Of the angles by which facets are tilted. Changes are straight in the tilts up to about there;
-// smaller ones drown in what a sketch leaves out.
+// Tilt angle of the sketches. Changes are linear up to about here; smaller ones drown in what a
+// sketch leaves out.
 constexpr double k_step_deg = 0.15;
-// Of the root of light, beside what is not straight: 10000 electrons make 0.005 of noise in it.
+// Noise of the root of light beside the non-linearity: 10000 electrons give 0.005.
 constexpr double k_least_noise = 0.01;
 constexpr double k_blur = k_sample_blur * k_samples_across;
 
@@ -36,7 +36,7 @@ bool FacetTilts::lay_samples(const Scene& model, const DraftRenderer& renderer) 
     if (!samples_.sketch) return false;
     mask_ = samples_.outline_distance > k_inside * k_samples_across;
     if (cv::countNonZero(mask_) < AlignedPair::k_least_pixels) return false;
-    // Of the picture itself, not of its sketch.
+    // From the picture itself, not its sketch.
     picture_ = at_samples(renderer.picture());
     return true;
 }

@@ -59,7 +59,7 @@ Material with_index_changed(const Material& material, double by) {
                 index.cauchy[0] += by;
                 break;
             case RefractiveIndex::Form::sellmeier: {
-                // To first order n^2 rises by 2 n dn at every wavelength alike.
+                // To first order n^2 rises by 2 n dn at every wavelength.
                 index.a0 += 2 * index.at(k_d_line_nm) * by + by * by;
                 break;
             }
@@ -103,7 +103,7 @@ std::vector<Material> neighbouring_materials(const Material& material, int count
         if (known) continue;
         other.absorption_per_mm = material.absorption_per_mm;
         if (other.optic != material.optic) {
-            // Absorption belongs to the rays of a class: the first ray's serves for all.
+            // Absorption belongs to the rays of one optical class: use the first ray's for all.
             other.absorption_per_mm.fill(material.absorption_per_mm[0]);
         }
         others.push_back(std::move(other));

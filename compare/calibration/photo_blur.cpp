@@ -13,8 +13,8 @@ namespace {
 
 constexpr double k_most = 4, k_step = 0.25;
 
-// Mean square of the detail between one and two pixels. Roots make noise alike everywhere; two
-// pixels average what is left of it away.
+// Mean square of the detail between one and two pixels. The root makes noise uniform; averaging
+// over two pixels removes most of it.
 double detail(const cv::Mat& light, double white, const cv::Mat& mask) {
     const cv::Mat root = root_of(light, white);
     const cv::Mat band = softened(root, 1) - softened(root, 2);
@@ -30,7 +30,7 @@ cv::Mat root_of(const cv::Mat& light, double white) {
 }
 
 double photo_blur_px(const MatchedPictures& pictures) {
-    // The outline is no detail of the stone: stay clear of it.
+    // The outline is not detail of the stone: stay clear of it.
     cv::Mat inside;
     cv::erode(pictures.mask, inside, cv::Mat::ones(9, 9, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT,
               cv::Scalar(0));

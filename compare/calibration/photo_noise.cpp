@@ -14,23 +14,23 @@ namespace culet {
 namespace {
 
 constexpr double k_least_electrons = 100, k_most_electrons = 1e6;
-// Of white: below, read noise is more than shot noise; above, the file clips it.
+// Shares of white: below, read noise exceeds shot noise; above, the file clips shot noise.
 constexpr double k_dark = 0.02, k_bright = 0.9;
 constexpr int k_least_pixels = 400;
 constexpr int k_halvings = 12;
-constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
+constexpr double k_least_psf_px = 0.3;  // // blur by a camera's pixels alone
 constexpr double k_psf_step_px = 0.1;
 constexpr double k_steps_per_octave = 4;  // of electrons
 
-// All three channels between the two.
+// Where all three channels lie between `low` and `high`.
 cv::Mat between(const cv::Mat& colour, double low, double high) {
     cv::Mat result;
     cv::inRange(colour, cv::Scalar::all(low), cv::Scalar::all(high), result);
     return result;
 }
 
-// Roots of light as a file of whole steps of the sRGB code (IEC 61966-2-1, above its straight part)
-// would have them. Noise of less than a step is not just added to by them.
+// Quantises roots of light to the steps of an sRGB file (IEC 61966-2-1, above its linear part). For
+// noise below one step this is not the same as adding quantisation noise.
 cv::Mat in_steps(const cv::Mat& root, int bits) {
     if (bits <= 0) return root;
     const double steps = std::ldexp(1.0, bits) - 1;
@@ -42,7 +42,7 @@ cv::Mat in_steps(const cv::Mat& root, int bits) {
     return result;
 }
 
-// Of standard deviation 1, the same whenever it is asked for.
+// Noise of standard deviation 1, the same at each call.
 cv::Mat unit_noise(cv::Size size) {
     Chance chance(1);
     cv::Mat noise(size, CV_32FC3);
@@ -92,7 +92,7 @@ CameraModel camera_of(const Photo& photo, const AlignedPair& pair) {
     set_blur_and_noise(camera, pair.pictures);
     const CloseUp& shown = pair.frame.photo;
     camera.outline_from_background = shown.silhouette.source == "background";
-    // The median of what surrounds the stone.
+    // The median colour around the stone.
     const cv::Mat around = shown.silhouette.mask == 0;
     std::vector<cv::Mat> channels;
     cv::split(shown.colour, channels);

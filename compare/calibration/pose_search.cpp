@@ -15,12 +15,11 @@ namespace culet {
 
 namespace {
 
-constexpr double k_searched_across =
-    160;  // pixels of the stone: what is blurred by 2 % needs no more
-// Reflexes a few degrees off still overlap where both are blurred by 4 % of the diameter; the last
-// steps look at finer ones.
+constexpr double k_searched_across = 160;  // pixels across the stone; enough for a blur of 2 %
+// Reflexes a few degrees off still overlap when both are blurred by 4 % of the diameter; the last
+// steps compare finer ones.
 constexpr double k_wide_blur = 0.04, k_fine_blur = 0.02;
-constexpr double k_finest = radians(0.1);  // the last step: half of it is what the view is off by
+constexpr double k_finest = radians(0.1);  // // the last step; the view's error is about half of it
 constexpr int k_most_moves = 4;            // at one step
 
 struct Tilt {
@@ -41,7 +40,7 @@ public:
         return camera_of(changed(start_, {tilt.x, tilt.y}), scene_.camera);
     }
 
-    /// How well each agrees, at once.
+    /// The agreement of each tilt, computed in parallel.
     std::vector<double> agreements(const std::vector<Tilt>& tilts, double blur) {
         std::vector<double> result(tilts.size(), -1.0);
         tbb::task_arena arena(search_.threads > 0 ? search_.threads : tbb::task_arena::automatic);
@@ -73,7 +72,7 @@ private:
     StoneView start_;
 };
 
-/// Points of a hexagonal net within `reach` of the middle, the middle first.
+/// Points of a hexagonal grid within `reach` of the middle, the middle first.
 std::vector<Tilt> net(const Tilt& middle, double step, double reach) {
     std::vector<Tilt> points{middle};
     const int rings = static_cast<int>(reach / step + 1);

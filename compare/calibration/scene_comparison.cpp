@@ -28,26 +28,27 @@ namespace culet {
 
 namespace {
 
-constexpr double k_tolerance = 0.03;                            // of the pictures that are compared
-constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;  // of the progress: their ends
-constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // of the calibration's
-// The budget is seconds of two processors, in counted work (render/work/price.h). Finding the pose
-// and scoring the photograph take what they take, measured: so much and so much a pixel.
+constexpr double k_tolerance = 0.03;                             // // of the compared pictures
+constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;   // // ends of the phases in the
+                                                                 // progress bar
+constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // // likewise, of the
+                                                                 // calibration's part
+// The time budget in counted work (render/work/price.h). Finding the pose and scoring the
+// photograph take a fixed time and a time for each pixel, both measured.
 constexpr double k_ns_per_second = 2e9, k_fixed_ns = 6e9, k_fixed_ns_per_pixel = 3;
-// Of the budget: what the photograph's own picture may take, and the plan of those that the view is
-// sought with.
+// Shares of the budget for the photograph's own picture, and for the planning of the view search.
 constexpr double k_for_picture = 0.15, k_for_search = 0.05;
-// As k_sure_pose: in a calibration what a pose is off by weighs as much as small facet errors.
+// As k_sure_pose. In a calibration pose errors weigh as much as small facet errors.
 constexpr double k_sure_to_calibrate = radians(0.3);
 constexpr double k_farthest_search = radians(5.0);
-// Of pictures that only tell where bright and dark are.
+// Of pictures that show only where it is bright and dark.
 constexpr double k_search_tolerance = 0.1, k_search_cut = 0.02;
 
 double fixed_ns(const Photo& photo) {
     return k_fixed_ns + k_fixed_ns_per_pixel * static_cast<double>(photo.width) * photo.height;
 }
 
-// What is left out, seen from the model's picture.
+// The ignored pixels in the frame of the model's picture.
 std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     if (frame.photo.ignored.empty()) return {};
     std::vector<float> result(
@@ -68,8 +69,8 @@ std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     return result;
 }
 
-// Against a render as soft as the photograph, as the draws are: a score is one thing in the
-// photograph and in its calibration.
+// Scores the photograph against a render as soft as itself, as the draws are scored, so that scores
+// are comparable.
 void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& photo,
                         const DraftRenderer& fine, double allowed_ns, double view_sigma,
                         const SceneCompareOptions& options, const Progress& progress) {
@@ -123,16 +124,16 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
     comparison.reason = result.calibrated->headline;
 }
 
-/// The camera that took the photograph, and how sure it is.
+/// The camera that took the photograph, and its uncertainty.
 struct Standpoint {
     Camera camera;
-    double sigma = 0;  // of the view, about either axis across the line of sight; radians
+    double sigma = 0;  // // of the view, about either axis across the line of sight, radians
     double budget_ns = 0, worked_ns = 0;
     std::string note;
 };
 
-// By the stone's picture, from where its edges say, and from the scene's own camera where that is
-// not to be trusted.
+// Searches by the stone's picture: from the pose found by its edges, or from the scene's camera if
+// that pose is not trusted.
 void search_further(const Photo& photo, const Scene& scene, const SceneCompareOptions& options,
                     SceneComparison& result, Standpoint& stand, const Progress& progress) {
     FoundPose& pose = *result.pose;

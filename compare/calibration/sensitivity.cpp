@@ -30,7 +30,7 @@ Moments moments(const std::vector<double>& values) {
     return m;
 }
 
-// Two scores may agree by chance on eight draws: none is believed to better than 10 %.
+// Two scores may agree by chance on eight draws, so no sigma below 10 % is believed.
 constexpr double k_least_variance = 0.1 * 0.1;
 
 }  // namespace
@@ -81,7 +81,7 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
         for (double& v : better) v *= sign;
         curve.fitted = falling(better);
         for (double& v : curve.fitted) v *= sign;
-        // How far this score's own answers scatter about the truth.
+        // The scatter of this score's own answers about the truth.
         std::size_t level = 0;
         for (const auto& [deg, draws] : by_level) {
             double squares = 0, count = 0;
@@ -114,7 +114,7 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
 }
 
 void FacetErrorScale::fit_regression(const JointDraws& draws) {
-    // The ceiling has no logarithm.
+    // The ceiling (error 0) has no logarithm and is left out.
     std::vector<double> errors;
     std::vector<std::vector<double>> scores;
     std::vector<std::size_t> level_of;
@@ -134,7 +134,7 @@ void FacetErrorScale::fit_regression(const JointDraws& draws) {
         squares[level_of[i]] += off * off;
         ++counts[level_of[i]];
     }
-    // Where a level has none, the next one's stands for it.
+    // A level without a variance takes that of the next one.
     std::vector<double> variances(levels_.size(), 1);
     for (std::size_t l = levels_.size(); l-- > 0;) {
         if (counts[l] > 0)
@@ -183,7 +183,7 @@ std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
         if (found)
             return Explained{std::clamp(*found, levels_.front(), levels_.back()), joint->misfit};
     }
-    // `average_` rises with the levels.
+    // `average_` rises with the levels; inverse_of_falling needs falling values.
     std::vector<double> negative = average_;
     for (double& v : negative) v = -v;
     return Explained{inverse_of_falling(levels_, negative, -*average), joint->misfit};
@@ -208,7 +208,7 @@ std::optional<double> FacetErrorScale::averaged(
         of.push_back(&curve);
     }
     if (answers.empty()) return std::nullopt;
-    // The weights depend on the answer: from the median on, a few rounds settle it.
+    // The weights depend on the answer: iterate from the median.
     double answer = upper_median(answers);
     for (int round = 0; round < 8; ++round) {
         double sum = 0, weights = 0;

@@ -22,7 +22,7 @@ EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     double sum = 0, weights = 0;
     for (const EquivalentError* e : errors) {
         if (e == nullptr) continue;
-        // The interval is 1.96 standard deviations of the logarithm either way.
+        // The interval is +-1.96 standard deviations of the logarithm.
         const double sd = std::log(e->high_deg / *e->deg) / 1.96;
         const double w = 1 / std::max(1e-4, sd * sd);
         sum += w * std::log(*e->deg);
@@ -86,7 +86,7 @@ SeveralPhotographs together(const std::vector<PhotographRow>& rows) {
     int most = 0, counted = 0;
     for (const auto& [verdict, count] : votes) {
         counted += count;
-        // From the best verdict to the worst: the worse one wins a tie.
+        // From the best verdict to the worst, so that the worse one wins a tie.
         if (count < most) continue;
         most = count;
         result.verdict = verdict;

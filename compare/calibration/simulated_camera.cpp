@@ -34,7 +34,7 @@ double exposure_like(const Photo& stone, const Photo& model) {
 Photo photographed(const Photo& stone, const CameraModel& camera, std::uint64_t seed) {
     check(!stone.coverage.empty(), "a picture without coverage cannot be photographed");
     Chance chance(seed);
-    // The render's own ground is light seen past the stone; the photograph's is known.
+    // The render's ground is light that passed beside the stone; the photograph's ground is known.
     cv::Mat exposed = colour_of(stone).clone(), coverage = coverage_of(stone);
     for (int y = 0; y < exposed.rows; ++y) {
         for (int x = 0; x < exposed.cols; ++x) {
@@ -43,7 +43,7 @@ Photo photographed(const Photo& stone, const CameraModel& camera, std::uint64_t 
             for (int i = 0; i < 3; ++i) {
                 const auto k = static_cast<std::size_t>(i);
                 const float lit = static_cast<float>(camera.gain[k]) * v[i];
-                // A pixel at the border holds some of each; the render's other light is left out.
+                // A border pixel mixes stone and ground; the render's own ground is left out.
                 v[i] = c * lit + (1 - c) * camera.ground[k];
             }
         }

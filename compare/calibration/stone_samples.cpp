@@ -19,14 +19,14 @@ cv::Matx23d first_rows(const cv::Matx33d& m) {
     return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2)};
 }
 
-// Root of luminance, each colour clipped at white.
+// Root of luminance, with each colour clipped at white.
 cv::Mat root_light(const cv::Mat& colour, double white) {
     cv::Mat root = luminance(cv::min(cv::max(colour / white, 0), 1));
     cv::sqrt(root, root);
     return root;
 }
 
-// As the camera exposes the picture, through its lens.
+// Applies the camera's lens and exposure.
 cv::Mat root_seen(const Photo& picture, const CameraModel& camera, double psf_px) {
     cv::Mat colour = colour_of(softened(picture, psf_px)).clone();
     multiply_channels(colour, camera.gain);
@@ -114,8 +114,8 @@ cv::Matx33d squared(const cv::Matx23d& m) {
     return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), 0, 0, 1};
 }
 
-// Derivatives by whole steps of the fine picture: on the samples' own grid they would be a fifth
-// too small where detail is finest, and what is left of a shift would look like tilts.
+// Derivatives by whole steps of the fine picture. On the samples' own grid they would be a fifth
+// too small for the finest detail, and the rest of a shift would look like tilts.
 std::vector<cv::Mat> nuisances_of(const cv::Mat& fine, const cv::Mat& softer,
                                   const StoneSamples& samples) {
     const cv::Size size = samples.size();
@@ -132,10 +132,10 @@ std::vector<cv::Mat> nuisances_of(const cv::Mat& fine, const cv::Mat& softer,
                   up = moved(0, -d, 0, 0);
     return {// Exposure and stray light.
             still, cv::Mat(size, CV_32F, cv::Scalar(1)),
-            // To first order, registration.
+            // Registration to first order.
             right - left, down - up, moved(0, 0, around, 0) - moved(0, 0, -around, 0),
             moved(0, 0, 0, around) - moved(0, 0, 0, -around),
-            // Blur, of light: through the root it brightens edges on either side.
+            // Blur of light, which after the root brightens edges on both sides.
             samples.at_samples(softer) - still,
             // Shift to second order.
             right + left - 2 * still, down + up - 2 * still,

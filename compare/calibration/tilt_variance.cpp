@@ -13,7 +13,7 @@ namespace {
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Columns over the noise.
+// Divides the columns by the noise.
 Eigen::MatrixXd whitened(const std::vector<std::vector<double>>& columns,
                          const Eigen::VectorXd& noise) {
     Eigen::MatrixXd matrix(noise.size(), static_cast<Eigen::Index>(columns.size()));
@@ -26,7 +26,7 @@ Eigen::MatrixXd whitened(const std::vector<std::vector<double>>& columns,
     return matrix;
 }
 
-// Orthonormal directions that span the columns.
+// Orthonormal basis of the columns' span.
 Eigen::MatrixXd span_of(const Eigen::MatrixXd& columns) {
     if (columns.cols() == 0) return columns;
     const PivotedQr parts(columns);
@@ -45,7 +45,7 @@ TiltVariance::TiltVariance(const TiltModel& model) : samples_(model.noise.size()
     changes = without_span(changes, nuisances);
 
     const SymmetricEigen parts = symmetric_eigen(transpose_times(changes, changes));
-    // From the largest; rounding of the products is all that is left of what nothing changes.
+    // From the largest; eigenvalues of directions without effect are only rounding error.
     const Eigen::VectorXd squares = parts.values.reverse();
     const Eigen::MatrixXd directions = parts.vectors.rowwise().reverse();
     const double rounding =
@@ -74,7 +74,7 @@ std::optional<double> TiltVariance::rms(const std::vector<double>& difference) c
     const Eigen::Map<const Rows> rows(rows_.data(),
                                       static_cast<Eigen::Index>(rows_.size() / samples_), samples);
     const Eigen::Map<const Eigen::VectorXd> values(difference.data(), samples);
-    // Row by row, so that the sum's order is the same wherever it is made.
+    // Row by row, so that the order of summation is fixed.
     double sum = 0;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         sum += std::pow(rows.row(i).cast<double>().dot(values), 2);

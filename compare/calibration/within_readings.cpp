@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-// Three of the bands' levels as a picture, which is blurred and laid on the photograph as the
-// render is.
+// Three of the bands' levels as a picture, blurred and registered with the photograph as the render
+// is.
 cv::Mat moved_levels(const AlignedPair& pair, const Photo& render, double psf_px,
                      const std::array<std::size_t, 3>& levels) {
     Photo picture;
@@ -29,7 +29,7 @@ cv::Mat moved_levels(const AlignedPair& pair, const Photo& render, double psf_px
     return moved_as_render(pair.frame, softened(picture, psf_px));
 }
 
-// One sample's variance: photons, the amplifier, the steps of the file.
+// A sample's variance: shot noise, read noise and quantisation.
 double variance_of(double light, double white, const CameraModel& camera) {
     const double level = std::max(0.0, light / white);
     double variance = level / camera.electrons + std::pow(camera.read_noise / camera.electrons, 2);
@@ -44,7 +44,7 @@ struct SeenLight {
     double value = 0, variance = 0;  ///< luminance
 };
 
-// The photograph's light as the render has it.
+// The photograph's luminance in the render's units.
 SeenLight light_in_render(const cv::Vec3f& photo, const AlignedPair& pair,
                           const CameraModel& camera) {
     SeenLight light;
@@ -77,7 +77,7 @@ std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Pho
             const SeenLight light = light_in_render(shown.at<cv::Vec3f>(y, x), pair, camera);
             const auto& band = lower.at<cv::Vec3f>(y, x);
             const double middle = (double(band[1]) + double(band[2])) / 2;
-            // The stone's spread and the camera's are independent of each other.
+            // The stone's spread and the camera's noise are independent.
             const auto is_within = [&](double low, double high, double sigmas) {
                 const double noise = sigmas * std::sqrt(light.variance);
                 return light.value >= middle - std::hypot(middle - low, noise) &&

@@ -12,7 +12,7 @@ namespace culet {
 struct FoundBall {
     BallCircle circle;
     double support = 0;  ///< 0..1: share of the outline where there is an edge
-    /// How likely it is a mirror ball: the support times the rim's compression in excess of 1
+    /// How likely it is a mirror ball: support * (compression - 1) * (1 - alike) of the rim
     /// (rim_compression.h).
     double evidence = 0;
     double sigma_px = 0;  ///< of the centre and the radius, one standard deviation

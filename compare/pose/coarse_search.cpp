@@ -17,17 +17,16 @@ namespace culet {
 
 namespace {
 
-// Between turns that are tried: half of it moves a table by 0.6 % of the stone's diameter, within
-// the reach of the edge map.
+// Step between the rotations that are tried. Half of it moves a table by 0.6 % of the stone's
+// diameter, within the reach of the edge map.
 constexpr double k_step_deg = 2.6;
-// Views nearer than this lead to the same refined one.
+// Views nearer than this refine to the same one.
 constexpr double k_same_deg = 1.2;
-// An outline off by less than this share of the diameter may be due to the grid's coarseness, the
-// mask's pixels or facet errors.
+// A smaller outline error, as a share of the diameter, may come from the coarse grid, the mask's
+// pixels or facet errors.
 constexpr double k_outline_slack = 0.004;
-// An edge of the picture that has nothing to do with the stone's runs on for some 3 % of the
-// diameter before another takes its place: points of the wireframe nearer than this are no
-// independent witnesses.
+// An unrelated edge of the picture runs for about 3 % of the diameter before another takes its
+// place: nearer points of the wireframe are not independent.
 constexpr double k_independent = 0.03;
 
 double sum_of_agreement(const Target& target, const StoneView& view, double& variance) {
@@ -58,7 +57,7 @@ double sum_of_agreement(const Target& target, const StoneView& view, double& var
     return sum;
 }
 
-/// Improves a view by single turns about its axes, smaller and smaller.
+/// Improves a view by rotations about single axes in shrinking steps.
 CoarseView climbed(const Target& target, CoarseView best, double first_step, double last_step) {
     for (double step = first_step; step >= last_step; step *= 0.5) {
         for (int round = 0; round < 4; ++round) {
@@ -120,7 +119,7 @@ CoarseView score_view(const Target& target, const StoneView& start) {
     double variance = 0;
     const double sum = sum_of_agreement(target, fitted.view, variance);
     const double z = variance > 0 ? sum / std::sqrt(variance) : 0;
-    // The outline's tangents: some 16 of them are independent.
+    // The outline has about 16 independent tangents.
     const double slack = k_outline_slack * diameter + 0.3;
     const double off = fitted.rms / slack;
     result.score = 0.5 * z * std::abs(z) - 0.5 * 16 * off * off;
@@ -130,7 +129,7 @@ CoarseView score_view(const Target& target, const StoneView& start) {
 std::vector<CoarseView> search_views(const Target& target, const StoneView& start, double angle,
                                      int most, const Progress& progress) {
     const double step = radians(k_step_deg);
-    // Rotation vectors on a grid: near the identity they are as even as turns can be.
+    // Rotation vectors on a grid, which is nearly uniform near the identity.
     const int reach = static_cast<int>(std::ceil(angle / step));
     std::vector<Vec3> turns;
     for (int x = -reach; x <= reach; ++x) {
@@ -153,7 +152,7 @@ std::vector<CoarseView> search_views(const Target& target, const StoneView& star
                           }
                       });
     if (progress && !progress(0)) throw Interrupted();
-    // Wide first, then the best of them finely.
+    // Coarse steps first, then fine steps for the best views.
     const std::vector<CoarseView> wide = distinct(std::move(views), 8 * most, 0.9 * step);
     const std::vector<CoarseView> climbed_once =
         all_climbed(target, wide, radians(1.3), radians(0.6));

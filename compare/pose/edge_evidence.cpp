@@ -10,13 +10,14 @@ namespace culet {
 
 namespace {
 
-constexpr int k_places = 12;                                       // on either side of an edge
-constexpr double k_nearest_place = 0.02, k_farthest_place = 0.09;  // of the diameter
-// An edge is looked for this far from where it should be: pixels, and sigmas of the facets' errors.
+constexpr int k_places = 12;                                       // // on either side of an edge
+constexpr double k_nearest_place = 0.02, k_farthest_place = 0.09;  // // share of the diameter
+// How far from its predicted place an edge is searched: pixels, and sigmas of the facets' errors.
 constexpr double k_width_px = 0.5, k_width_sigmas = 2;
-// What all edges show elsewhere counts as much as so many places of the edge itself.
+// The chance rate of all edges counts as much as this many places of the edge itself.
 constexpr double k_shared = 4;
-// Of edges that are there, so many are seen: some are too faint, some hidden by reflexes.
+// Bounds on the share of the stone's edges that are seen: some are too faint, some hidden by
+// reflexes.
 constexpr double k_least_seen = 0.5, k_most_seen = 0.95;
 constexpr double k_parallel = 0.94, k_own_px = 3;
 
@@ -61,7 +62,7 @@ bool on_stone(const cv::Mat& stone, const std::vector<WirePoint>& points) {
     return true;
 }
 
-/// Whether another edge of the wireframe runs along there: that it is met would be no chance.
+/// Whether another edge of the wireframe runs along there: meeting it would not be chance.
 bool on_another(const std::vector<EdgeRun>& runs, const EdgeRun& run,
                 const std::vector<WirePoint>& there) {
     const WirePoint& middle = there[there.size() / 2];

@@ -10,14 +10,15 @@ namespace {
 constexpr double k_tolerance_px = 0.3;
 constexpr double k_least_share = 0.65;
 constexpr int k_least_points = 3;
-// Of points that start or end a trial line no more than this many are taken.
+// At most this many points start or end a trial line.
 constexpr std::size_t k_most_ends = 8;
-// A line at the end of the search must meet so much more of the edge than one where it is expected.
+// Penalty for distance: a line at the end of the search range must meet this much more of the edge
+// than one at the expected place.
 constexpr double k_far_costs = 0.25;
 
 struct Peak {
     int point = -1;
-    double along = 0, width = 1, off = 0;  // `off` from where it is expected
+    double along = 0, width = 1, off = 0;  // // `off`: from where it is expected
     FoundEdge found;
 };
 
@@ -26,7 +27,7 @@ struct Line {
     double off(double along) const { return at_0 + slope * along; }
 };
 
-/// Points met by the line, the nearest edge of each.
+/// Points met by the line, with the nearest edge of each.
 std::vector<const Peak*> met_by(const Line& line, const std::vector<Peak>& peaks) {
     std::vector<const Peak*> met;
     for (const Peak& peak : peaks) {

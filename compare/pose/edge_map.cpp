@@ -13,15 +13,14 @@ namespace culet {
 
 namespace {
 
-// Fine enough that a degree of tilt, which moves a table by half a percent of the diameter, is more
-// than a pixel.
+// Fine enough that a degree of tilt, which moves a table by 0.5 % of the diameter, is over a pixel.
 constexpr double k_map_diameter = 300;
 
 struct Gradient {
     cv::Mat x, y, strength;  // CV_32F
 };
 
-// Over the three colours, Di Zenzo (1986): direction and strength of the greatest change.
+// Direction and strength of the greatest change over three colours: Di Zenzo (1986).
 Gradient gradient_of(const cv::Mat& picture) {
     cv::Mat dx, dy;
     cv::Sobel(picture, dx, CV_32F, 1, 0, 3, 0.125);
@@ -42,7 +41,7 @@ Gradient gradient_of(const cv::Mat& picture) {
     return gradient;
 }
 
-/// Pixels whose change is greatest along their own direction.
+/// Non-maximum suppression: whether the gradient is largest along its own direction.
 bool is_ridge(const Gradient& gradient, int x, int y) {
     const float gx = gradient.x.at<float>(y, x), gy = gradient.y.at<float>(y, x);
     const int dx = static_cast<int>(std::lround(gx)), dy = static_cast<int>(std::lround(gy));
@@ -79,7 +78,7 @@ EdgeMap::EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px,
         const double angle = direction * std::numbers::pi / k_edge_directions;
         const float nx = static_cast<float>(std::cos(angle)),
                     ny = static_cast<float>(std::sin(angle));
-        // Directions overlap by half: an edge's own direction is known to some ten degrees.
+        // Directions overlap by half, because an edge's direction is known to about ten degrees.
         const float least_cosine =
             static_cast<float>(std::cos(0.75 * std::numbers::pi / k_edge_directions));
         cv::Mat far(picture.size(), CV_8U, cv::Scalar(255));

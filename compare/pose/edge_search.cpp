@@ -13,15 +13,15 @@ namespace culet {
 namespace {
 
 constexpr double k_smoothing = 0.6;  // pixels, one sigma
-constexpr double k_along = 1.0;      // profiles are the mean of three, so far apart
-constexpr double k_step = 0.5;       // along a profile
-// What is left of a step's place in a clean 8-bit picture: sampling, neighbours.
+constexpr double k_along = 1.0;  // // profiles are the mean of three lines this far apart, pixels
+constexpr double k_step = 0.5;   // // along a profile, pixels
+// Error of an edge's place in a clean 8-bit picture, from sampling and neighbouring edges.
 constexpr double k_least_sigma = 0.06;
-// A clipped side is less bright in the picture than it was: of a step to twice the limit the
-// steepest place is off by 0.4 of the blur's sigma, to ten times by 1.3.
+// A clipped side is too dark in the picture. The steepest place of a step to twice the limit is off
+// by 0.4 of the blur's sigma, to ten times by 1.3.
 constexpr double k_clipped_sigma = 0.6;
 
-/// Adds the picture's colour at a place, between pixels by the four around it.
+/// Adds the picture's bilinearly interpolated colour.
 void add_bilinear(const cv::Mat& picture, double x, double y, cv::Vec3f& sum) {
     const double column = std::clamp(x - 0.5, 0.0, picture.cols - 1.001);
     const double row = std::clamp(y - 0.5, 0.0, picture.rows - 1.001);
@@ -42,8 +42,8 @@ float step_between(const cv::Vec3f& a, const cv::Vec3f& b) {
     return std::sqrt(d.dot(d));
 }
 
-/// The middle of what stands out of a peak's foot. Between pixels the picture is interpolated, and
-/// the highest place of a slope keeps to pixels; the middle of its area does not.
+/// Centroid of the part of a peak above its foot. The highest place of the interpolated slope
+/// sticks to pixels; the centroid does not.
 double middle_of_peak(const std::vector<float>& slope, std::size_t top) {
     const float foot = 0.25f * slope[top];
     std::size_t first = top, last = top;
@@ -66,8 +66,8 @@ EdgePicture::EdgePicture(const cv::Mat& colour, double saturation) {
     cv::Mat shown = culet::encoded(colour);
     const double noise = noise_of(shown);
     cv::GaussianBlur(shown, encoded, {0, 0}, k_smoothing, k_smoothing, cv::BORDER_REPLICATE);
-    // Smoothed and averaged along the edge, noise of three colours is about 0.5 of one pixel's
-    // sigma: four of these, and the rounding of eight bits.
+    // After smoothing and averaging along the edge, the noise of three colours is about 0.5 of one
+    // pixel's sigma. Takes four of these, and at least the rounding of eight bits.
     least_step = std::max(2.0 / 255, 4 * 0.5 * std::sqrt(2.0) * noise);
     if (saturation > 0) {
         clipped = brightest_channel(colour) >= 0.99 * saturation;
@@ -91,12 +91,12 @@ std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint&
     };
     std::vector<cv::Vec3f> linear(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = across(picture.linear, i);
-    // As shown, only where it is asked for: beside peaks.
+    // Encoded values are computed only beside peaks.
     const auto shown_step = [&](std::size_t i, std::size_t apart) {
         return static_cast<double>(
             step_between(across(picture.encoded, i + apart), across(picture.encoded, i - apart)));
     };
-    // Change over one pixel.
+    // Slope per pixel.
     std::vector<float> slope(linear.size(), 0.0f);
     for (std::size_t i = 1; i + 1 < linear.size(); ++i)
         slope[i] = step_between(linear[i + 1], linear[i - 1]);
@@ -109,7 +109,7 @@ std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint&
         edge.offset = (middle_of_peak(slope, i) - half) * k_step;
         if (std::abs(edge.offset) > reach) continue;
         edge.contrast = contrast;
-        // A step of so many times the noise is placed to about the blur's width over that number.
+        // A step's place has a sigma of about the blur's width over its signal-to-noise ratio.
         edge.sigma = std::hypot(k_least_sigma, 0.25 * picture.least_step / contrast);
         const double x = point.at.x + edge.offset * point.normal_x;
         const double y = point.at.y + edge.offset * point.normal_y;

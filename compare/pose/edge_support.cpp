@@ -9,7 +9,7 @@ namespace culet {
 namespace {
 
 constexpr int k_shifts = 24;
-// Neighbouring points meet or miss together: an edge of the picture runs on for some pixels.
+// Neighbouring points meet or miss together, because an edge of the picture runs for some pixels.
 constexpr double k_independent_px = 6, k_independent_share = 0.03;
 
 double near_limit(const WirePoint& point) {
@@ -30,20 +30,21 @@ struct Share {
 EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint>& points,
                          double diameter_px) {
     EdgeSupport support;
-    // Every so many points are enough for shares.
+    // A subset of the points is enough for shares.
     const std::size_t every = std::max<std::size_t>(1, points.size() / 1500);
     Share crown;
-    double outlines = 0, outline_squares = 0;  // points that are met, and their distances
+    double outlines = 0, outline_squares = 0;  // // number of outline points met, and their
+                                               // distances
     std::vector<Share> shifted(k_shifts);
     const double step = 2.0 * static_cast<double>(every);
     const double independent = std::max(k_independent_px, k_independent_share * diameter_px);
-    // Elsewhere, points nearer than that to one another tell nothing more.
+    // For the shifted wireframes, points nearer than this add nothing.
     const int apart = std::max(1, static_cast<int>(independent / step));
     int crown_point = 0;
     for (std::size_t i = 0; i < points.size(); i += every) {
         const WirePoint& point = points[i];
         if (point.outline) {
-            // The outermost edge is the outline's; a wide search, so that a bad fit shows.
+            // The outermost edge is the outline's. The search is wide, so that a bad fit shows.
             const auto found = edges_across(picture, point, 0.02 * diameter_px);
             double nearest = 0.02 * diameter_px;
             for (const FoundEdge& edge : found) nearest = std::min(nearest, std::abs(edge.offset));
@@ -82,7 +83,7 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     const double chance = std::clamp(support.chance, 0.02, 0.98);
     const double spread = std::sqrt(variance + chance * (1 - chance) / witnesses);
     support.z = (support.met - support.chance) / spread;
-    // Every point meets with the share that all of them do, or with that of chance.
+    // Every point meets with the overall share, or with that of chance.
     const double met = std::clamp(support.met, 0.02, 0.98);
     const double gain =
         met * std::log(met / chance) + (1 - met) * std::log((1 - met) / (1 - chance));

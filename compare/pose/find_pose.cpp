@@ -17,16 +17,16 @@ namespace culet {
 
 namespace {
 
-constexpr std::size_t k_settled = 8;  // of the refined, to the end
-constexpr std::size_t k_meant = 3;    // and of those that the stone looks alike from
-// Poses that look alike by the stone's symmetry and are no likelier than this one than another
-// cannot be told apart: the one nearest to the start is taken.
+constexpr std::size_t k_settled = 8;  // // refined to the end
+constexpr std::size_t k_meant = 3;    // // and symmetric views that the start means
+// Poses that look alike by the stone's symmetry and whose log-likelihoods differ by less cannot be
+// told apart: the one nearest to the start is taken.
 constexpr double k_tie = 8;
-// Small pictures of right stones prefer another place of the stone's symmetry by up to 23, for the
-// facets' errors (bench_pose --as-taken --stone-px 200 400): one that the start means is taken
-// before one that it does not unless that is far likelier.
+// Because of facet errors, small pictures of right stones prefer another symmetric view by up to 23
+// (bench_pose --as-taken --stone-px 200 400). A view that the start means is preferred unless the
+// other is likelier by more than this.
 constexpr double k_not_meant = 25;
-constexpr double k_near = radians(10);  // no other view, but the same with other facets
+constexpr double k_near = radians(10);  // // nearer views are the same view with other facet errors
 
 EdgeSupport support_of(const PoseTask& task, const PhotoSide& side, const StoneView& view) {
     WireSpacing spacing;
@@ -43,7 +43,7 @@ void sort_by_likelihood(std::vector<Candidate>& candidates) {
                      });
 }
 
-/// Without those that were lost and those that ended where a better one did.
+/// Drops lost views, and those that converged to the same place as a better one.
 std::vector<Candidate> distinct(std::vector<Candidate> candidates) {
     sort_by_likelihood(candidates);
     std::vector<Candidate> kept;
@@ -64,16 +64,16 @@ bool looks_alike(const PoseTask& task, const Candidate& a, const Candidate& b) {
                       a.side->mirrored != b.side->mirrored);
 }
 
-/// How much less likely a view is for where the start stands: that is off by about half of what is
-/// searched, and one in a thousand is at another place of the stone's symmetry. Natural logarithm.
+/// Negative log prior of a view's angle to the start. The start's sigma is half the search angle,
+/// and one start in a thousand means another symmetric view.
 double unlikely_from(double start_angle, const PoseTask& task, bool symmetric = true) {
     const double far = 0.5 * std::pow(start_angle / (0.5 * task.options.search), 2);
     return symmetric ? std::min(far, std::log(1000.0)) : far;
 }
 
-/// How much likelier the first of two views is that look alike by the stone's symmetry: by the
-/// edges that it meets, and by how little the model's facets must change for them. (Of normal
-/// errors of unknown size the likelihood goes with the size to the power of minus their number.)
+/// Log-likelihood ratio of two views that look alike by the stone's symmetry, from the edges met
+/// and from the size of the facet errors that they need. (For normal errors of unknown size the
+/// likelihood is the size to the power of minus their number.)
 double lead_of(const Candidate& a, const Candidate& b) {
     const SolvedView &one = a.refined.solved, &other = b.refined.solved;
     const int tilts = std::min(one.tilts_found, other.tilts_found);
@@ -81,9 +81,8 @@ double lead_of(const Candidate& a, const Candidate& b) {
            tilts * std::log(other.facet_error / one.facet_error);
 }
 
-/// Of poses that differ by the stone's symmetry the likeliest comes first, by the edges and by
-/// where the start stands; of about as likely ones the one that is not mirrored and nearest to the
-/// start.
+/// Of symmetric poses takes the likeliest by edges and start prior. Among nearly equal ones takes
+/// the one that is not mirrored and nearest to the start.
 void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) {
     const auto start_angle = [](const Candidate& c) {
         return angle_between(c.refined.solved.view, c.side->start);
@@ -112,7 +111,7 @@ void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) 
                 best.begin() + static_cast<std::ptrdiff_t>(chosen) + 1);
 }
 
-/// Views near by that are not much less likely are part of how unsure the pose is.
+/// Adds nearby views that are not much less likely to the pose's uncertainty.
 void widen(const Candidate& won, const Candidate& other, const TriedPose& tried, FoundPose& pose) {
     if (tried.mirrored != pose.mirrored || tried.turn > k_near || tried.lead > k_tie) return;
     const PicturePoint a = won.refined.solved.view.at, b = other.refined.solved.view.at;
@@ -120,8 +119,8 @@ void widen(const Candidate& won, const Candidate& other, const TriedPose& tried,
     pose.sigmas.shift_99_px = std::max(pose.sigmas.shift_99_px, std::hypot(a.x - b.x, a.y - b.y));
 }
 
-/// How much less likely than the pose another view is. One within what the pose may be off is the
-/// same. What the stone looks alike from counts only where the start may have meant it.
+/// Log-likelihood ratio of the pose to another view, with the start prior. A view within the pose's
+/// uncertainty is the same view. A symmetric view counts only where the start may have meant it.
 double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
     const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
     if (within) return 1e300;
@@ -132,7 +131,7 @@ double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& oth
            unlikely_from(pose.start_angle, task);
 }
 
-/// The view that the start means was taken, though its edges alone speak for one that it does not.
+/// Warns if the edges alone prefer a symmetric view that the start does not mean.
 void warn_of_look_alikes(const PoseTask& task, FoundPose& pose) {
     for (const TriedPose& other : pose.others) {
         if (!other.symmetric || other.mirrored != pose.mirrored || other.lead > -k_tie ||
@@ -209,8 +208,8 @@ void refine(const PoseTask& task, std::vector<Candidate>& candidates) {
     });
 }
 
-/// A small picture may be explained a little better by a view that the start does not mean, and
-/// that the stone looks alike from: the view that it does mean is then refined from there, too.
+/// A small picture may fit slightly better from a symmetric view that the start does not mean. Then
+/// also refines the view that it does mean, from there.
 void add_meant_look_alikes(const PoseTask& task, std::vector<Candidate>& best) {
     std::vector<Candidate> meant;
     for (const Candidate& candidate : best) {

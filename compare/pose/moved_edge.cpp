@@ -8,8 +8,8 @@ namespace culet {
 
 namespace {
 
-/// A changed plane at a point: its normal, how far the point lies below it, and by how much each of
-/// the three changes alters these.
+/// A changed plane at a point: its normal, the point's depth below it, and the derivatives of both
+/// by the three changes.
 struct ChangedPlane {
     Vec3 normal;
     double below = 0;
@@ -52,7 +52,7 @@ MovedEdge moved_edge(const FacetFrame& left, const FacetFrame& right, const Vec3
     const double t = (a * q.below - b * p.below) / determinant;
     MovedEdge moved{x + s * p.normal + t * q.normal, {}};
     for (std::size_t k = 0; k < 3; ++k) {
-        // Either equation, differentiated by a change of its own plane and of the other's.
+        // Both equations, differentiated by a change of their own plane and of the other.
         const double da = 2 * glm::dot(p.normal, p.normal_by[k]);
         const double db = glm::dot(p.normal_by[k], q.normal);
         const double first = p.below_by[k] - da * s - db * t, second = -db * s;

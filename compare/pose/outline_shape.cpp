@@ -27,8 +27,8 @@ const Directions& directions() {
     return table;
 }
 
-/// Corners of the outline from the view's point, in the order of their angles about it: the picture
-/// of a convex stone is convex, and that point is in it.
+/// Corners of the outline relative to the view's point, ordered by angle. The outline is convex and
+/// contains that point.
 std::vector<PicturePoint> outline_of(const WireSolid& wire, const StoneView& view) {
     const Projection project(view);
     const std::vector<char> seen = facets_seen(wire, view);
@@ -36,7 +36,7 @@ std::vector<PicturePoint> outline_of(const WireSolid& wire, const StoneView& vie
     for (const Edge& edge : wire.edges) {
         if (seen[static_cast<std::size_t>(edge.left)] == seen[static_cast<std::size_t>(edge.right)])
             continue;
-        // Each corner of the outline ends two of its edges; one that is taken twice does no harm.
+        // Each corner belongs to two edges of the outline; duplicates do no harm.
         for (const int corner : {edge.from, edge.to}) {
             const PicturePoint p = project(wire.solid.vertices[static_cast<std::size_t>(corner)]);
             const PicturePoint arm{p.x - view.at.x, p.y - view.at.y};
@@ -67,8 +67,8 @@ OutlineShape outline_shape(const cv::Mat& mask) {
         double most = -1e300;
         for (const cv::Point& p : hull)
             most = std::max(most, (p.x + 0.5) * d.cosine[k] + (p.y + 0.5) * d.sine[k]);
-        // A straight edge has its pixels' centres inside it, the outermost of a stair of them by
-        // a quarter of a pixel's width on the average of all places.
+        // The pixel centres lie inside a straight edge, the outermost by a quarter of a pixel's
+        // width on average.
         const double width = std::abs(d.cosine[k]) + std::abs(d.sine[k]);
         shape.reach[k] = most + 0.25 * width;
     }
@@ -88,7 +88,7 @@ FittedOutline fit_outline(const WireSolid& wire, const OutlineShape& shape, cons
             result.rms = 1e300;
             return result;
         }
-        // reach = grow * own + x cos + y sin, unknown grow, x, y.
+        // reach = grow * own + x cos + y sin with the unknowns grow, x, y.
         cv::Matx33d normal = cv::Matx33d::zeros();
         cv::Vec3d right(0, 0, 0);
         std::array<double, k_tangents> own;
@@ -100,7 +100,7 @@ FittedOutline fit_outline(const WireSolid& wire, const OutlineShape& shape, cons
             if (along(corners[i], 0) > along(corners[furthest], 0)) furthest = i;
         }
         for (std::size_t k = 0; k < k_tangents; ++k) {
-            // The furthest corner only moves on as the direction turns.
+            // The furthest corner only moves forward as the direction turns.
             while (along(corners[(furthest + 1) % corners.size()], k) > along(corners[furthest], k))
                 furthest = (furthest + 1) % corners.size();
             const double most = along(corners[furthest], k);

@@ -12,12 +12,12 @@ namespace culet {
 
 namespace {
 
-constexpr int k_views_each = 12;  // of the coarse search, of either chirality
-constexpr int k_views_over = 6;   // of the stone turned over
-constexpr int k_turned_from = 3;  // of these, turned all round
+constexpr int k_views_each = 12;  // // of the coarse search, for each chirality
+constexpr int k_views_over = 6;   // // of the stone turned over
+constexpr int k_turned_from = 3;  // // of these are turned all round
 constexpr int k_turned_each = 8;
 constexpr std::size_t k_refined = 24;
-constexpr int k_most_fold = 16;  // of a stone's symmetry about its axis
+constexpr int k_most_fold = 16;  // // largest order of symmetry about a stone's axis
 
 void sort_by_score(std::vector<SeenView>& found) {
     std::stable_sort(found.begin(), found.end(), [](const SeenView& a, const SeenView& b) {
@@ -40,7 +40,7 @@ std::vector<Candidate> worth_refining(const PoseTask& task, const std::vector<Se
     return candidates;
 }
 
-/// The places of the best few views of either side of the stone.
+/// Indices of the best few views of each side of the stone.
 std::vector<std::size_t> best_of_each_side(const PoseTask& task,
                                            const std::vector<SeenView>& found) {
     std::vector<std::size_t> best;
@@ -71,7 +71,7 @@ std::vector<Candidate> coarse_candidates(const PoseTask& task) {
                           task.progress))
             found.push_back({side.get(), view});
     }
-    // A photograph of the other side must not be taken for this one.
+    // Otherwise a photograph of the other side could be taken for this one.
     if (task.options.all_turns) {
         const PhotoSide& side = *task.sides.front();
         for (const CoarseView& view :
@@ -86,7 +86,7 @@ std::vector<Candidate> coarse_candidates(const PoseTask& task) {
         const std::vector<std::size_t> from = best_of_each_side(task, found);
         for (const std::size_t i : from) {
             for (const auto& side : task.sides) {
-                // A stone that looks alike mirrored looks so from the mirrored direction.
+                // A stone with mirror symmetry looks alike, mirrored, from the mirrored direction.
                 StoneView view = found[i].coarse.view;
                 if (side.get() != found[i].side) view.turn = mirrored_turn(view.turn);
                 for (const CoarseView& one :
@@ -150,7 +150,7 @@ bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSid
 }
 
 bool shows_other_side(const PoseTask& task, const StoneView& view) {
-    // Seen from beside, a stone has no such sides.
+    // Edge-on, a stone shows no side.
     const double start = task.sides.front()->start.turn[2].z;
     return std::abs(start) > 0.5 && view.turn[2].z * start < 0;
 }

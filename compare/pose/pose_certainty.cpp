@@ -12,22 +12,22 @@ namespace culet {
 
 namespace {
 
-// Lengths of vectors of normal errors are below 2.6 times the root of the sum of their variances in
-// 99 of 100 cases, whatever the share of each axis (2.58 for one axis, 2.15 for two, 1.94 for
-// three). Edges that were mistaken for the stone's are no normal errors, and the normal equations
-// know nothing of them; groups of edges do. Of the place, 2.6 was too little for groups, too.
+// 99 % quantiles in sigmas. The length of a vector of normal errors is below 2.6 times the root sum
+// of its variances in 99 % of cases, however these are shared (2.58 for one axis, 2.15 for two,
+// 1.94 for three). Mistaken edges are not normal, and the normal equations ignore them, hence 4.4;
+// the jackknife by groups sees them. For the place, 2.6 was too small for groups as well.
 constexpr double k_surely = 4.4, k_surely_by_groups = 2.6, k_place_by_groups = 3.3;
 
-// Of the stone's diameter.
+// Share of the stone's diameter.
 constexpr double k_place = 0.03;
-// A view that is less sure than this is not worth accepting by an option.
+// A less certain view cannot be accepted even by an option.
 constexpr double k_farthest_deg = 45;
-// Views are tried until one is met by more than chance: models of other proportions and pictures of
-// other things came to evidence of up to 11 (bench_pose --fault all).
+// Correction for trying many views until one exceeds chance: wrong proportions and pictures of
+// other things reached evidence of up to 11 (bench_pose --fault all).
 constexpr double k_places_tried = 8;
 
-/// Evidence that the edges are the stone's: that of whole edges, and that of how many standard
-/// deviations more of their points are met than elsewhere.
+/// Evidence that the edges are the stone's: from whole edges, and from the z of the share of their
+/// points met.
 double evidence_of(const FoundPose& pose) {
     return pose.evidence.log_odds + 0.5 * pose.support_z * std::abs(pose.support_z);
 }
@@ -37,7 +37,7 @@ std::string percent(double share) {
                         : fmt::format("{:.0f} %", 100 * share);
 }
 
-/// The median; of nothing 0.
+/// The median; 0 if there are none.
 double middle_of(std::vector<double> values) {
     return values.empty() ? 0 : upper_median(std::move(values));
 }
@@ -49,14 +49,14 @@ void describe_sigmas(const PoseTask& task, const Candidate& won, FoundPose& pose
     const auto variance = [&](int i, int j) {
         return solved.covariance[static_cast<std::size_t>(i * k_view_unknowns + j)];
     };
-    // Residuals larger than their sigmas mean larger sigmas; smaller ones prove nothing.
+    // Large residuals increase the sigmas; small ones do not reduce them.
     std::vector<double> sizes;
     for (double r : solved.residuals) sizes.push_back(std::abs(r));
     const double spread = 1.4826 * middle_of(std::move(sizes));
     const double grown = std::max(1.0, spread);
     const auto sigma = [&](double v) { return grown * std::sqrt(std::max(0.0, v)); };
     PoseSigmas& sigmas = pose.sigmas;
-    // Whichever is larger: what the edges' sigmas say, or what groups of edges say.
+    // The larger of the edges' sigmas and those of the jackknife.
     const std::array<double, 6> by_groups =
         variances_by_groups(task.wire, won.refined, settings_of(task, *won.side));
     const auto larger = [&](int k) {
@@ -120,8 +120,8 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
                "Put the scene's camera on the side that the photograph shows: turn the sign of its "
                "position along the stone's axis");
     }
-    // Beyond what is searched lie only views that the stone looks alike from. Which of those it is
-    // small irregularities say, and what was asked for says another.
+    // Views beyond the search range can only be symmetric ones. Small irregularities chose this
+    // one, but the user asked for another.
     const char* const or_mirrored =
         task.sides.size() > 1
             ? ""

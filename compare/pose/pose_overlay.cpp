@@ -11,9 +11,9 @@ namespace culet {
 
 namespace {
 
-// Lines are drawn at a sixteenth of a pixel.
+// Fractional bits of drawn coordinates: a sixteenth of a pixel.
 constexpr int k_shift = 4;
-// Distances to edges are drawn so many times as long.
+// Exaggeration of the drawn distances to edges.
 constexpr double k_exaggerated = 10;
 constexpr int k_least_size = 800;
 
@@ -26,7 +26,7 @@ public:
         cv::Mat colour = colour_of(photo).clone();
         const double bright = quantile(luminance(colour), {}, 0.99);
         if (bright > 0) colour *= 1 / bright;
-        // Muted, so that the lines stand out.
+        // Dimmed, so that the lines stand out.
         encoded(colour).convertTo(pixels_, CV_8UC3, 0.8 * 255);
         if (mirrored) cv::flip(pixels_, pixels_, 1);
         scale_ = std::max(1, static_cast<int>(std::ceil(static_cast<double>(k_least_size) /
@@ -34,7 +34,7 @@ public:
         if (scale_ > 1) cv::resize(pixels_, pixels_, {}, scale_, scale_, cv::INTER_NEAREST);
     }
     void line(double x0, double y0, double x1, double y1, const cv::Scalar& colour) {
-        // A hostile pose may lie far outside: clip before numbers become pixels.
+        // An absurd pose may lie far outside: clip before converting to integers.
         const double far = 4e6;
         for (double v : {x0, y0, x1, y1}) {
             if (!(std::abs(v) < far / scale_)) return;

@@ -17,10 +17,10 @@ namespace culet {
 
 namespace {
 
-// Residuals of more sigmas than this count by their logarithm only.
+// Residuals over this many sigmas count only by their logarithm.
 constexpr double k_loss = 2;
 
-/// The view's change is worked out once for all residuals, whenever the solver moves on.
+/// Computes the changed view once for all residuals, whenever the solver moves on.
 class ViewAtChange : public ceres::EvaluationCallback {
 public:
     ViewAtChange(const StoneView& view, const ViewChange& change) : view_(view), change_(change) {}
@@ -32,8 +32,8 @@ private:
     const ViewChange& change_;
 };
 
-/// How far along its normal a point of the wireframe is from where its edge was met, in sigmas. The
-/// slopes by the view's change, and by the point on the stone.
+/// Distance of a wireframe point along its normal from where its edge was met, in sigmas, with the
+/// derivatives by the view's change and by the point on the stone.
 struct EdgeMisfit {
     double value = 0;
     std::array<double, k_view_unknowns> by_change;
@@ -77,7 +77,7 @@ private:
     const MetEdge& met_;
 };
 
-/// The same with facets as in the model.
+/// The residual with the model's facets unchanged.
 class ViewResidual : public ceres::SizedCostFunction<1, k_view_unknowns> {
 public:
     ViewResidual(const ChangedView& view, const MetEdge& met) : view_(view), met_(met) {}
@@ -105,11 +105,11 @@ struct FacetPrior {
     }
 };
 
-/// The focal length is scale / nearness.
+/// Prior of the lens; the focal length is scale / nearness.
 struct LensPrior {
-    double log_focal = 0;  // of the view over that expected
+    double log_focal = 0;  // // log of the view's over the expected one
     double focal_error = 1, sight_error = 1;
-    PicturePoint sight_off;  // of the view from that expected
+    PicturePoint sight_off;  // // the view's minus the expected one
     template <class Number>
     bool operator()(const Number* change, Number* residual) const {
         residual[0] = (change[5] - change[6] + log_focal) / focal_error;
@@ -119,10 +119,10 @@ struct LensPrior {
     }
 };
 
-// Held parameters stand at zero with such a weight that their variance is nothing.
+// Prior sigma of fixed parameters: practically zero.
 constexpr double k_held = 1e-9;
 
-/// Covariance of all unknowns, those of the view first.
+/// Covariance of all unknowns, the view's first.
 Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
                               const std::vector<double*>& blocks) {
     ceres::Problem::EvaluateOptions options;
@@ -139,19 +139,19 @@ Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
                 normal(rows.cols[i], rows.cols[j]) += rows.values[i] * rows.values[j];
         }
     }
-    // Units differ by many powers of ten: to equal diagonals first.
+    // Scale to a unit diagonal first, because units differ by many powers of ten.
     const Eigen::VectorXd size = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd equal = size.asDiagonal() * normal * size.asDiagonal();
     const Eigen::MatrixXd inverse = PivotedCholesky(equal).inverse();
     return size.asDiagonal() * inverse * size.asDiagonal();
 }
 
-// What was expected counts as much as so many changes that were found.
+// Weight of the prior, in number of observed changes.
 constexpr double k_belief = 6;
 
-/// How large the facets' changes are: each over the square root of the share of its expected
-/// variance that the edges could find. By their median, so that facets of edges that were mistaken
-/// do not count.
+/// Estimates the size of the facets' changes: each one over the square root of the share of its
+/// prior variance that the edges determine. Uses the median, so that facets with mistaken edges do
+/// not count.
 class Component {
 public:
     explicit Component(double expected) : expected_(expected) {}
@@ -187,7 +187,7 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     at_once.evaluation_callback = &view;
     ceres::Problem problem(at_once);
     problem.AddParameterBlock(change.data(), k_view_unknowns);
-    std::map<int, int> used;  // facets, and how many edges are theirs
+    std::map<int, int> used;  // // facets, and their numbers of edges
     for (const MetEdge& met : edges) {
         if (!settings.facets_free) {
             problem.AddResidualBlock(new ViewResidual(view.view(), met),
@@ -227,7 +227,7 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
         nullptr, change.data());
 
     ceres::Solver::Options options;
-    // An edge has two of the facets only.
+    // The Jacobian is sparse, because an edge has only two of the facets.
     options.linear_solver_type =
         settings.facets_free ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
@@ -242,7 +242,7 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     raw.apply_loss_function = false;
     raw.num_threads = 1;
     problem.GetResidualBlocks(&raw.residual_blocks);
-    raw.residual_blocks.resize(edges.size());  // they were added first
+    raw.residual_blocks.resize(edges.size());  // // the edges' were added first
     problem.Evaluate(raw, nullptr, &result.residuals, nullptr, nullptr);
     if (settings.with_covariance) {
         const Eigen::MatrixXd covariance = covariance_of(problem, change.data(), free_blocks);

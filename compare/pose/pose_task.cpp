@@ -12,11 +12,11 @@ namespace culet {
 
 namespace {
 
-// Sizes that differ by no more than this are of one shape.
+// Sizes that differ by no more than this have the same aspect ratio.
 constexpr double k_rounding_px = 1.5;
-// Standard deviation of a place that is anywhere in what was cut off.
+// Standard deviation of a uniform distribution over what was cropped, 1 / sqrt(12).
 constexpr double k_of_the_cut = 0.29;
-constexpr double k_edge_reach = 0.012;  // of the edge map, of the diameter
+constexpr double k_edge_reach = 0.012;  // // of the edge map, share of the diameter
 
 }  // namespace
 
@@ -61,8 +61,8 @@ Camera start_for(const Camera& start, int width, int height, PoseOptions& option
         return camera;
     }
     if (off <= k_rounding_px) return camera;
-    // No more was cut off than must have been: a photograph no larger than the start's picture has
-    // its pixels.
+    // Assumes the smallest possible crop: a photograph no larger than the start's picture has the
+    // same pixels.
     const double grown = std::max({1.0, across, down});
     if (camera.orthographic_width) {
         *camera.orthographic_width *= across / grown;

@@ -14,18 +14,18 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_fewest_edges = 40;
-// Of a whole edge's place: neighbouring light that the blur mixes in.
+// Common error of a whole edge's place, pixels, from neighbouring light that the blur mixes in.
 constexpr double k_edge_sigma = 0.06;
 constexpr int k_settling_rounds = 7;
 constexpr int k_groups = 16;
-// Half of what is searched, pixels, and so many sigmas of what facet errors do.
+// Half-width of the search: pixels, and sigmas of the facet errors.
 constexpr double k_first_width = 0.7, k_width = 0.4, k_facet_widths = 2.5;
-// Facet errors that are found are taken within these bounds of the expected ones: below, nothing
-// would be left of the caution; above, edges were not looked for.
+// Bounds of the estimated facet errors, relative to the expected ones. Below, too little caution
+// would be left; above, no edges were searched.
 constexpr double k_least_error = 0.1, k_most_error = 2;
 
-/// The most telling edge near where one is expected: strong ones count more than near ones only
-/// while the expectation is vague.
+/// The best edge near the expected place: a strong edge beats a nearer one only while the
+/// expectation is vague.
 const FoundEdge* best_edge(const std::vector<FoundEdge>& found, double expected, double width) {
     const FoundEdge* best = nullptr;
     double most = 0;
@@ -39,12 +39,12 @@ const FoundEdge* best_edge(const std::vector<FoundEdge>& found, double expected,
     return best;
 }
 
-/// Of two edges that the camera hardly separates either may be the one seen.
+/// Either of two edges that the camera hardly separates may be the one seen.
 double sigma_at(const WirePoint& point, double sigma) {
     return point.gap < 2.5 ? std::hypot(sigma, 0.5 * point.gap + 0.2) : sigma;
 }
 
-/// Each point by itself.
+/// Meets each point separately.
 std::vector<MetEdge> met_points(const EdgePicture& picture, const std::vector<WirePoint>& points,
                                 double width) {
     std::vector<MetEdge> met;
@@ -59,7 +59,7 @@ std::vector<MetEdge> met_points(const EdgePicture& picture, const std::vector<Wi
     return met;
 }
 
-/// Edges that are met all along, as far away as the model's errors may take them.
+/// Meets whole edges, as far away as the model's errors may move them.
 std::vector<MetEdge> met_edges(const EdgePicture& picture, const std::vector<WirePoint>& points,
                                double width_px) {
     const std::vector<double> expected(points.size(), 0.0);
@@ -70,8 +70,7 @@ std::vector<MetEdge> met_edges(const EdgePicture& picture, const std::vector<Wir
     for (const MetLine& line : met_lines(picture, points, expected, width)) {
         for (const MetLine::Place& place : line.places) {
             const WirePoint& point = points[static_cast<std::size_t>(place.point)];
-            // What is wrong with one point of an edge is wrong with all: as many points do not make
-            // it surer than this.
+            // The points of an edge share its error, so more points do not reduce sigma below this.
             const double together =
                 k_edge_sigma * std::sqrt(static_cast<double>(line.places.size()));
             met.push_back({point, place.found.offset,
@@ -160,7 +159,8 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
         };
         solver.facet_error = near(refined.solved.facet_error, settings.facet_error);
         solver.facet_offset = near(refined.solved.facet_offset, expected_lift);
-        // Edges are looked for as far from the model's as its errors take them, and no further.
+        // Search as far from the model's edges as its estimated errors move them, but no further
+        // than the expected ones.
         spacing.facet_error = std::min(solver.facet_error, settings.facet_error);
         spacing.facet_offset = std::min(solver.facet_offset, expected_lift);
     }
@@ -184,7 +184,7 @@ std::array<double, 6> variances_by_groups(const WireSolid& wire, const RefinedVi
         const StoneView view =
             solve_view(wire, all, rest, settings.prior_focal_px, settings.sight, solver).view;
         const glm::dmat3 turn = view.turn * glm::transpose(all.turn);
-        // Of a small turn.
+        // Rotation vector of a small rotation.
         changes[static_cast<std::size_t>(group)] = {0.5 * (turn[1][2] - turn[2][1]),
                                                     0.5 * (turn[2][0] - turn[0][2]),
                                                     0.5 * (turn[0][1] - turn[1][0]),

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Real stones are 0.6 to 0.9 degrees from their symmetric ideals, azimuths of steep facets more.
+// Real stones are 0.6 to 0.9 degrees off their symmetric ideals, azimuths of steep facets more.
 constexpr double k_alike_deg = 5;
 constexpr double k_alike_area = 2.5;
 constexpr double k_alike_share = 0.85;
@@ -33,8 +33,8 @@ glm::dmat3 other_from_one(const StoneView& a, const StoneView& b, bool mirrored)
     return glm::transpose(b.turn) * flip * a.turn;
 }
 
-/// A facet that has as few others of its size as any, of those that look elsewhere than along
-/// `apart_from` (zero: any).
+/// The facet with the fewest others of its size, among those not parallel to `apart_from` (zero:
+/// among all).
 int rarest_facet(const WireSolid& wire, const std::vector<double>& areas, const Vec3& apart_from) {
     int rarest = -1;
     std::size_t fewest = areas.size() + 1;
@@ -45,7 +45,7 @@ int rarest_facet(const WireSolid& wire, const std::vector<double>& areas, const 
         for (const double other : areas) {
             if (std::abs(other - areas[f]) <= (k_equal_area - 1) * areas[f]) ++count;
         }
-        // Of equally rare ones the largest: its size is known best.
+        // Among equally rare ones the largest, whose size is most accurate.
         if (count < fewest ||
             (count == fewest && areas[f] > areas[static_cast<std::size_t>(rarest)])) {
             fewest = count;
@@ -55,7 +55,7 @@ int rarest_facet(const WireSolid& wire, const std::vector<double>& areas, const 
     return rarest;
 }
 
-/// Unit vectors at right angles from two directions.
+/// Orthonormal frame from two directions.
 glm::dmat3 frame_of(const Vec3& a, const Vec3& b, bool mirrored) {
     const Vec3 across = glm::normalize(glm::cross(a, b));
     return {a, mirrored ? -across : across, glm::cross(across, a)};
@@ -110,7 +110,7 @@ std::vector<glm::dmat3> symmetries_of(const WireSolid& wire) {
     const int second = rarest_facet(wire, areas, a);
     if (second < 0) return found;
     const Vec3 b = normal(static_cast<std::size_t>(second));
-    // Wherever the two may go, the rest follows.
+    // The images of these two facets determine the symmetry.
     for (std::size_t i = 0; i < areas.size(); ++i) {
         for (std::size_t j = 0; j < areas.size(); ++j) {
             if (std::abs(glm::dot(normal(i), normal(j)) - glm::dot(a, b)) > k_equal) continue;

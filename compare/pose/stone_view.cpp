@@ -16,7 +16,7 @@ glm::dmat3 matrix_of(const std::array<double, 9>& rows) {
                                      rows[7], rows[8]));
 }
 
-/// From the viewing frame to the camera's: both look the same way where the stone is in the middle.
+/// From the viewing frame to the camera's; they coincide when the stone is in the middle.
 glm::dmat3 camera_from_view(const StoneView& view) {
     const double across = view.nearness / view.scale;
     return matrix_of(least_rotation_to((view.at.x - view.sight.x) * across,
