@@ -14,7 +14,7 @@ namespace {
 
 // Ridge penalties that are tried, for standardised scores.
 constexpr double k_least_penalty = 1e-3, k_most_penalty = 1e4, k_penalty_step = 1.5;
-constexpr double k_constant = 1e-9;  // // a score with a smaller spread counts as constant
+constexpr double k_constant = 1e-9;  // a score with a smaller spread counts as constant
 constexpr Eigen::Index k_least_draws = 3;
 
 Eigen::VectorXd shrinkage(const Eigen::VectorXd& sizes, double penalty) {

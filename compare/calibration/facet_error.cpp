@@ -15,8 +15,8 @@ namespace culet {
 namespace {
 
 const double k_near_normal = std::cos(radians(3.0));
-constexpr double k_near_offset = 0.03;  // // of the diameter
-constexpr double k_rounding = 1e-9;     // // of the diameter
+constexpr double k_near_offset = 0.03;  // of the diameter
+constexpr double k_rounding = 1e-9;     // of the diameter
 constexpr int k_most_turns = 16;
 
 std::optional<Solid> solid_of(const std::vector<NamedPlane>& planes) {
@@ -31,7 +31,7 @@ Plane mapped(const Plane& plane, const glm::dmat3& map) {
 }
 
 struct Pairing {
-    std::vector<int> to;  // // facet f goes near facet to[f]
+    std::vector<int> to;  // facet f goes near facet to[f]
 };
 
 std::optional<Pairing> pairing(const std::vector<Plane>& planes, const glm::dmat3& map,

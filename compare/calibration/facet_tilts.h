@@ -60,9 +60,9 @@ private:
     cv::Mat at_samples(const Photo& picture) const;
 
     StoneSamples samples_;
-    cv::Mat mask_;  // // CV_8U: the samples used
+    cv::Mat mask_;  // CV_8U: the samples used
     CameraModel camera_;
-    cv::Mat picture_;  // // CV_32F: the model's picture at the samples, as the camera sees it
+    cv::Mat picture_;  // CV_32F: the model's picture at the samples, as the camera sees it
     TiltVariance variance_;
 };
 

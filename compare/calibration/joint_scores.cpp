@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_steps = 400;  // // over all levels: 1 % of the error between 0.01 and 2 degrees
+constexpr int k_steps = 400;  // over all levels: 1 % of the error between 0.01 and 2 degrees
 // On the scores' logarithmic scales; a smaller spread is chance agreement.
 constexpr double k_least_deviation = 1e-3;
 

@@ -41,8 +41,8 @@ private:
     std::optional<Answer> fitted(const std::vector<double>& scores) const;
 
     std::vector<double> levels_;
-    std::vector<std::vector<double>> curves_, deviations_;  // // [score][level]
-    std::vector<double> correlations_;                      // // row by row
+    std::vector<std::vector<double>> curves_, deviations_;  // [score][level]
+    std::vector<double> correlations_;                      // row by row
     double largest_ = 1;
 };
 

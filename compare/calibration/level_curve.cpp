@@ -15,7 +15,7 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 
 double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y,
                           double value) {
-    std::size_t first = 0;  // // index of the first y <= value
+    std::size_t first = 0;  // index of the first y <= value
     while (first < y.size() && y[first] > value) ++first;
     if (first == y.size()) return x.back();
     std::size_t last = first;

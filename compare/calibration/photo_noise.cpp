@@ -18,7 +18,7 @@ constexpr double k_least_electrons = 100, k_most_electrons = 1e6;
 constexpr double k_dark = 0.02, k_bright = 0.9;
 constexpr int k_least_pixels = 400;
 constexpr int k_halvings = 12;
-constexpr double k_least_psf_px = 0.3;  // // blur by a camera's pixels alone
+constexpr double k_least_psf_px = 0.3;  // blur by a camera's pixels alone
 constexpr double k_psf_step_px = 0.1;
 constexpr double k_steps_per_octave = 4;  // of electrons
 

@@ -28,11 +28,11 @@ namespace culet {
 
 namespace {
 
-constexpr double k_tolerance = 0.03;                             // // of the compared pictures
-constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;   // // ends of the phases in the
+constexpr double k_tolerance = 0.03;                             // of the compared pictures
+constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;   // ends of the phases in the
                                                                  // progress bar
-constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // // likewise, of the
-                                                                 // calibration's part
+constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // likewise, of the calibration's
+                                                                 // part
 // The time budget in counted work (render/work/price.h). Finding the pose and scoring the
 // photograph take a fixed time and a time for each pixel, both measured.
 constexpr double k_ns_per_second = 2e9, k_fixed_ns = 6e9, k_fixed_ns_per_pixel = 3;
@@ -127,7 +127,7 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
 /// The camera that took the photograph, and its uncertainty.
 struct Standpoint {
     Camera camera;
-    double sigma = 0;  // // of the view, about either axis across the line of sight, radians
+    double sigma = 0;  // of the view, about either axis across the line of sight, radians
     double budget_ns = 0, worked_ns = 0;
     std::string note;
 };

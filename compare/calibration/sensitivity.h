@@ -72,11 +72,10 @@ private:
     struct Curve {
         std::size_t key = 0;
         const ScoreKind* kind = nullptr;
-        std::vector<double> mean, sd, fitted;  // // one for each level
+        std::vector<double> mean, sd, fitted;  // one for each level
         std::vector<int> draws;
-        std::vector<double> stabilised_scores;  // // fitted, on the scale of `stabilised`
-        std::vector<double> variance;  // // of the log of its own equivalent error, one for each
-                                       // level
+        std::vector<double> stabilised_scores;  // fitted, on the scale of `stabilised`
+        std::vector<double> variance;  // of the log of its own equivalent error, one for each level
     };
     double logarithm(const Curve& curve, double score) const;
     double weight(const Curve& curve, double log_deg) const;
@@ -92,10 +91,10 @@ private:
     std::vector<double> levels_;      // log degrees
     std::vector<double> levels_deg_;  // 0 for the ceiling
     std::vector<Curve> curves_;
-    std::vector<double> average_;  // // the average's own monotone curve, one for each level
+    std::vector<double> average_;  // the average's own monotone curve, one for each level
     JointScores joint_;
     ErrorRegression regression_;
-    std::vector<double> spread_;  // // root mean square error of the answers, one for each level
+    std::vector<double> spread_;  // root mean square error of the answers, one for each level
 };
 
 }  // namespace culet

@@ -12,10 +12,10 @@
 
 namespace culet {
 
-constexpr double k_samples_across = 192;  // // across the stone's diameter
-constexpr double k_sample_blur = 0.008;   // // share of the diameter
-constexpr double k_softer = 1.4;          // // a softer lens: times the photograph's blur
-constexpr double k_inside = 0.025;  // // least distance from the outline, share of the diameter
+constexpr double k_samples_across = 192;  // across the stone's diameter
+constexpr double k_sample_blur = 0.008;   // share of the diameter
+constexpr double k_softer = 1.4;          // a softer lens: times the photograph's blur
+constexpr double k_inside = 0.025;        // least distance from the outline, share of the diameter
 
 /// The scene with the samples' camera.
 Scene sampled_scene(const Scene& model);

@@ -13,12 +13,12 @@ namespace culet {
 
 namespace {
 
-constexpr int k_hough_side = 640;  // pixels of the longer side that Hough's transform sees
+constexpr int k_hough_side = 640;  // longer side of the pictures for Hough's transform, pixels
 constexpr double k_size_step = 1.6;
 constexpr std::size_t k_circles_of_a_size = 6;
-constexpr double k_one_ball = 0.25;  // of the radius: circles so near are about one ball
+constexpr double k_one_ball = 0.25;  // of the radius: nearer circles are the same ball
 
-// Luminance as an eye sees steps in it: cube root above the dark, 0..1 at the 99.5 % quantile.
+// Perceived luminance: cube root above the dark level, 0..1 at the 99.5 % quantile.
 cv::Mat seen_luminance(const Photo& photo) {
     cv::Mat plane = luminance(colour_of(photo));
     const auto white = static_cast<float>(std::max(quantile(plane, {}, 0.995), 1e-30));
@@ -30,7 +30,7 @@ cv::Mat seen_luminance(const Photo& photo) {
     return plane;
 }
 
-// Each value's rank among all, 0..255.
+// Each value's rank, 0..255.
 cv::Mat equalised(const cv::Mat& plane) {
     std::vector<float> sorted(plane.begin<float>(), plane.end<float>());
     std::sort(sorted.begin(), sorted.end());
@@ -49,7 +49,7 @@ cv::Mat equalised(const cv::Mat& plane) {
 std::vector<BallCircle> hough_circles(const cv::Mat& picture, double edge, double threshold) {
     const int shorter = std::min(picture.cols, picture.rows);
     std::vector<BallCircle> result;
-    // Large circles meet more edges by chance: each size has places of its own.
+    // Large circles meet more edges by chance, so each range of sizes has its own candidates.
     const double largest = 0.6 * shorter;
     for (double least = std::max(6.0, shorter / 20.0); least < largest; least *= k_size_step) {
         std::vector<cv::Vec3f> circles;
@@ -67,13 +67,13 @@ bool nearly_same(const BallCircle& a, const BallCircle& b, double share) {
            std::abs(a.radius - b.radius) < share * a.radius;
 }
 
-// Pixel centres, when a picture is shrunk by `factor` as cv::resize does it.
+// Coordinates of pixel centres after cv::resize by 1 / `factor`, converted back.
 BallCircle enlarged(const BallCircle& c, double factor) {
     return {(c.x + 0.5) * factor - 0.5, (c.y + 0.5) * factor - 0.5, c.radius * factor};
 }
 
-// Edges alone may be those of a can or a table. Where nothing is pressed together at any rim the
-// support counts; of equals the larger, for a ball's own reflections are circles too.
+// Edges alone may belong to a can or a table. If no rim shows compression, the support decides,
+// with a preference for larger circles, because a ball's own reflections are circles too.
 void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<FoundBall>& found) {
     cv::Mat soft;
     cv::GaussianBlur(whole, soft, {}, 1.0);
@@ -93,7 +93,8 @@ void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<F
     for (FoundBall& ball : found) weigh(ball);
     sort();
     if (found.empty() || !(found.front().evidence > 0)) return;
-    // Circles that Hough's transform put beside a ball met edges of what it reflects.
+    // Refits the best: a circle that Hough's transform put beside a ball may have met edges of its
+    // reflections.
     const double worth = 0.5 * found.front().evidence;
     for (FoundBall& ball : found) {
         if (ball.evidence < worth) continue;
@@ -139,8 +140,8 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
     cv::Mat small;
     cv::resize(whole, small, {}, 1 / factor, 1 / factor, cv::INTER_AREA);
     const double fx = static_cast<double>(whole.cols) / small.cols;
-    // As it is; and with every brightness given as much room as it has pixels, for a ball in a dim
-    // room whose lamps take all the range.
+    // Besides the picture itself, an equalised one: for a ball in a dim room whose lamps take up
+    // the whole range.
     struct Look {
         cv::Mat picture;
         double edge;
@@ -154,7 +155,7 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
         if (blur > 1) looks.push_back({equalised(soft), 100.0});
     }
 
-    // Edges of a few pixels' width stand out of noise that single pixels drown in.
+    // Smoothing brings edges of a few pixels' width out of the noise.
     cv::GaussianBlur(small, small, {}, 1.0);
     std::vector<BallCircle> tried;
     std::vector<FoundBall> found;

@@ -106,7 +106,7 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         if (g == 0) first_exposure = exposure;
         const std::string& name = bracket[0].name;
         Bracket merged = merge_bracket(bracket, {}, view_progress);
-        // Everything in units of the first shot of all.
+        // Convert to units of the very first shot.
         if (known && first_exposure > 0) {
             const auto scale = static_cast<float>(first_exposure / exposure);
             for (float& v : merged.photo.rgb) v *= scale;

@@ -22,10 +22,10 @@ constexpr int k_rays = 360;
 struct EdgePoint {
     double x, y, strength;
     int ray;
-    double share = 1;  // of the strongest edge along its ray
+    double share = 1;  // relative to the strongest edge along its ray
 };
 
-// Edges along rays from the middle of `circle`, within `reach` of its radius. At most four a ray.
+// Edges along rays from the middle of `circle`, within `reach` of its radius; at most four per ray.
 std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& circle,
                                         double reach) {
     std::vector<EdgePoint> points;
@@ -50,7 +50,7 @@ std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& 
         if (!inside) continue;
         double most = 0;
         for (int i = 0; i < count; ++i) {
-            // The mean of `spread` samples outside less that of as many inside.
+            // Mean of `spread` samples outside minus that of as many inside.
             double difference = 0;
             for (int k = 1; k <= spread; ++k)
                 difference += profile[std::min(i + k, count - 1)] - profile[std::max(i - k, 0)];
@@ -61,7 +61,7 @@ std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& 
         for (int i = 1; i + 1 < count; ++i) {
             if (slope[i] < 0.25 * most || slope[i] < 0.008) continue;
             if (slope[i] < slope[i - 1] || slope[i] <= slope[i + 1]) continue;
-            // The top of a parabola through three samples.
+            // The vertex of a parabola through three samples.
             const double curve = slope[i - 1] - 2 * slope[i] + slope[i + 1];
             const double shift =
                 curve < 0 ? std::clamp(0.5 * (slope[i - 1] - slope[i + 1]) / curve, -0.5, 0.5) : 0;
@@ -90,9 +90,8 @@ double off(const BallCircle& circle, const EdgePoint& p) {
     return std::hypot(p.x - circle.x, p.y - circle.y) - circle.radius;
 }
 
-// How much of the outline is an edge: over all rays, the edge within `tolerance` of the circle
-// against the strongest one along that ray. Where there is no circle, noise has an edge there by
-// chance only, and seldom the strongest.
+// Mean over all rays of the edge within `tolerance` of the circle, relative to the strongest one
+// along its ray. Noise has an edge there only by chance, and seldom the strongest.
 double support_of(const std::vector<EdgePoint>& points, const BallCircle& circle,
                   double tolerance) {
     std::array<double, k_rays> met{};
@@ -105,7 +104,7 @@ double support_of(const std::vector<EdgePoint>& points, const BallCircle& circle
     return sum / k_rays;
 }
 
-// Geometric distance, Tukey's weights at 4.685 times the spread (not below a tenth of a pixel).
+// Geometric distance, Tukey's weights at 4.685 times the spread (at least 0.1 pixels).
 std::optional<FoundBall> polished(const std::vector<EdgePoint>& points, BallCircle circle,
                                   double tolerance) {
     FoundBall found;
@@ -136,7 +135,7 @@ std::optional<FoundBall> polished(const std::vector<EdgePoint>& points, BallCirc
         circle.radius += step[2];
         if (!(circle.radius > 1)) return std::nullopt;
         const Eigen::Matrix3d covariance = inverse3(normal) * spread * spread;
-        // Neighbouring rays see the same clutter: one in four counts as a reading of its own.
+        // Neighbouring rays see the same clutter: one in four counts as independent.
         found.sigma_px = 2 * std::sqrt(std::max(covariance.diagonal().maxCoeff(), 0.0));
         if (step.norm() < 1e-5) break;
     }
@@ -172,9 +171,8 @@ std::optional<FoundBall> fitted(const cv::Mat& plane, const BallCircle& rough, d
     return found;
 }
 
-// Where the light crosses the middle between inside and outside, along rays close to the outline:
-// linear light, for the pixels of an edge are means of linear light. Rays without a clear step say
-// nothing.
+// Points where light crosses the middle between inside and outside, along rays near the outline.
+// Uses linear light, because edge pixels are means of it. Rays without a clear step give none.
 std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& circle) {
     constexpr double k_step = 0.25, k_reach = 3, k_near = 1.25;
     constexpr int k_half = static_cast<int>(k_reach / k_step);
@@ -191,8 +189,8 @@ std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& 
             if (whole) light[static_cast<std::size_t>(i + k_half)] = between_pixels(linear, x, y);
         }
         if (!whole) continue;
-        // Both sides run on to the edge as straight lines: the rim's picture is pressed flat and
-        // changes fast.
+        // Extrapolate both sides linearly to the edge, because light changes fast at the compressed
+        // rim.
         const auto level_at_edge = [&](int side) {
             double n = 0, st = 0, sv = 0, stt = 0, stv = 0;
             for (int i = -k_half; i <= k_half; ++i) {

@@ -9,8 +9,8 @@ namespace culet {
 
 namespace {
 
-// Pixels: an outline is no better known than this, whatever its edges' scatter says, for light
-// beside and behind the ball draws them one way.
+// Smallest sigma of an outline, pixels: light beside and behind the ball shifts it to one side,
+// which its edges' scatter does not show.
 constexpr double k_least_sigma = 0.15;
 
 std::vector<float> shrunk(const float* values, int channels, const Photo& photo,

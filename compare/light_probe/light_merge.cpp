@@ -21,9 +21,9 @@ namespace culet {
 
 namespace {
 
-// Below this quality a view is used where no other sees more: it counts as not covered.
+// A view of lower quality is used only where no other sees more, and counts as not covered.
 constexpr double k_seen = 1e-4;
-// Each correction to this power: Richardson and Lucy's steps are timid (Meinel 1986).
+// Exponent of each correction: over-relaxation of Richardson and Lucy's small steps (Meinel 1986).
 constexpr double k_boldness = 1.6;
 
 cv::Mat on_each_channel(const cv::Mat& plane) {
@@ -32,7 +32,7 @@ cv::Mat on_each_channel(const cv::Mat& plane) {
     return three;
 }
 
-// Means over blocks of two by two; an odd row or column has a neighbour of nothing.
+// Means over blocks of 2 x 2; an odd row or column is padded with zeros.
 cv::Mat halved(const cv::Mat& picture) {
     cv::Mat even, half;
     cv::copyMakeBorder(picture, even, 0, picture.rows % 2, 0, picture.cols % 2, cv::BORDER_CONSTANT,
@@ -41,8 +41,8 @@ cv::Mat halved(const cv::Mat& picture) {
     return half;
 }
 
-// Pull and push (Grossman & Gortler 1998 in spirit): means over ever larger blocks fill what
-// holds nothing (weight 0), bilinearly between the blocks and round the corner in azimuth.
+// Pull-push (in the spirit of Grossman & Gortler 1998): means over ever larger blocks fill texels
+// of weight 0, interpolated between the blocks and periodic in azimuth.
 cv::Mat with_holes_filled(const cv::Mat& rgb, const cv::Mat& weight) {
     if (rgb.total() == 1 || cv::countNonZero(weight) == static_cast<int>(weight.total()))
         return rgb;
@@ -59,7 +59,7 @@ cv::Mat with_holes_filled(const cv::Mat& rgb, const cv::Mat& weight) {
     return result;
 }
 
-// Their solid angle. Blocks are weighted by it.
+// Returns the solid angle that was filled. Blocks are weighted by solid angle.
 double fill_holes(EnvironmentMap& map, const std::vector<double>& weight) {
     cv::Mat known(map.height, map.width, CV_64F);
     double empty_sr = 0;
@@ -78,8 +78,8 @@ double fill_holes(EnvironmentMap& map, const std::vector<double>& weight) {
     return empty_sr;
 }
 
-// Of views that differ by chance any two are so many stops apart: sqrt(2) standard deviations. NaN
-// where fewer than two see the texel.
+// Expected difference of two views, sqrt(2) standard deviations, in stops. NaN where fewer than two
+// see the texel.
 float stops_apart(const std::vector<std::vector<float>>& levels, std::size_t texel, double floor) {
     double n = 0, sum = 0, squares = 0;
     for (const std::vector<float>& view : levels) {
@@ -94,7 +94,7 @@ float stops_apart(const std::vector<std::vector<float>>& levels, std::size_t tex
     return static_cast<float>(std::sqrt(2 * variance));
 }
 
-// Rows of a view's picture that the ball fills.
+// Rows of a view's picture that the ball covers.
 struct Rows {
     int from, to, left, right;
 };
@@ -106,21 +106,22 @@ Rows rows_of(const BallView& view) {
             std::min(view.picture->width, static_cast<int>(std::ceil(c.x + c.radius)) + 1)};
 }
 
-// Of rows, added up in order: the same sum for any thread count. Each takes a map of its own.
+// Number of bands of rows, which are summed in order, so that the result does not depend on
+// threads. Each needs its own map.
 int bands_for(int width) {
     return width <= 1024 ? 16 : width <= 2048 ? 8 : 2;
 }
 
 struct Correction {
-    std::vector<float> up, total;  // a texel: weighted ratios (3) and weights (1)
+    std::vector<float> up, total;  // for each texel: weighted ratios (3) and weights (1)
 };
 
-// Where in the map the parts of each of the ball's pixels look, worked out once for all passes.
+// Where in the map the parts of the ball's pixels look, computed once for all passes.
 struct PixelParts {
     Rows rows{};
-    int parts = 1;  // a pixel
+    int parts = 1;  // of each pixel
     std::vector<float> column, row;
-    std::vector<float> quality;  // a pixel; 0: not used
+    std::vector<float> quality;  // of each pixel; 0: not used
 
     PixelParts(const BallView& view, int width) : rows(rows_of(view)) {
         const double texel = std::sqrt(2.0) * std::numbers::pi / width;
@@ -157,7 +158,7 @@ struct PixelParts {
     }
 };
 
-// One pass for one view: what the map would look like in the ball, against the picture.
+// One pass for one view: compares the map's picture in the ball with the photograph.
 void add_corrections(const EnvironmentMap& map, const BallView& view, const PixelParts& pixels,
                      double gain, std::vector<Correction>& bands) {
     const Rows& rows = pixels.rows;
@@ -176,7 +177,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, const Pixe
                 std::array<float, 3> predicted{};
                 std::size_t used = 0;
                 for (int k = 0; k < pixels.parts; ++k) {
-                    // As EnvironmentMap::at looks it up.
+                    // As in EnvironmentMap::at.
                     const float column = pixels.column[at * pixels.parts + k];
                     const float row = pixels.row[at * pixels.parts + k];
                     const int x0 = static_cast<int>(std::floor(column));
@@ -202,7 +203,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, const Pixe
                 for (std::size_t c = 0; c < 3; ++c) {
                     const auto taken = static_cast<float>(gain * view.picture->rgb[3 * pixel + c]);
                     ratio[c] = predicted[c] > 0 ? taken / predicted[c] : 1;
-                    // An over-exposed pixel says "at least".
+                    // An over-exposed pixel is a lower bound.
                     if (over) ratio[c] = std::max(ratio[c], 1.0f);
                     ratio[c] = std::clamp(ratio[c], 0.5f, 2.0f);
                 }
@@ -255,7 +256,7 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
     merged.coverage.assign(texels, 0);
     merged.disagreement.assign(texels, std::numeric_limits<float>::quiet_NaN());
     std::vector<double> sum(3 * texels, 0), weight(texels, 0);
-    // A view's luminance; below 0 where it is too near a rim to say who is right.
+    // A view's luminance; negative where it is too near the rim to compare.
     std::vector<std::vector<float>> levels(views.size(), std::vector<float>(texels, -1));
     double mean = 0;
     const double steps = static_cast<double>(views.size()) + passes;

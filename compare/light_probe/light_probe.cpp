@@ -21,8 +21,8 @@ namespace culet {
 namespace {
 
 constexpr double k_smallest_radius = 20;  // pixels
-constexpr double k_usual_distance = 30;   // radii, where nothing says better
-constexpr double k_much = 0.7;            // stops between two views
+constexpr double k_usual_distance = 30;   // radii, the default
+constexpr double k_much = 0.7;            // stops between two views: too much disagreement
 constexpr int k_narrowest = 128, k_widest = 4096;
 
 [[noreturn]] void refuse(const ProbeView& view, const std::string& message) {
@@ -61,7 +61,7 @@ FoundBall ball_in(const ProbeView& view) {
            "photograph it larger and against a plain ground");
 }
 
-// Share of the ball that is over-exposed; refuses a ball in the dark.
+// Share of the ball that is over-exposed. Throws for a ball in the dark.
 double over_exposed(const ProbeView& view, const Photo& picture, const BallCircle& c) {
     double over = 0, pixels = 0, light = 0;
     for (int y = 0; y < picture.height; ++y) {
@@ -111,7 +111,7 @@ void doubt_views(LightProbe& probe) {
         probe.middle_disagreement, what_to_do);
 }
 
-// What is worth saying to people, and whether the result can be trusted.
+// Sets notes for people, and `doubt`.
 void judge(LightProbe& probe) {
     double omega_sum = 0, covered = 0;
     std::vector<float> stops;
@@ -174,7 +174,7 @@ void judge(LightProbe& probe) {
     }
 }
 
-// Requests in radii of the ball and pixels of the cut pictures.
+// Requests in ball radii and in pixels of the cut pictures.
 std::vector<NearLightRequest> requests_of(const ProbeOptions& options,
                                           const std::vector<CutToBall>& ready) {
     std::vector<NearLightRequest> requests = options.near_lights;
@@ -245,8 +245,8 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
             !progress(0.2 * static_cast<double>(balls.size()) / static_cast<double>(views.size())))
             throw Interrupted();
     }
-    // A fifth more texels round the horizon than the ball has pixels for, so that none is lost; in
-    // whole multiples of 128. A coarser map is the mean of such a one, a finer one is as it is.
+    // 20 % more texels round the horizon than the ball has pixels, so that none is lost, in
+    // multiples of 128. A coarser map is averaged from this one; a finer one is made directly.
     const int natural =
         std::clamp(128 * static_cast<int>(std::ceil(1.2 * std::numbers::pi * largest / 128)),
                    k_narrowest, k_widest);
@@ -301,8 +301,8 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
     }
     if (!requests.empty()) near = find_near();
     if (!requests.empty() && !options.moved && placed.seen.size() > 1) {
-        // Turned until a near light agrees, the views hide its parallax: once more from what is
-        // left of the room without it.
+        // The first alignment fitted the near lights too, which hides their parallax: align again
+        // without them.
         leave_out(near, placed);
         align_without_near_lights(placed, priors);
         near = find_near();
@@ -321,7 +321,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         const Vec3 b = placed.seen[v].world_from_camera * placed.seen[v].ball.towards_camera();
         result.turned = options.moved ? 0 : angle_between(a, b);
     }
-    // Balls elsewhere see other near light, and tell of the stone's place only through it.
+    // Moved balls see near lights elsewhere, so only the first ball's view is merged.
     const std::vector<BallView> merged =
         options.moved ? std::vector<BallView>{placed.seen[0]} : std::move(placed.seen);
     placed.gains.resize(merged.size());

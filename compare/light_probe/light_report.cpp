@@ -1,4 +1,4 @@
-// What a light probe found, for programs and for the eye.
+// Outputs of a light probe as JSON, TOML and PNG.
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ cv::Mat painted(const std::vector<float>& values, int width, int height, double 
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const float v = values[static_cast<std::size_t>(y) * width + x];
-            // Grey: nothing to say there.
+            // Grey: no value.
             std::array<std::uint8_t, 3> c{160, 160, 160};
             if (std::isfinite(v)) c = colour_at(map, v / most);
             picture.at<cv::Vec3b>(y, x) = {c[0], c[1], c[2]};
@@ -152,7 +152,7 @@ std::string light_toml(const LightProbe& probe, const std::string& environment) 
     const auto vector = [](const Vec3& v) {
         return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z);
     };
-    // JSON's escapes of a path are TOML's, too.
+    // JSON's escapes of a path are valid in TOML.
     std::string toml =
         fmt::format("[light]\nenvironment = {}\n",
                     Json(environment).dump(-1, ' ', false, Json::error_handler_t::replace));

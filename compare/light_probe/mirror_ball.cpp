@@ -11,15 +11,15 @@ namespace culet {
 
 namespace {
 
-constexpr double k_farthest = 1e6;  // as good as infinite: the rays differ by a millionth
+constexpr double k_farthest = 1e6;  // practically infinite: rays differ by a millionth
 
 Vec3 ray_through(const PixelPlace& place, const PixelPlace& principal, double focal_px) {
     return glm::normalize(
         Vec3((place.x - principal.x) / focal_px, -(place.y - principal.y) / focal_px, -1.0));
 }
 
-// Rays v at the outline of a ball seen under the half angle alpha about the unit axis a have
-// v . a = cos alpha: with m = a / cos alpha, linear least squares for v . m = 1.
+// Rays v at the outline of a ball with half-angle alpha about the unit axis a satisfy v . a = cos
+// alpha. With m = a / cos alpha this is linear least squares for v . m = 1.
 struct Cone {
     Vec3 axis;
     double distance;  // 1 / sin alpha
@@ -28,7 +28,8 @@ Cone cone_of(const BallCircle& circle, const PixelPlace& principal, double focal
     constexpr int k_points = 24;
     glm::dmat3 normal(0.0);
     Vec3 right(0.0);
-    // In coordinates of the mean ray, where the equations are well conditioned for narrow cones.
+    // In coordinates relative to the mean ray, where the equations of narrow cones are well
+    // conditioned.
     const Vec3 mean = ray_through({circle.x, circle.y}, principal, focal_px);
     const Vec3 e1 = glm::normalize(glm::cross(mean, Vec3(0, 1, 0))), e2 = glm::cross(e1, mean);
     const double scale = focal_px / circle.radius;
@@ -37,8 +38,8 @@ Cone cone_of(const BallCircle& circle, const PixelPlace& principal, double focal
         const Vec3 v = ray_through({circle.x + circle.radius * std::cos(angle),
                                     circle.y + circle.radius * std::sin(angle)},
                                    principal, focal_px);
-        // tan-plane coordinates (p, q) of the ray: p m1 + q m2 + m3 = 1 / (v . mean), and
-        // 1 / cos - 1 is computed without cancellation.
+        // Tangent-plane coordinates (p, q) of the ray: p m1 + q m2 + m3 = 1 / (v . mean). Computes
+        // 1 / cos - 1 without cancellation.
         const double forward = glm::dot(v, mean);
         const double p = glm::dot(v, e1) / forward * scale, q = glm::dot(v, e2) / forward * scale;
         const double r2 = (p * p + q * q) / (scale * scale);
@@ -50,7 +51,7 @@ Cone cone_of(const BallCircle& circle, const PixelPlace& principal, double focal
         }
     }
     const Vec3 m = glm::inverse(normal) * right;
-    // m = (m1, m2, m3 - 1), all times scale^2 / scale, 1.
+    // Undo the scaling. m3 is relative to 1.
     const double m1 = m.x / scale, m2 = m.y / scale, m3 = m.z / (scale * scale);  // m3 minus 1
     const Vec3 whole = m1 * e1 + m2 * e2 + (1 + m3) * mean;
     // tan^2 alpha = |m|^2 - 1 (as 1 / cos^2 - 1)
@@ -58,7 +59,7 @@ Cone cone_of(const BallCircle& circle, const PixelPlace& principal, double focal
     return {glm::normalize(whole), std::sqrt(1 + 1 / std::max(tan2, 1e-300))};
 }
 
-// The direction (c, s) by twice the angle of this tangent towards (1, 0).
+// Rotates (c, s) towards (1, 0) by twice the angle of this tangent.
 void turn_back(double& c, double& s, double tangent) {
     const double t2 = tangent * tangent, x = (1 - t2) * c + 2 * tangent * s;
     s = ((1 - t2) * s - 2 * tangent * c) / (1 + t2);
@@ -101,7 +102,7 @@ Vec3 MirrorBall::ray(const PixelPlace& place) const {
 
 std::optional<MirrorBall::Reflection> MirrorBall::reflection_at(const PixelPlace& place) const {
     const Vec3 v = ray(place);
-    // The ray's nearest point to the centre lies at `beside` from it, |beside| = L sin psi.
+    // `beside` points from the centre to the ray's nearest point; |beside| = L sin psi.
     const double along = glm::dot(v, centre_);
     const Vec3 beside = along * v - centre_;
     const double inside = 1 - glm::dot(beside, beside);
@@ -123,10 +124,10 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
     const double sine = glm::length(aside);
     if (cosine < 0 && sine * distance_ <= 1) return std::nullopt;  // the blind cone
     aside = sine > 0 ? aside / sine : Vec3(0);
-    // The normal at phi from the camera's direction sends the ray that meets it there, psi beside
-    // the axis, to theta = 2 phi + psi. Newton: psi' = (L cos phi - 1) / (L^2 - 2 L cos phi + 1).
-    // In cosines and sines, as a pair (c, s) that turns: what is left of the angle is that of
-    // (c, s)^2 (L - c, s) / (cosine, sine), and tan(x / 2) = sin x / (1 + cos x) turns by it.
+    // The normal at phi from the camera's direction reflects the ray that meets it, psi off the
+    // axis, to theta = 2 phi + psi. Newton with psi' = (L cos phi - 1) / (L^2 - 2 L cos phi + 1).
+    // Uses the pair (c, s) instead of angles: the remaining angle is that of (c, s)^2 (L - c, s) /
+    // (cosine, sine), and tan(x / 2) = sin x / (1 + cos x) rotates by it.
     const double l = distance_;
     double c = std::sqrt(std::max(0.0, (1 + cosine) / 2)),
            s = std::sqrt(std::max(0.0, (1 - cosine) / 2));
@@ -140,7 +141,6 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
         turn_back(c, s, step);
         if (std::abs(step) < 5e-13) break;
     }
-    // From the camera: the centre, and the normal from it.
     const Vec3 point = centre_ + c * towards_camera_ + s * aside;
     if (point.z >= 0) return std::nullopt;
     return PixelPlace{principal_.x - focal_px_ * point.x / point.z,
@@ -148,8 +148,8 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
 }
 
 std::optional<PixelPlace> MirrorBall::place_of_point(const Vec3& at, double nearness) const {
-    // Alhazen's problem by iteration: the direction from the point of the ball that showed the last
-    // direction. Each step's error is the last one's times about half the nearness.
+    // Alhazen's problem by fixed-point iteration: takes the direction from the ball's point that
+    // reflected the last direction. Each step multiplies the error by about half the nearness.
     constexpr int k_steps = 60;
     Vec3 direction = glm::normalize(at);
     for (int i = 0; i < k_steps; ++i) {
@@ -170,8 +170,8 @@ double MirrorBall::blind_half_angle() const {
 }
 
 double MirrorBall::solid_angle_per_pixel() const {
-    // At phi = 0: theta = (2 + 1 / (L - 1)) phi, and the surface point moves by L - 1 over the
-    // focal length a pixel.
+    // At phi = 0: theta = (2 + 1 / (L - 1)) phi, and one pixel moves the surface point by (L - 1) /
+    // focal length.
     const double per_pixel = (distance_ - 1) / focal_px_ * (2 + 1 / (distance_ - 1));
     return per_pixel * per_pixel;
 }

@@ -18,12 +18,12 @@ namespace culet {
 
 namespace {
 
-// An edge between two pixels is known to a tenth of their distance (reflex.h).
+// Error of an edge between two pixels, a tenth of their distance (reflex.h).
 constexpr double k_edge_sigma_px = 0.1;
-// A second picture's light may be so much darker than the first's: paper behind which a lamp
-// stands shines less to the side.
+// Smallest brightness of a light in the second picture, relative to the first: paper in front of a
+// lamp is darker to the side.
 constexpr double k_least_brightness = 0.25;
-// Of its extents: what lies so far inside a window measured with a ruler is window.
+// Share of a measured window's extents that certainly is window.
 constexpr double k_surely_inside = 0.8;
 
 Reflex reflex_or_refuse(const BallPlace& place, const PixelPlace& seed, const std::string& where) {
@@ -66,8 +66,8 @@ SeenOutline outline_of(const BallPlace& place, const Reflex& reflex) {
     return outline;
 }
 
-// Where a picture may show what another place sees along a line: for all distances, the brightest
-// pixels on and beside the line's picture.
+// Where a picture may show what another place sees along a line: the brightest pixels on and beside
+// the line's picture, over all distances.
 std::vector<Reflex> reflexes_along(const BallPlace& place, const EdgeSight& line, double bright) {
     constexpr int k_steps = 160;
     constexpr double k_nearest = 0.8;  // 1 / distance: the light is outside the ball
@@ -203,8 +203,8 @@ NearLight from_reflex(const std::vector<BallPlace>& places, const NearLightReque
     return light;
 }
 
-// How far inside the window a line of sight passes, 1 at its edge; infinite when it misses the
-// plane or comes from behind.
+// Position of a line of sight in the window, 1 at its edge; infinite when it misses the plane or
+// comes from behind.
 double share_of_extents(const Window& window, const Vec3& normal, const EdgeSight& sight) {
     constexpr double k_missed = std::numeric_limits<double>::infinity();
     const double towards = glm::dot(sight.direction, normal);
@@ -260,7 +260,7 @@ NearLight from_ruler(const std::vector<BallPlace>& places, const Window& window,
             for (std::size_t c = 0; c < 3; ++c) light.radiance[c] = sum[c] / count;
             light.over /= count;
         }
-        // The light itself may lie beside where the ruler said.
+        // The light may be slightly off the measured place.
         const auto pixel = place.view.ball.place_of_point(
             glm::transpose(place.view.world_from_camera) * (window.middle - place.centre), 1.0);
         if (!pixel) continue;

@@ -12,13 +12,14 @@ namespace culet {
 namespace {
 
 constexpr int k_least_pixels = 9;
-// Of the radius: beyond it, the last 23 degrees before the blind cone are a few pixels.
+// Share of the radius: the last 23 degrees before the blind cone are only a few pixels wide.
 constexpr double k_inside = 0.98;
 constexpr int k_blur = 10;        // pixels: light farther from its edge is another light
-constexpr double k_faint = 0.02;  // of the step at the edge: what the blur carries farther
+constexpr double k_faint = 0.02;  // share of the step at the edge up to which blur is followed
 constexpr int k_rounds = 6;
 
-// What hangs together with the seed (by edges) over a level, holes filled; empty: the seed is not.
+// The seed's 4-connected component above a level, with holes filled; empty if the seed is not above
+// it.
 cv::Mat grown(const cv::Mat& light, const cv::Mat& on_ball, double level, const cv::Point& seed) {
     cv::Mat over = light > level;
     cv::bitwise_and(over, on_ball, over);
@@ -26,7 +27,7 @@ cv::Mat grown(const cv::Mat& light, const cv::Mat& on_ball, double level, const 
     cv::Mat part;
     cv::connectedComponents(over, part, 4, CV_32S);
     const cv::Mat component = part == part.at<int>(seed);
-    // Holes: what cannot be reached from outside.
+    // Holes cannot be reached from outside.
     cv::Mat outside;
     cv::copyMakeBorder(component, outside, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
     cv::floodFill(outside, {0, 0}, cv::Scalar(128));
@@ -40,7 +41,7 @@ cv::Mat dilated(const cv::Mat& mask, int pixels) {
     return wider;
 }
 
-// The pixels from one to three beside the light: past its edge, and not yet elsewhere.
+// Pixels three and four away from the light: past its edge, and still near it.
 cv::Mat ring_around(const cv::Mat& inside, const cv::Mat& on_ball) {
     cv::Mat ring = dilated(inside, 4) & ~dilated(inside, 2);
     return ring & on_ball;
@@ -55,7 +56,7 @@ std::vector<PixelPlace> outline_of(const cv::Mat& light, const cv::Mat& inside, 
                 const cv::Point next = cv::Point(x, y) + step;
                 if (inside.at<std::uint8_t>(next) != 0) continue;
                 const double here = light.at<float>(y, x), there = light.at<float>(next);
-                // A pixel inside may be dark where a hole was filled next to the edge.
+                // A pixel inside may be dark where a hole beside the edge was filled.
                 if (!(here > level && there <= level)) continue;
                 const double t = (here - level) / (here - there);
                 outline.push_back({x + t * step.x, y + t * step.y});

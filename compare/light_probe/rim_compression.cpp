@@ -10,11 +10,11 @@ namespace culet {
 
 namespace {
 
-// Of the radius: farther in, what the ball reflects is pressed together little.
+// Ring, in radii: farther in, reflections are hardly compressed.
 constexpr double k_inner = 0.93, k_outer = 0.99;
-// Pixels: the rim itself is an edge of any circle, which the lens spreads so far.
+// Width in pixels of the rim's own edge after blur, which any circle has.
 constexpr double k_edge = 3;
-// Of a file of 8 bits, in light from 0 to 1: smaller changes say nothing.
+// A step of an 8-bit file in light from 0 to 1: smaller changes mean nothing.
 constexpr double k_least_change = 1.0 / 255;
 constexpr std::size_t k_rings = 6;
 

@@ -18,7 +18,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_floor = 2e-3;  // of the mean luminance, below which stops say nothing
+constexpr double k_floor = 2e-3;  // of the mean luminance; below, stops mean nothing
 
 }  // namespace
 

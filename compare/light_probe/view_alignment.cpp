@@ -35,7 +35,7 @@ std::vector<glm::dmat3> even_rotations(int count) {
     return result;
 }
 
-// Log-luminance of a view in its camera's frame, low-passed, as a lat-long map of its own.
+// Log-luminance of a view in its camera's frame, low-passed, as a lat-long map.
 struct SmoothMap {
     int width = 0, height = 0;
     std::vector<float> value, weight;
@@ -50,7 +50,7 @@ struct SmoothMap {
     }
 };
 
-// Normalised convolution with a Gaussian over the sphere, cut at 2.5 sigma.
+// Normalised convolution with a Gaussian on the sphere, truncated at 2.5 sigma.
 SmoothMap smoothed(const ViewMap& map, double sigma, int width) {
     SmoothMap result{width, width / 2, {}, {}};
     const std::size_t texels = static_cast<std::size_t>(width) * (width / 2);
@@ -117,7 +117,7 @@ SmoothPoints points_of(const SmoothMap& map, int count) {
     return points;
 }
 
-// Weighted correlation; too small an overlap is no evidence.
+// Weighted correlation; too small an overlap does not count.
 double correlation(const SmoothPoints& first, const SmoothMap& second,
                    const glm::dmat3& first_from_second, double least_weight) {
     const glm::dmat3 second_from_first = glm::transpose(first_from_second);
@@ -138,7 +138,7 @@ struct Candidate {
     double score = -1;
 };
 
-// Up the hill along six directions, with shrinking steps.
+// Hill climbing along six directions with shrinking steps.
 Candidate climbed(const SmoothPoints& points, const SmoothMap& map, Candidate at, double step,
                   double least_step, double least_weight) {
     at.score = correlation(points, map, at.rotation, least_weight);
@@ -175,7 +175,7 @@ std::vector<Candidate> distinct(std::vector<Candidate> list, double apart, std::
 }
 
 RoughTurn over_all_rotations(const ViewMap& first, const ViewMap& second) {
-    // Half as much common weight as two views at right angles have is asked for.
+    // The overlap must have half the weight that two views at right angles have.
     const auto asked = [](const SmoothPoints& points, const SmoothMap& map) {
         double weight = 0;
         for (int k = 0; k < 2; ++k) {
@@ -199,7 +199,7 @@ RoughTurn over_all_rotations(const ViewMap& first, const ViewMap& second) {
     tbb::parallel_for(std::size_t{0}, rotations.size(), [&](std::size_t i) {
         all[i] = {rotations[i], correlation(few, coarse, rotations[i], coarse_weight)};
     });
-    // The usual turns, which win where nothing speaks against them.
+    // Usual rotations, which win ties.
     for (const double degrees : {90.0, -90.0})
         all.push_back(
             {rotation_by({0, radians(degrees), 0}),
@@ -229,7 +229,7 @@ MirrorBall ball_of(const ViewPrior& prior, double otherwise) {
 }
 
 RoughTurn rough_turn(const BallView& first, const BallView& second) {
-    // In camera frames, whatever the views' own worlds are.
+    // In camera frames, independent of the views' world frames.
     BallView a = first, b = second;
     a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
     return over_all_rotations(view_map(a, 256), view_map(b, 256));

@@ -16,14 +16,14 @@ namespace culet {
 
 namespace {
 
-// Gains nearer to 1 than this are lamps' flicker, shutters' scatter or the error of finding them:
-// exposures that differ on purpose differ by a third of a stop.
+// Gains nearer to 1 than this come from flickering lamps, shutter scatter or measurement errors.
+// Deliberate changes of exposure are at least a third of a stop.
 constexpr double k_rounding = 0.01;
-// Farther away than this, a radius in pixels says nothing of the distance: a tenth of a pixel of
-// 100 is one radius of 1000.
+// Farther away than this, the radius in pixels does not give the distance: 0.1 of 100 pixels is one
+// of 1000 radii.
 constexpr double k_farthest_moved = 1000;
 
-// What the outline's error turns all that a ball shows by: a reflection doubles it.
+// Rotation of all the ball shows by the outline's error, which a reflection doubles.
 double turned_by_outline(const ViewPrior& prior) {
     return 2 * prior.circle_sigma_px / prior.circle.radius;
 }
@@ -33,7 +33,7 @@ glm::dmat3 about_vertical(double angle) {
     return {Vec3(c, 0, -s), Vec3(0, 1, 0), Vec3(s, 0, c)};  // columns
 }
 
-// With what surrounds it instead of what is left out, so that no blur carries it beyond.
+// Replaces left-out pixels by their surroundings, so that blur does not spread them.
 BallView painted_over(const BallView& view) {
     BallView result = view;
     if (!view.left_out) return result;
@@ -57,14 +57,13 @@ double usual_gain(double found) {
     return std::abs(found - 1) < k_rounding ? 1.0 : found;
 }
 
-// What was refined with one view stays as it is for the next.
+// Keeps what was refined with one view for the next.
 void keep_refined(ViewPrior& prior, const MirrorBall& ball) {
     prior.circle = ball.circle();
     prior.circle_sigma_px = 0.02;
     if (prior.focal_px <= 0) prior.distance = ball.distance();
 }
 
-// A view that is placed, and one that is not.
 struct SurePair {
     std::size_t placed, to_place;
     RoughTurn turn;
@@ -107,8 +106,7 @@ glm::dmat3 world_from_camera(double azimuth, double elevation) {
 void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress) {
     const std::size_t count = views.seen.size();
     std::vector<std::optional<ViewAlignment>> found(count);
-    // Views next to each other share the most: the surest pair with a view that is placed already
-    // places the next one.
+    // Neighbouring views share the most: the surest pair with a placed view places the next one.
     std::vector<SurePair> pairs;
     std::vector<std::size_t> placed{0};
     double done = 0;
@@ -143,10 +141,10 @@ void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors
         views.seen[v].ball = again.second;
         keep_refined(priors[0], again.first);
         views.seen[v].world_from_camera = views.seen[0].world_from_camera * again.first_from_second;
-        // Nothing left that would hold the turn: it is not known to a radian.
+        // Without remaining light that fixes the rotation, it is uncertain to a radian.
         const bool known = std::isfinite(again.sigma) && again.sigma > 0;
-        // Light beside and behind a ball draws its outline to one side, which least squares do not
-        // know of: its error counts in full.
+        // Light beside and behind a ball shifts its outline, which least squares ignore: its error
+        // counts in full.
         const double sigma = known ? std::min(again.sigma, 1.0) : 1.0;
         views.places[v].turned_sigma = std::hypot(sigma, first_outline, outline);
         views.alignments[v - 1].residual = again.residual;

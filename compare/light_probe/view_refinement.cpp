@@ -17,10 +17,10 @@ namespace culet {
 
 namespace {
 
-constexpr std::size_t k_pixels = 1500;  // of each picture that are predicted
+constexpr std::size_t k_pixels = 1500;  // predicted in each picture
 constexpr std::size_t k_trials = 4;
-// Root mean squares of six normal errors over their sigmas are beyond this in one of 350 cases (chi
-// squared over 19.9).
+// The root mean square of six normal errors exceeds this in one of 350 cases (chi-square over
+// 19.9).
 constexpr double k_doubtful_moves = 1.82;
 constexpr int k_most_doubts = 4;
 
@@ -53,7 +53,7 @@ ViewSolution by_direction(const ViewPair& pair, const ViewSolution& start, doubl
 
 // ---- each picture predicted from the other ----
 
-// What one view alone knows, sharpened, in its camera's frame; the ball as it was taken to be.
+// A sharpened map from one view alone, in its camera's frame, and the ball assumed for it.
 struct OwnMap {
     EnvironmentMap map;
     MirrorBall ball;
@@ -77,8 +77,8 @@ struct Pixel {
     Vec3 direction{0};  // in the camera's frame
 };
 
-// Pixels of one view whose directions the other shows well, spread evenly: one of k_trials sets
-// that have none in common.
+// Pixels of one view whose directions the other shows well, spread evenly: one of k_trials disjoint
+// sets.
 std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ball, double floor,
                                        const BallView& other, const glm::dmat3& other_from_own,
                                        std::size_t trial) {
@@ -97,7 +97,7 @@ std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ba
                 {place, std::log2(luminance(&picture.rgb[3 * i]) + floor), std::sqrt(a * b), *d});
         }
     }
-    // Every k-th, with k odd against rows of even length.
+    // Every k-th pixel, with k odd because rows may have even lengths.
     const std::size_t stride = std::max(pixels.size() / k_pixels, k_trials) | 1;
     std::vector<Pixel> kept;
     for (std::size_t i = trial * stride / k_trials; i < pixels.size(); i += stride)
@@ -105,7 +105,7 @@ std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ba
     return kept;
 }
 
-// Stops above the floor that `pixel` of a ball would show if the other view's map were the light.
+// Stops above the floor that `pixel` would show if the other view's map were the light.
 double predicted(const Pixel& pixel, int steps, const MirrorBall& own,
                  const glm::dmat3& other_from_own, const MirrorBall& other, const OwnMap& map) {
     const BallCircle &now = other.circle(), &then = map.ball.circle();
@@ -118,8 +118,8 @@ double predicted(const Pixel& pixel, int steps, const MirrorBall& own,
         if (!d) return k_unseen;
         Vec3 in_map = other_from_own * *d;
         if (!same_ball) {
-            // The other ball is taken for another one by now: the pixel that shows the direction,
-            // and where the map has what that pixel showed.
+            // The other ball's geometry has changed since the map was made: find the pixel that
+            // shows the direction now, and where the map has that pixel's light.
             const auto place = other.place_of(in_map);
             const auto moved = place ? map.ball.direction_of(*place) : std::nullopt;
             if (!moved) return k_unseen;
@@ -132,7 +132,7 @@ double predicted(const Pixel& pixel, int steps, const MirrorBall& own,
 
 ViewSolution by_prediction(const ViewPair& pair, const ViewSolution& start, int width,
                            std::size_t trial) {
-    // Each trial's grids of texels lie otherwise.
+    // Each trial's texel grid has another orientation.
     const glm::dmat3 grid = rotation_by(static_cast<double>(trial) * Vec3(0.71, 0.53, 0.37));
     const OwnMap first_map = own_map(pair.first, pair.ball(start.at, false), width, grid);
     const OwnMap second_map = own_map(pair.second, pair.ball(start.at, true), width, grid);
@@ -168,7 +168,7 @@ ViewSolution by_prediction(const ViewPair& pair, const ViewSolution& start, int 
     return solve_views(pair, correspondences, residuals, start);
 }
 
-// How far the outlines were moved over their sigmas, root mean square.
+// Root mean square shift of the outlines in sigmas.
 double outline_moves(const ViewPair& pair, const ViewParameters& p) {
     double squares = 0, count = 0;
     for (int k = 3; k < 9; ++k) {
@@ -185,7 +185,7 @@ double outline_moves(const ViewPair& pair, const ViewParameters& p) {
 ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
                           const BallView& second, const ViewPrior& second_prior,
                           const RoughTurn& rough) {
-    // In camera frames, whatever the views' own worlds are.
+    // In camera frames, independent of the views' world frames.
     BallView a = first, b = second;
     a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
     ViewPair pair{a, b, first_prior, second_prior, rough.first_from_second, false};
@@ -199,8 +199,8 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
     const int width =
         std::clamp(1 << static_cast<int>(std::log2(std::numbers::pi * radius)), 128, 1024);
     solution = by_prediction(pair, solution, width, 0);
-    // Outlines that had to be moved by more than their sigmas were surer than they should have
-    // been (Birge 1932): light behind a ball may draw one aside.
+    // Outlines that moved by more than their sigmas had sigmas that were too small (Birge 1932):
+    // light behind a ball may shift its outline.
     for (int round = 0; round < k_most_doubts; ++round) {
         const double moved = outline_moves(pair, solution.at);
         if (!(moved > k_doubtful_moves)) break;
@@ -208,8 +208,8 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
         pair.second_prior.circle_sigma_px *= moved;
         solution = by_prediction(pair, solution, width, 0);
     }
-    // Sets of pixels that have none in common, and grids of texels that lie otherwise: what they
-    // differ by is no sampling of the light, and each one's own sigma does not know of it.
+    // Disjoint sets of pixels and different texel grids: their differences are sampling errors,
+    // which each solution's own sigma does not contain.
     const ViewSolution common = solution;
     std::vector<ViewSolution> trials;
     ViewParameters mean = ViewParameters::Zero();

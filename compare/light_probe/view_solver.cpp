@@ -19,21 +19,22 @@ namespace culet {
 
 namespace {
 
-// Patches some 20 degrees across: wider than an edge's error, and enough of them for a scatter.
+// Patches of about 20 degrees: wider than an edge's error, and enough of them to estimate a
+// scatter.
 constexpr int k_patches = 96;
-constexpr int k_distance = 9, k_gain = 10;  // of the parameters
-constexpr double k_distance_sigma = 0.05;   // of 1 / distance about that of k_unknown_distance
-// Residuals of more scales than this count by their logarithm only: photographers, lamps that
-// moved. One that is not seen counts as twice as many: losing overlap gains nothing.
+constexpr int k_distance = 9, k_gain = 10;  // indices of the parameters
+constexpr double k_distance_sigma = 0.05;   // of 1 / distance about 1 / k_unknown_distance
+// Residuals over this many scales count only by their logarithm (photographers, moved lamps). An
+// unseen one counts as k_lost scales, so that losing overlap gains nothing.
 constexpr double k_loss = 2, k_lost = 4;
-// The scale of the residuals and the solution depend on each other: in turns until the scale
-// changes by less than this.
+// Scale and solution depend on each other: alternate until the scale changes by less than
+// k_same_scale.
 constexpr int k_scale_rounds = 4;
 constexpr double k_same_scale = 0.02;
 
 using Square = Eigen::Matrix<double, k_view_parameters, k_view_parameters>;
 
-// Of nothing 0.
+// 0 if there are none.
 double median(std::vector<double> values) {
     return values.empty() ? 0 : upper_median(std::move(values));
 }
@@ -52,10 +53,10 @@ std::vector<Eigen::Index> patches_of(const std::vector<ViewCorrespondence>& corr
     return patches;
 }
 
-/// All residuals and their slopes, worked out at once whenever the solver moves on.
+/// All residuals and their derivatives, computed together whenever the solver moves on.
 class Differences : public ceres::EvaluationCallback {
 public:
-    /// `steps`: for the slopes, 0 for parameters that are held.
+    /// `steps`: for finite differences; 0: the parameter is fixed.
     Differences(const ViewResiduals& residuals, const ViewParameters& at,
                 const ViewParameters& steps)
         : residuals_(residuals), at_(at), steps_(steps) {
@@ -65,7 +66,7 @@ public:
         if (at_new_place) values_ = residuals_(at_);
         if (!with_slopes) return;
         slopes_ = Eigen::MatrixXd::Zero(k_view_parameters, std::ssize(values_));
-        slopes_.row(k_gain).setOnes();  // linear: its column is known
+        slopes_.row(k_gain).setOnes();  // linear, with a known column
         for (int k = 0; k < k_gain; ++k) {
             if (steps_[k] == 0) continue;
             ViewParameters p = at_;
@@ -82,7 +83,7 @@ public:
         }
     }
     const std::vector<double>& values() const { return values_; }
-    /// All zero where a side sees nothing.
+    /// Zero where a side sees nothing.
     auto slopes(std::size_t i) const { return slopes_.col(Eigen::Index(i)); }
 
     std::vector<double> known() const {
@@ -92,8 +93,8 @@ public:
         return result;
     }
 
-    // The spread of residuals where the pictures have structure: walls of one colour agree
-    // whatever the turn, and would make every edge an outlier.
+    // Scale of the residuals where the pictures have structure. Uniform walls agree for any
+    // rotation and would make every edge an outlier.
     double scale() const {
         ViewParameters p = at_;
         for (int k = 0; k < 3; ++k) p[k] += 1e-3;
@@ -210,11 +211,13 @@ private:
         ceres::Solve(options, &problem, &summary);
     }
 
-    // The witnesses' pulls and their scatter over the patches, counted as independent ones.
+    // Sigma and effective number of the correspondences from their gradients' scatter over the
+    // patches.
     void tell_certainty(const Differences& differences, double scale, double share_before,
                         double all, ViewSolution& result) const {
-        Square normal = Square::Zero();  // of the reweighted squares
-        Square bend = Square::Zero();    // of the loss itself, which outliers bend the other way
+        Square normal = Square::Zero();  // Gauss-Newton matrix of the reweighted squares
+        Square bend = Square::Zero();    // Hessian of the loss itself; outliers contribute with the
+                                         // opposite sign
         Eigen::Matrix<double, k_view_parameters, k_patches> pulls;
         Eigen::Array<bool, k_patches, 1> holds;
         pulls.setZero();
@@ -234,7 +237,7 @@ private:
         const double count = static_cast<double>(holds.count());
         const double freedom = count - static_cast<double>((step_.array() != 0).count());
         if (!(freedom > 0)) {
-            // Too few patches to tell a scatter: nothing is known of the turn.
+            // Too few patches for a scatter: the rotation is unknown.
             result.sigma = std::numeric_limits<double>::infinity();
             return;
         }
@@ -244,7 +247,7 @@ private:
         Square prior = Square(certainty_.cwiseAbs2().asDiagonal());
         const Square held =
             Square((step_.array() == 0).cast<double>().matrix().asDiagonal()) * 1e30;
-        // Of independent witnesses both would be one.
+        // For independent correspondences the two traces would be equal.
         const Square flat = inverse_of(normal + prior / share_before + held);
         const double repeated = std::max(1.0, (flat * scatter).trace() / (flat * normal).trace());
         result.correspondences = all / repeated;
@@ -258,7 +261,7 @@ private:
 
     const std::vector<ViewCorrespondence>& correspondences_;
     const ViewResiduals& residuals_;
-    ViewParameters step_ = ViewParameters::Zero();  // for slopes; 0: held
+    ViewParameters step_ = ViewParameters::Zero();  // for finite differences; 0: fixed
     ViewParameters expected_ = ViewParameters::Zero(), certainty_ = ViewParameters::Zero();
 };
 

@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-// Parameters of the window, all in units of its distance: the middle's two steps beside the start
-// direction and the nearness; a turn (about the two axes beside that direction, then about
+// Parameters of the window in units of its distance: the middle's two offsets from the start
+// direction, and the nearness; a rotation (about the two axes across that direction, then about
 // itself); the logarithms of the half-extents.
 enum Parameter { beside_x, beside_y, near, tilt_x, tilt_y, roll, log_u, log_v, parameter_count };
 using Parameters = std::array<double, parameter_count>;
@@ -35,7 +35,7 @@ struct Frame {
 template <class Number>
 using Vector = std::array<Number, 3>;
 
-/// Middle and half-extents, all times the nearness.
+/// Middle and half-extents, times the nearness.
 template <class Number>
 struct ScaledWindow {
     Vector<Number> middle, u, v;
@@ -51,7 +51,7 @@ ScaledWindow<Number> window_of(const Frame& frame, const Number* p) {
                 x * frame.across[k] + y * frame.along[k] + z * frame.towards[k];
         return w;
     };
-    // Rolled about the sight first, tilted after it.
+    // Roll about the line of sight first, then tilt.
     const Number rolled[3] = {Number(0), Number(0), p[roll]};
     const Number tilted[3] = {p[tilt_x], p[tilt_y], Number(0)};
     const auto turned = [&](int axis, const Number& length) {
@@ -65,8 +65,8 @@ ScaledWindow<Number> window_of(const Frame& frame, const Number* p) {
             turned(1, exp(p[log_v]))};
 }
 
-/// How far inside the nearest of the four planes through the place and an edge a direction passes,
-/// as a sine; negative outside. `place` is the place times the nearness.
+/// Sine of the angle by which a direction passes inside the nearest of the four planes through the
+/// place and an edge; negative outside. `place`: the place times the nearness.
 template <class Number>
 Number inside_edges(const ScaledWindow<Number>& w, const Vector<Number>& place,
                     const Vector<Number>& direction) {
@@ -94,7 +94,7 @@ Number inside_edges(const ScaledWindow<Number>& w, const Vector<Number>& place,
 
 struct MissedEdge {
     const Frame& frame;
-    EdgeSight sight;  ///< `from` counted from the place
+    EdgeSight sight;  ///< `from` relative to the place
     Vec3 place;
     double sigma;
 
@@ -145,8 +145,8 @@ Solved solved(const Frame& frame, const std::vector<SeenOutline>& outlines, Para
     std::vector<std::array<double, 3>> turns(outlines.size(), {0, 0, 0});
     ceres::Problem problem;
     problem.AddParameterBlock(result.at.data(), parameter_count);
-    // Wide, and only against ends at which a window has no sides left to fit: flat to the sight,
-    // wider than half the world, narrower than any pixel.
+    // Wide bounds, only against windows without sides to fit: edge-on, wider than half the world,
+    // or narrower than any pixel.
     for (const int k : {tilt_x, tilt_y}) {
         problem.SetParameterLowerBound(result.at.data(), k, -1.4);
         problem.SetParameterUpperBound(result.at.data(), k, 1.4);
@@ -224,7 +224,7 @@ Solved solved(const Frame& frame, const std::vector<SeenOutline>& outlines, Para
     return result;
 }
 
-// So many of each outline's sights, evenly: enough to find the way.
+// An even subset of each outline's sights, enough for a first solution.
 std::vector<SeenOutline> thinned(const std::vector<SeenOutline>& outlines) {
     constexpr std::size_t k_enough = 48;
     std::vector<SeenOutline> result = outlines;
@@ -238,7 +238,8 @@ std::vector<SeenOutline> thinned(const std::vector<SeenOutline>& outlines) {
     return result;
 }
 
-// The first outline as points in the plane at unit distance: extents and turn from its moments.
+// Start values: the moments of the first outline's points in the plane at unit distance give
+// extents and roll.
 Parameters start_of(const Frame& frame, const SeenOutline& outline, double nearness,
                     double turned_by) {
     double xx = 0, xy = 0, yy = 0, mx = 0, my = 0, count = 0;
@@ -260,7 +261,7 @@ Parameters start_of(const Frame& frame, const SeenOutline& outline, double nearn
         xy += (p[0] - mx) * (p[1] - my) / count;
         yy += (p[1] - my) * (p[1] - my) / count;
     }
-    // A square's outline has no axes of its own: the other start is an eighth of a turn on.
+    // A square's outline has no principal axes: the other start is an eighth of a turn on.
     const double turn = 0.5 * std::atan2(2 * xy, xx - yy) + turned_by;
     double u = 0, v = 0;
     for (const auto& p : points) {
@@ -295,7 +296,7 @@ std::optional<WindowFit> fit_window(const std::vector<SeenOutline>& all,
         held ? std::vector<double>{*nearness} : std::vector<double>{0.01, 0.05, 0.15, 0.4};
 
     Solved best;
-    // Twice: a window faces along the frame's axis, which is that of its middle from then on.
+    // Twice: the first solution gives the middle's direction, which becomes the frame's axis.
     for (int round = 0; round < 2; ++round) {
         if (round > 0) {
             const auto middle = window_of(frame, best.at.data()).middle;
@@ -313,7 +314,7 @@ std::optional<WindowFit> fit_window(const std::vector<SeenOutline>& all,
     }
     bool facing = true;
     if (!held) {
-        // From several sides and distances: seen from far away, two tilts look alike.
+        // Several starts, because from far away two tilts look alike.
         Solved tilted;
         for (const double from : starts) {
             for (const auto& [x, y] :
@@ -337,7 +338,7 @@ std::optional<WindowFit> fit_window(const std::vector<SeenOutline>& all,
     const ScaledWindow<double> w = window_of(frame, best.at.data());
     const Vec3 middle(w.middle[0], w.middle[1], w.middle[2]);
     const double length = glm::length(middle);
-    // Of the window's distance: that along the start direction times the middle's length.
+    // Distance of the window: that along the start direction times the middle's length.
     fit.nearness = best.at[near] / length;
     fit.nearness_sigma = held ? 0 : best.nearness_sigma / length;
     fit.facing = facing;

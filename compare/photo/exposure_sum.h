@@ -11,7 +11,7 @@ namespace culet {
 
 /// 1 where a pixel is well below the clipping level, falling smoothly to 0 just below it.
 inline float unclipped(const Photo& photo, std::size_t pixel) {
-    constexpr float k_fade_from = 0.85f, k_fade_to = 0.97f;  // // of saturation
+    constexpr float k_fade_from = 0.85f, k_fade_to = 0.97f;  // of saturation
     if (!photo.saturated.empty() && photo.saturated[pixel] > 0) return 0;
     if (photo.saturation <= 0) return 1;
     const float* rgb = photo.rgb.data() + 3 * pixel;
@@ -40,12 +40,12 @@ public:
     }
 
 private:
-    static constexpr float k_full_well = 20000;  // // electrons at saturation, of a small camera
+    static constexpr float k_full_well = 20000;  // electrons at saturation, of a small camera
     static constexpr float k_read_noise = 4;     // electrons
     // Finer than an 8-bit file's steps in the dark (1 / (255 * 12.92)).
     static constexpr std::size_t k_steps = 4096;
     float full_ = 1;
-    std::vector<float> rounding_;  // // at even steps of value / full; empty: no rounding
+    std::vector<float> rounding_;  // at even steps of value / full; empty: no rounding
 };
 
 /// Mean of the shots' values over their exposures, with inverse-variance weights.
@@ -63,8 +63,8 @@ public:
     std::size_t take(double exposure, Photo& merged);
 
 private:
-    std::vector<float> sum_, weight_;  // // for each sample
-    std::vector<float> over_;          // // for each pixel
+    std::vector<float> sum_, weight_;  // for each sample
+    std::vector<float> over_;          // for each pixel
 };
 
 }  // namespace culet

@@ -10,8 +10,8 @@ namespace culet {
 
 namespace {
 
-constexpr int k_places = 12;                                       // // on either side of an edge
-constexpr double k_nearest_place = 0.02, k_farthest_place = 0.09;  // // share of the diameter
+constexpr int k_places = 12;                                       // on either side of an edge
+constexpr double k_nearest_place = 0.02, k_farthest_place = 0.09;  // share of the diameter
 // How far from its predicted place an edge is searched: pixels, and sigmas of the facets' errors.
 constexpr double k_width_px = 0.5, k_width_sigmas = 2;
 // The chance rate of all edges counts as much as this many places of the edge itself.

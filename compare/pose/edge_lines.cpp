@@ -18,7 +18,7 @@ constexpr double k_far_costs = 0.25;
 
 struct Peak {
     int point = -1;
-    double along = 0, width = 1, off = 0;  // // `off`: from where it is expected
+    double along = 0, width = 1, off = 0;  // `off`: from where it is expected
     FoundEdge found;
 };
 

@@ -13,8 +13,8 @@ namespace culet {
 namespace {
 
 constexpr double k_smoothing = 0.6;  // pixels, one sigma
-constexpr double k_along = 1.0;  // // profiles are the mean of three lines this far apart, pixels
-constexpr double k_step = 0.5;   // // along a profile, pixels
+constexpr double k_along = 1.0;      // profiles are the mean of three lines this far apart, pixels
+constexpr double k_step = 0.5;       // along a profile, pixels
 // Error of an edge's place in a clean 8-bit picture, from sampling and neighbouring edges.
 constexpr double k_least_sigma = 0.06;
 // A clipped side is too dark in the picture. The steepest place of a step to twice the limit is off

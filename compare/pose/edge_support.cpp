@@ -33,8 +33,7 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     // A subset of the points is enough for shares.
     const std::size_t every = std::max<std::size_t>(1, points.size() / 1500);
     Share crown;
-    double outlines = 0, outline_squares = 0;  // // number of outline points met, and their
-                                               // distances
+    double outlines = 0, outline_squares = 0;  // number of outline points met, and their distances
     std::vector<Share> shifted(k_shifts);
     const double step = 2.0 * static_cast<double>(every);
     const double independent = std::max(k_independent_px, k_independent_share * diameter_px);

@@ -17,8 +17,8 @@ namespace culet {
 
 namespace {
 
-constexpr std::size_t k_settled = 8;  // // refined to the end
-constexpr std::size_t k_meant = 3;    // // and symmetric views that the start means
+constexpr std::size_t k_settled = 8;  // refined to the end
+constexpr std::size_t k_meant = 3;    // and symmetric views that the start means
 // Poses that look alike by the stone's symmetry and whose log-likelihoods differ by less cannot be
 // told apart: the one nearest to the start is taken.
 constexpr double k_tie = 8;
@@ -26,7 +26,7 @@ constexpr double k_tie = 8;
 // (bench_pose --as-taken --stone-px 200 400). A view that the start means is preferred unless the
 // other is likelier by more than this.
 constexpr double k_not_meant = 25;
-constexpr double k_near = radians(10);  // // nearer views are the same view with other facet errors
+constexpr double k_near = radians(10);  // nearer views are the same view with other facet errors
 
 EdgeSupport support_of(const PoseTask& task, const PhotoSide& side, const StoneView& view) {
     WireSpacing spacing;

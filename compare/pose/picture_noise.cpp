@@ -17,7 +17,7 @@ double noise_of(const cv::Mat& picture, const cv::Mat& mask) {
     cv::filter2D(picture, response, CV_32F, kernel);
     const cv::Mat size = cv::abs(response);
     const cv::Mat one_channel = size.reshape(1);
-    cv::Mat channels;  // // the mask, repeated for each channel
+    cv::Mat channels;  // the mask, repeated for each channel
     if (!mask.empty()) {
         cv::merge(std::vector<cv::Mat>(3, mask), channels);
         channels = channels.reshape(1);

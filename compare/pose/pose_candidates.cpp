@@ -12,12 +12,12 @@ namespace culet {
 
 namespace {
 
-constexpr int k_views_each = 12;  // // of the coarse search, for each chirality
-constexpr int k_views_over = 6;   // // of the stone turned over
-constexpr int k_turned_from = 3;  // // of these are turned all round
+constexpr int k_views_each = 12;  // of the coarse search, for each chirality
+constexpr int k_views_over = 6;   // of the stone turned over
+constexpr int k_turned_from = 3;  // of these are turned all round
 constexpr int k_turned_each = 8;
 constexpr std::size_t k_refined = 24;
-constexpr int k_most_fold = 16;  // // largest order of symmetry about a stone's axis
+constexpr int k_most_fold = 16;  // largest order of symmetry about a stone's axis
 
 void sort_by_score(std::vector<SeenView>& found) {
     std::stable_sort(found.begin(), found.end(), [](const SeenView& a, const SeenView& b) {

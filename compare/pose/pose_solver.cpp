@@ -107,9 +107,9 @@ struct FacetPrior {
 
 /// Prior of the lens; the focal length is scale / nearness.
 struct LensPrior {
-    double log_focal = 0;  // // log of the view's over the expected one
+    double log_focal = 0;  // log of the view's over the expected one
     double focal_error = 1, sight_error = 1;
-    PicturePoint sight_off;  // // the view's minus the expected one
+    PicturePoint sight_off;  // the view's minus the expected one
     template <class Number>
     bool operator()(const Number* change, Number* residual) const {
         residual[0] = (change[5] - change[6] + log_focal) / focal_error;
@@ -187,7 +187,7 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     at_once.evaluation_callback = &view;
     ceres::Problem problem(at_once);
     problem.AddParameterBlock(change.data(), k_view_unknowns);
-    std::map<int, int> used;  // // facets, and their numbers of edges
+    std::map<int, int> used;  // facets, and their numbers of edges
     for (const MetEdge& met : edges) {
         if (!settings.facets_free) {
             problem.AddResidualBlock(new ViewResidual(view.view(), met),
@@ -242,7 +242,7 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     raw.apply_loss_function = false;
     raw.num_threads = 1;
     problem.GetResidualBlocks(&raw.residual_blocks);
-    raw.residual_blocks.resize(edges.size());  // // the edges' were added first
+    raw.residual_blocks.resize(edges.size());  // the edges' were added first
     problem.Evaluate(raw, nullptr, &result.residuals, nullptr, nullptr);
     if (settings.with_covariance) {
         const Eigen::MatrixXd covariance = covariance_of(problem, change.data(), free_blocks);

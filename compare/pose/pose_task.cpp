@@ -16,7 +16,7 @@ namespace {
 constexpr double k_rounding_px = 1.5;
 // Standard deviation of a uniform distribution over what was cropped, 1 / sqrt(12).
 constexpr double k_of_the_cut = 0.29;
-constexpr double k_edge_reach = 0.012;  // // of the edge map, share of the diameter
+constexpr double k_edge_reach = 0.012;  // of the edge map, share of the diameter
 
 }  // namespace
 

@@ -30,7 +30,7 @@ public:
 
 private:
     Picture truth_;
-    MatchedPictures matched_;  // // `photo` is the reference
+    MatchedPictures matched_;  // `photo` is the reference
     double mean_ = 0;
     int stone_pixels_ = 0;
 };
