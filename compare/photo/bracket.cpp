@@ -18,8 +18,8 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_shots_for_response = 5;
-constexpr double k_least_shift = 0.1;        // pixels; smaller ones are not worth the blur
-constexpr double k_pixels_to_align = 2e6;    // a tenth of a pixel of a large photo is seen on them
+constexpr double k_least_shift = 0.1;        // pixels; smaller shifts are not worth the blur
+constexpr double k_pixels_to_align = 2e6;    // enough to see 0.1 pixels of a large photo
 constexpr double k_pixels_to_measure = 1e5;  // for the response and the ratios of light
 constexpr double k_kept_bytes = 512.0 * 1024 * 1024;
 
@@ -46,8 +46,8 @@ std::vector<std::size_t> from_bright_to_dark(const std::vector<BracketShot>& sho
     return order;
 }
 
-// A series at work: looked at once, for what moved and for the camera's response, and then added
-// up. Each time from the brightest shot to the darkest, since neighbours share the most.
+// Processes a series: a first pass finds shifts and the camera's response, a second one adds up the
+// shots. Both go from the brightest shot to the darkest, because neighbours share the most.
 class Series {
 public:
     Series(const std::vector<BracketShot>& shots, const BracketOptions& options,
@@ -161,7 +161,6 @@ private:
     bool eight_bits() const {
         return all_are([](const Photo& p) { return p.encoding.starts_with("8-bit"); });
     }
-    // The values of the files are known from what was read of them.
     bool eight_bits_srgb() const {
         return all_are([](const Photo& p) { return p.encoding.starts_with("8-bit sRGB"); });
     }
@@ -229,7 +228,8 @@ private:
         report(1);
     }
 
-    // Of the brightest: powers of exposures as people may state them stay within a float's range.
+    // Relative to the brightest, so that powers of any stated exposures stay within a float's
+    // range.
     double relative_exposure(std::size_t shot) const {
         return shots_[shot].exposure / shots_[order_.front()].exposure;
     }
@@ -247,7 +247,7 @@ private:
         }
     }
 
-    // A tone-mapped single JPEG stays what it is; a response found makes it light.
+    // JPEGs become photometric only by a calibrated response.
     void tell_photometric() {
         Photo& merged = result_.photo;
         merged.shot = samples_[0].shot;
@@ -266,10 +266,10 @@ private:
     const BracketOptions& options_;
     const Progress& progress_;
     std::vector<std::size_t> order_;          // of the shots, from the brightest to the darkest
-    std::vector<std::optional<Photo>> kept_;  // a shot, between looking and adding
-    std::vector<Photo> samples_;              // a shot: some of its pixels, what is known of it
-    std::set<std::string> told_;              // of the shots' notes, each once
-    std::string size_, size_of_;              // of the first that was read, and its name
+    std::vector<std::optional<Photo>> kept_;  // for each shot, between the two passes
+    std::vector<Photo> samples_;  // for each shot: some of its pixels, and its other data
+    std::set<std::string> told_;  // the shots' notes, each once
+    std::string size_, size_of_;  // of the first shot read, and its name
     Bracket result_;
 };
 

@@ -36,7 +36,7 @@ cv::Ptr<cv::aruco::CharucoBoard> board_of(const BoardShape& shape) {
         static_cast<float>(shape.square_mm * k_marker_cells / k_cells), markers());
 }
 
-// The brightness that the finder of corners knows: 8 bits, sRGB.
+// 8-bit sRGB luminance, which the corner finder expects.
 cv::Mat grey_of(const Photo& photo) {
     const cv::Mat y = luminance(colour_of(photo));
     const double white = quantile(y, {}, 0.98);
@@ -48,7 +48,7 @@ cv::Mat grey_of(const Photo& photo) {
 }  // namespace
 
 std::string board_svg(const BoardShape& shape) {
-    constexpr int k_fine = 4;  // pixels a cell, of the picture that is sampled
+    constexpr int k_fine = 4;  // pixels per cell of the sampled picture
     cv::Mat picture;
     board_of(shape)->draw({shape.columns * k_cells * k_fine, shape.rows * k_cells * k_fine},
                           picture, 0, 1);
@@ -94,7 +94,7 @@ LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& picture
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<std::vector<int>> ids;
     std::vector<std::size_t> used;
-    std::set<std::string> told;  // of the pictures' notes, each once
+    std::set<std::string> told;  // the pictures' notes, each once
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         if (progress &&
             !progress(static_cast<double>(i) / static_cast<double>(pictures.size() + 1)))

@@ -24,7 +24,7 @@ ShotData shot_data(std::string_view bytes) {
     const ExifFields exif(bytes);
     const double apex = exif.number(EXIF_TAG_SHUTTER_SPEED_VALUE);
     shot.seconds = positive(exif.number(EXIF_TAG_EXPOSURE_TIME));
-    // The APEX value is the exact one where it means the same shot: within a third of a stop.
+    // The APEX value is exact; use it if it agrees within a third of a stop.
     if (std::isfinite(apex) && std::abs(apex) < 30) {
         const double exact = std::exp2(-apex);
         if (shot.seconds == 0 || std::abs(std::log2(exact / shot.seconds)) < 0.34)
@@ -37,8 +37,7 @@ ShotData shot_data(std::string_view bytes) {
     shot.camera = exif.text(EXIF_TAG_MAKE);
     const std::string model = exif.text(EXIF_TAG_MODEL);
     if (!model.empty()) shot.camera += (shot.camera.empty() ? "" : " ") + model;
-    // 0: normal. 1: by the standard "custom"; 2 to 8 are what phones write for HDR, panoramas and
-    // portraits.
+    // 0: normal; 1: "custom" in the standard; 2 to 8: phones' HDR, panoramas and portraits.
     const double custom = exif.number(EXIF_TAG_CUSTOM_RENDERED);
     if (custom >= 1 && custom <= 8)
         shot.processed = "its EXIF says that the camera processed it (HDR, night, portrait, ...)";

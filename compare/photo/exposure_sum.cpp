@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// Rounding to a step of an 8-bit file in the sRGB encoding, evenly distributed: step^2 / 12.
+// Uniform rounding to a step of an 8-bit sRGB file: step^2 / 12.
 float rounding_variance(double linear) {
     const double code = srgb_encoded(linear);
     const double step = srgb_decoded(std::min(code + 0.5 / 255, 1.0)) -

@@ -73,7 +73,7 @@ Lens lens_for(const Lens& lens, int width, int height, const std::filesystem::pa
     scaled.height = height;
     scaled.focal_x *= sx;
     scaled.focal_y *= sy;
-    // Edges of pixels scale, centres are half a pixel from them.
+    // Pixel edges scale; centres are half a pixel from them.
     scaled.principal_x = (lens.principal_x + 0.5) * sx - 0.5;
     scaled.principal_y = (lens.principal_y + 0.5) * sy - 0.5;
     return scaled;

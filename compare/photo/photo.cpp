@@ -16,7 +16,7 @@ namespace culet {
 
 namespace {
 
-// The start of a file: enough for its kind and its EXIF data.
+// The start of a file: enough for its type and its EXIF data.
 std::string first_bytes(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::string bytes(std::size_t{1} << 18, '\0');
@@ -42,7 +42,7 @@ void note_camera(Photo& photo, const std::string& bytes) {
     if (format == "JPEG") photo.encoding += " JPEG";
 }
 
-// Nothing unless all of them are there.
+// Empty unless all bands are there.
 std::vector<float> bands_of(const Picture& picture) {
     std::vector<float> bands;
     for (std::size_t k = 0; k < k_band_channels.size(); ++k) {

@@ -14,7 +14,7 @@ namespace {
 // IEEE 754 binary16: 10 bits of fraction, from 2^-14 to 65504.
 constexpr int k_half_fraction = 10, k_half_least_exponent = -14;
 constexpr float k_half_most = 65504;
-// Of the variance that rounding may add.
+// Largest share of the variance that rounding may add.
 constexpr double k_share = 1.0 / 16;
 
 bool fits_half_floats(const Photo& photo) {
@@ -25,14 +25,14 @@ bool fits_half_floats(const Photo& photo) {
         const int exponent = value > 0 ? std::ilogb(value) : k_half_least_exponent;
         const double step =
             std::ldexp(1.0, std::max(exponent, k_half_least_exponent) - k_half_fraction);
-        // Evenly distributed: step^2 / 12.
+        // Uniformly distributed: step^2 / 12.
         if (step * step / 12 > k_share * photo.variance[i]) return false;
     }
     return true;
 }
 
-// A variance rests on a guess of the camera, and its last digits are noise, which does not
-// compress: six of its bits are kept.
+// Keeps six bits of a variance: it rests on a guess of the camera, and its last digits are noise
+// that does not compress.
 float rounded(float variance) {
     constexpr float k_steps = 64;
     int exponent = 0;

@@ -24,7 +24,7 @@ cv::Mat luminance(const cv::Mat& colour) {
 }
 
 cv::Mat encoded(const cv::Mat& linear) {
-    // A table over the square root: fine enough (5e-7) that a table step never shows.
+    // A table over the square root, fine enough (5e-7) that its steps never show.
     static const auto table = [] {
         std::vector<float> values(4098);
         for (std::size_t i = 0; i < values.size(); ++i) {

@@ -31,14 +31,14 @@ void require(const std::filesystem::path& file, int code) {
     if (code != LIBRAW_SUCCESS) refuse(file, libraw_strerror(code));
 }
 
-// The processor reads from `bytes` as long as it works.
+// `bytes` must outlive the processor's work.
 void open(const std::filesystem::path& file, const std::string& bytes, LibRaw& processor) {
     if (bytes.empty()) throw InputError(file, "is empty: expected a raw file");
     processor.imgdata.params.max_raw_memory_mb = 1024;
     require(file, processor.open_buffer(const_cast<char*>(bytes.data()), bytes.size()));
 }
 
-// EXIF, and what only the maker's own notes say.
+// EXIF, and data that only the maker's own notes have.
 ShotData shot_data_of(const std::string& bytes, const libraw_data_t& data) {
     ShotData shot = shot_data(bytes);
     if (shot.seconds == 0 && data.other.shutter > 0) shot.seconds = data.other.shutter;
@@ -48,8 +48,7 @@ ShotData shot_data_of(const std::string& bytes, const libraw_data_t& data) {
     return shot;
 }
 
-// 1 where a sensor sample reaches the white level, spread to the neighbours that a demosaiced
-// pixel is made of.
+// 1 where a sensor sample reaches the white level, dilated to the neighbours that demosaicing uses.
 cv::Mat saturation_mask(const libraw_data_t& data) {
     const auto& sizes = data.sizes;
     cv::Mat mask(sizes.height, sizes.width, CV_8U, cv::Scalar(0));
@@ -107,7 +106,7 @@ bool has_raw_extension(const std::filesystem::path& file) {
 
 Photo read_raw(const std::filesystem::path& file) {
     const std::string bytes = read_text(file, k_most_bytes);
-    // The processor holds large tables: not on the stack.
+    // On the heap, because the processor holds large tables.
     const auto processor = std::make_unique<LibRaw>();
     libraw_data_t& data = processor->imgdata;
     open(file, bytes, *processor);
@@ -128,7 +127,7 @@ Photo read_raw(const std::filesystem::path& file) {
     data.params.output_bps = 16;
     data.params.output_color = 1;  // sRGB primaries
     data.params.use_camera_wb = 1;
-    data.params.highlight = 1;  // nothing is clipped by the white balance
+    data.params.highlight = 1;  // white balance clips nothing
     data.params.user_flip = 0;
     require(file, processor->dcraw_process());
     int code = LIBRAW_SUCCESS;
@@ -139,8 +138,8 @@ Photo read_raw(const std::filesystem::path& file) {
         (image->colors != 3 && image->colors != 1) || image->width == 0 || image->height == 0)
         refuse(file, "an unusual kind");
 
-    // The white balance's multipliers were scaled so that the largest is 1: undone for green, whose
-    // white level then is 1.
+    // LibRaw scales the white balance's largest multiplier to 1. Undo that, so that green's white
+    // level is 1.
     const float most = *std::max_element(data.color.pre_mul, data.color.pre_mul + 3);
     const double green = data.color.pre_mul[1] > 0 ? data.color.pre_mul[1] : most;
     const auto scale = static_cast<float>(most / green / 65535);

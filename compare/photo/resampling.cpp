@@ -38,7 +38,7 @@ cv::Mat resampled(const cv::Mat& source, const cv::Matx23d& source_from_target,
     check(source.depth() == CV_32F && !source.empty(), "resampling needs float samples");
     const int channels = source.channels(), count = kernel == Kernel::linear ? 2 : 4;
     cv::Mat target(target_size, source.type());
-    // Positions far outside stay within the range of int; their samples are beyond the border.
+    // Clamps positions to the range of int; their samples are beyond the border anyway.
     const auto bounded = [](double position) { return std::clamp(position, -1e8, 1e8); };
     for (int y = 0; y < target.rows; ++y) {
         float* out = target.ptr<float>(y);

@@ -13,13 +13,13 @@ namespace culet {
 
 namespace {
 
-// Pixels that the curve is fitted to, and the weight of its smoothness beside them: more of them
-// take seconds, with the square of their number.
+// Number of pixels for the fit, and the weight of the curve's smoothness. The fit's time grows with
+// the square of the number; more would take seconds.
 constexpr int k_samples = 200;
 constexpr float k_smoothness = 10;
 
-// The values of an 8-bit file from what read_photo made of them; exact: two of them are never as
-// near to each other as two places of the table (1 / (255 * 12.92) where it is dark).
+// Recovers an 8-bit file's values from what read_photo made of them. Exact, because two values are
+// never as near as two places of the table (1 / (255 * 12.92) in the dark).
 class FileValues {
 public:
     FileValues() : codes_(k_places + 1) {
@@ -41,9 +41,8 @@ private:
 
 ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures) {
     const FileValues values;
-    // One curve for red, green and blue, which a camera bends alike: a curve for each would be
-    // known up to a factor each only, and where the fit of so few samples is off, a channel's
-    // factor would be, too: a wrong white balance.
+    // One curve for all channels, whose responses are alike in cameras. Separate curves would each
+    // have an unknown factor, and its error would be a wrong white balance.
     std::vector<cv::Mat> pictures;
     std::vector<float> times;
     for (std::size_t k = 0; k < shots.size(); ++k) {

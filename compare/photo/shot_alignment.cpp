@@ -24,7 +24,7 @@ cv::Mat log_of(const Photo& photo, double exposure) {
     return result;
 }
 
-// The part of both shots that is neither clipped nor dark.
+// Where both shots are neither clipped nor dark.
 cv::Mat well_exposed(const Photo& a, const Photo& b) {
     cv::Mat mask(a.height, a.width, CV_8U, cv::Scalar(0));
     const auto level = [](const Photo& p) { return p.saturation > 0 ? p.saturation : 1e30; };
@@ -41,7 +41,7 @@ cv::Mat well_exposed(const Photo& a, const Photo& b) {
     return mask;
 }
 
-// Without the plane through what lies under the mask.
+// Subtracts the plane fitted under the mask.
 cv::Mat without_slope(const cv::Mat& plane, const cv::Mat& mask) {
     const auto place = [&](int x, int y) {
         return cv::Vec3d(1, double(x) / plane.cols - 0.5, double(y) / plane.rows - 0.5);
@@ -64,7 +64,7 @@ cv::Mat without_slope(const cv::Mat& plane, const cv::Mat& mask) {
     return result;
 }
 
-// 1 where the camera clips, a pixel.
+// 1 for each pixel where the camera clips.
 std::vector<float> clipped_pixels(const Photo& photo, float from) {
     std::vector<float> clipped(photo.rgb.size() / 3);
     for (std::size_t i = 0; i < clipped.size(); ++i)
@@ -131,10 +131,10 @@ FrameShift shift_between(const Photo& a, double exposure_a, const Photo& b, doub
         cv::resize(second, small_b, small_a.size(), 0, 0, cv::INTER_AREA);
         cv::resize(mask, small_mask, small_a.size(), 0, 0, cv::INTER_AREA);
         small_mask = small_mask > 200;
-        // The filter of ECC reaches over two pixels: clipped ones must not leak in.
+        // ECC's filter reaches two pixels: keep clipped ones away.
         cv::erode(small_mask, small_mask, cv::Mat(), {-1, -1}, 3, cv::BORDER_CONSTANT, {0});
         if (cv::countNonZero(small_mask) < 100) continue;
-        // What only grows brighter towards one side says nothing of a shift.
+        // A mere gradient across the picture gives no shift.
         small_a = without_slope(small_a, small_mask);
         small_b = without_slope(small_b, small_mask);
         cv::Mat tried = warp.clone();
@@ -167,7 +167,7 @@ void move_back(Photo& photo, const FrameShift& shift) {
         const auto* first = to.ptr<float>();
         values.assign(first, first + to.total() * static_cast<std::size_t>(channels));
     };
-    // Marked before the pixels are mixed: a mean of a clipped one and its neighbour looks sound.
+    // Mark before resampling: the mean of a clipped pixel and its neighbour looks valid.
     if (photo.saturated.empty()) photo.saturated = clipped_pixels(photo, 0);
     warp(photo.rgb, 3, cv::INTER_LINEAR);
     warp(photo.saturated, 1, cv::INTER_LINEAR);

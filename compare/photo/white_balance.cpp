@@ -21,8 +21,8 @@ namespace culet {
 
 namespace {
 
-// ColorChecker Classic, sRGB 8-bit values as the maker prints them on the chart's sheet (X-Rite,
-// before November 2014), row by row from "dark skin" to "black".
+// ColorChecker Classic, sRGB 8-bit values from the maker's sheet (X-Rite, before November 2014),
+// row by row from "dark skin" to "black".
 constexpr std::array<std::array<int, 3>, 24> k_chart{{
     {115, 82, 68},   {194, 150, 130}, {98, 122, 157}, {87, 108, 67},   {133, 128, 177},
     {103, 189, 170}, {214, 126, 44},  {80, 91, 166},  {193, 90, 99},   {94, 60, 108},
@@ -97,7 +97,7 @@ GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
 }
 
 std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
-    // The finder wants an 8-bit picture of ordinary brightness.
+    // The finder needs an 8-bit picture of normal brightness.
     const cv::Mat colour = colour_of(photo), y = luminance(colour);
     const double white = quantile(y, {}, 0.99);
     if (!(white > 0)) return std::nullopt;
@@ -115,7 +115,7 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
     if (chart.empty()) return std::nullopt;
     const std::vector<cv::Point2f> box = chart->getBox();
     if (box.size() != 4) return std::nullopt;
-    // Medians of the middles of the patches, in the linear picture; the box's corners go round from
+    // Medians of the patches' middles in the linear picture; the box's corners are in order from
     // the first patch. Margins of the printed chart: patches of 1 with gaps of an eighth.
     const std::vector<cv::Point2f> model{{0, 0}, {6, 0}, {6, 4}, {0, 4}};
     const cv::Mat picture_from_chart = cv::getPerspectiveTransform(model, box);
@@ -138,7 +138,7 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
             {upper_median(values[0]), upper_median(values[1]), upper_median(values[2])});
     }
     ChartBalance result;
-    // The middle greys: white may clip, black is mostly haze. Also the common exposure.
+    // The middle greys also give the common exposure: white may clip, and black is mostly haze.
     double exposure = 0;
     std::array<double, 3> grey{};
     for (std::size_t patch = 19; patch < 23; ++patch) {
@@ -172,7 +172,7 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
         for (int c = 0; c < 3; ++c)
             result.matrix[static_cast<std::size_t>(3 * r + c)] = solved(c, r);
     result.after = mean_difference(corrected);
-    // A chart of quite other colours is no chart.
+    // A chart of very different colours is a false detection.
     if (!(result.after < 15)) return std::nullopt;
     return result;
 }

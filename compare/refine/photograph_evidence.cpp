@@ -17,13 +17,14 @@ namespace culet {
 
 namespace {
 
-constexpr double k_tolerance = 0.02;      // of the pictures that are held against the photograph
+constexpr double k_tolerance = 0.02;      // of the pictures compared with the photograph
 constexpr double k_least_noise = 0.003;   // of the root of light
-constexpr double k_least_sharper = 0.25;  // the square of a blur goes no farther at once
-constexpr double k_inside_blurs = 2;      // likewise, in blurs: the ground is another one
-// How far a set-up goes in one step: found poses are 0.2 degrees off in the median.
+constexpr double k_least_sharper = 0.25;  // lower limit of one step's factor on the squared blur
+constexpr double k_inside_blurs = 2;      // distance from the outline in blurs, because the ground
+                                          // differs
+// Prior sigma of the set-up's angles: found poses are 0.2 degrees off in the median.
 constexpr double k_angle_spread = radians(0.5);
-// Of a photograph's own: exposure, place, blur, set-up.
+// Number of a photograph's own unknowns: exposure, place, blur, set-up.
 constexpr auto k_amounts = Eigen::Index(Nuisance::k_linear + k_set_up_angles);
 
 }  // namespace
@@ -36,7 +37,7 @@ struct PhotographEvidence::Parts {
     Photo picture(const Solid& solid) const;
     void set_equations(const Solid& solid, const std::vector<double>& spread);
 
-    Scene scene;  // the camera of the pictures
+    Scene scene;  // with the pictures' camera
     int threads = 0;
     Vec3 middle{0};
     DraftRenderer renderer;
@@ -46,7 +47,7 @@ struct PhotographEvidence::Parts {
     Similarity model_from_photo;
 
     SetUp set_up;
-    cv::Matx33d moved = cv::Matx33d::eye();  // samples from where the photograph shows them
+    cv::Matx33d moved = cv::Matx33d::eye();  // displacement of the samples in the photograph
     // Of the last measurement.
     Solid measured;
     PictureChanges changes;
@@ -79,7 +80,7 @@ cv::Mat PhotographEvidence::Parts::inside(double blur) const {
     return mask;
 }
 
-// The photograph's samples.
+// The photograph at the samples.
 cv::Mat PhotographEvidence::Parts::seen(double blur) const {
     return photo.at_samples(samples.size(), blur, moved);
 }
@@ -93,7 +94,7 @@ PhotographEvidence::PhotographEvidence(const Photo& photo, const Scene& scene, i
 PhotographEvidence::~PhotographEvidence() = default;
 PhotographEvidence::PhotographEvidence(PhotographEvidence&&) noexcept = default;
 
-// The equations around `solid`, from the changes of the last sketches.
+// Sets the equations around `solid`, with the changes from the last sketches.
 void PhotographEvidence::Parts::set_equations(const Solid& solid,
                                               const std::vector<double>& spread) {
     PictureEquations& e = equations;
@@ -107,8 +108,8 @@ void PhotographEvidence::Parts::set_equations(const Solid& solid,
     Eigen::VectorXd bent = Eigen::VectorXd::Zero(rows);
     for (Eigen::Index k = 0; k < moves; ++k) {
         e.changes.col(k) = column(changes.slopes[std::size_t(k)]);
-        // A move of t changes what is not straight by bend (t / step)^2 / 2: the mean square of
-        // that over a normal distribution is 3/4 bend^2 (spread / step)^4.
+        // A move t has the non-linear effect bend (t / step)^2 / 2. Its mean square over a normal
+        // distribution is 3/4 bend^2 (spread / step)^4.
         const double share = 0.75 * std::pow(spread[std::size_t(k)] / k_move_step, 4);
         bent += share * column(changes.bends[std::size_t(k)]).cwiseAbs2();
     }
@@ -120,7 +121,7 @@ void PhotographEvidence::Parts::set_equations(const Solid& solid,
     const cv::Mat fine = samples.fine_picture(drawn, camera, camera.psf_px, e.blur),
                   softer = samples.fine_picture(drawn, camera, k_softer * camera.psf_px, e.blur);
     const auto nuisances = nuisances_of(fine, softer, samples);
-    // The set-up tells where and how large the stone is as a whole: the planes are not asked.
+    // The set-up, not the planes, determines the stone's place and size as a whole.
     const auto whole = moves_of_the_whole(solid);
     e.nuisances.resize(rows, k_amounts + Eigen::Index(whole.size()));
     for (std::size_t k = 0; k < std::size_t(k_amounts); ++k) {
@@ -182,7 +183,7 @@ void PhotographEvidence::settle(const Solid& solid) {
     // Blurs add in squares.
     p.camera.psf_px *= std::sqrt(
         std::max(k_least_sharper, 1 + (k_softer * k_softer - 1) * found[Nuisance::softer]));
-    // The photograph is the picture moved by so much: it is looked at where that was moved from.
+    // The picture's displacement is the inverse of that of the samples.
     const double around = -2 * k_moved_by_unit / k_samples_across;
     const double scale = around * found[Nuisance::larger], turn = around * found[Nuisance::turned];
     const double x = -k_moved_by_unit * found[Nuisance::right],

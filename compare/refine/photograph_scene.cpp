@@ -12,8 +12,8 @@ namespace culet {
 
 namespace {
 
-constexpr double k_largest = 256;  // pixels across: samples are 192
-// How sure a pose must be, 99 %: refining finds what is left of it.
+constexpr double k_largest = 256;  // pixels across; samples are 192
+// Required 99 % certainty of a pose; refining finds the rest.
 constexpr double k_pose_angle = radians(4.0), k_pose_shift = 0.01;
 
 }  // namespace
@@ -27,7 +27,7 @@ Scene photograph_scene(const Photo& photo, const Scene& scene, bool find, int th
         options.threads = threads;
         options.limits.angle = k_pose_angle;
         options.limits.shift_px = std::max(1.0, k_pose_shift * across);
-        // Near the scene's camera: turned by more, a stone looks like itself.
+        // Only near the scene's camera, because a stone looks alike after certain rotations.
         options.all_turns = false;
         FoundPose pose = find_pose(photo, scene.stone.solid, scene.camera, options, progress);
         if (!pose.usable()) {

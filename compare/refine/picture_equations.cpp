@@ -13,17 +13,17 @@ namespace culet {
 
 namespace {
 
-constexpr double k_huber = 2;        // deviations beyond which a sample counts less
-constexpr int k_rounds = 3;          // of weights and noise: they settle in two
+constexpr double k_huber = 2;        // deviations beyond which a sample's weight falls
+constexpr int k_rounds = 3;          // of weights and noise, which settle in two
 constexpr double k_rounding = 1e-9;  // of the largest eigenvalue
-// Beyond this the noise is as good as independent. Blurred noise is correlated as
-// exp(-d^2 / 4 blur^2): at 8 by a ten-millionth; what else is correlated reaches farther.
+// Range of the noise's correlation. For blurred noise it is exp(-d^2 / 4 blur^2): a ten-millionth
+// at 8. Other errors are correlated farther.
 constexpr double k_reach = 8;  // blurs
-// Of a sample's `noise`: nothing is known better, not even of two pictures that are equal.
+// Lower limit in units of a sample's `noise`: even two equal pictures say nothing finer.
 constexpr double k_noise_floor = 0.1;
-// Of a direction's prior variance over the picture's own: less than that tells nothing.
+// Smallest ratio of a direction's prior variance to the picture's that counts as information.
 constexpr double k_least_told = 0.01;
-// A picture cannot tell more moves than it has independent samples.
+// A picture cannot determine more moves than it has independent samples.
 constexpr double k_most_told = 0.75;
 
 double typical(const Eigen::VectorXd& values) {
@@ -43,7 +43,7 @@ cv::Mat as_picture(const Eigen::VectorXd& values, const cv::Mat& mask) {
     return picture;
 }
 
-// Of pairs of samples of blurred white noise, by how far apart they are: exp(-d^2 / 4 blur^2).
+// Correlation of blurred white noise at each offset: exp(-d^2 / 4 blur^2).
 cv::Mat blurred_correlation(int reach, double blur) {
     cv::Mat correlation(2 * reach + 1, 2 * reach + 1, CV_32F);
     for (int y = -reach; y <= reach; ++y) {
@@ -55,8 +55,8 @@ cv::Mat blurred_correlation(int reach, double blur) {
     return correlation;
 }
 
-// Weights of pairs of samples likewise: Bartlett's, so that the sum over all pairs is never
-// negative; over what they leave of such noise.
+// Bartlett's weights of pairs at each offset, which keep the sum over all pairs non-negative,
+// divided by the share of such noise that they keep.
 cv::Mat pair_weights(const cv::Mat& correlation) {
     const int reach = correlation.rows / 2;
     cv::Mat line(correlation.rows, 1, CV_32F);
@@ -67,7 +67,7 @@ cv::Mat pair_weights(const cv::Mat& correlation) {
     return weights * (cv::sum(correlation)[0] / weights.dot(correlation));
 }
 
-// Sums over all pairs of samples of the columns' products, each pair with its weight.
+// Sums over all pairs of samples of the columns' weighted products.
 Eigen::MatrixXd pair_sums(const Eigen::MatrixXd& columns, const cv::Mat& mask,
                           const cv::Mat& weights) {
     Eigen::MatrixXd near(columns.rows(), columns.cols());
@@ -82,7 +82,7 @@ Eigen::MatrixXd pair_sums(const Eigen::MatrixXd& columns, const cv::Mat& mask,
     return (sums + sums.transpose()) / 2;
 }
 
-// Over the noise, and with what the nuisances may explain taken out.
+// Divided by the noise, with the nuisances projected out.
 struct Weighted {
     Eigen::MatrixXd changes, nuisances;
     Eigen::VectorXd difference;
@@ -94,7 +94,7 @@ Weighted weighted(const PictureEquations& e, const Eigen::VectorXd& weights) {
             scale.cwiseProduct(e.difference)};
 }
 
-// Orthonormal directions that span the columns, whatever the columns' units.
+// Orthonormal basis of the columns' span, whatever the columns' units.
 Eigen::MatrixXd span_of(Eigen::MatrixXd columns) {
     for (Eigen::Index k = 0; k < columns.cols(); ++k) {
         const double length = columns.col(k).norm();
@@ -104,8 +104,8 @@ Eigen::MatrixXd span_of(Eigen::MatrixXd columns) {
     return parts.first(parts.rank());
 }
 
-// The rows that tell anything beside what was known before, as rows that are independent of each
-// other: directions that the picture hardly sees would add nothing but their noise.
+// Keeps independent rows that add to the prior: directions that the picture hardly sees would add
+// only noise.
 void keep_what_tells(const Eigen::VectorXd& spread, MovesTold& told) {
     const Eigen::MatrixXd scaled = told.rows * spread.asDiagonal();
     const SymmetricEigen parts = symmetric_eigen(transpose_times(scaled, scaled));
@@ -131,7 +131,7 @@ MovesTold moves_told(const PictureEquations& e) {
     const cv::Mat correlation = blurred_correlation(reach, e.blur);
     const cv::Mat weights = pair_weights(correlation);
     const Eigen::VectorXd bent = e.bent.cwiseQuotient(e.noise);
-    // Of blurred white noise of variance 1, as many samples tell no more than one.
+    // Number of samples that are worth one independent sample of blurred white noise.
     const double area = 4 * CV_PI * e.blur * e.blur;
     Eigen::VectorXd moves;
     for (int round = 0; round < k_rounds; ++round) {
@@ -172,12 +172,12 @@ MovesTold moves_told(const PictureEquations& e) {
             told.moves_told = both.solve(information).trace();
         };
         solve();
-        // Residuals are smaller than the noise by what the moves have taken up.
+        // Corrects for the degrees of freedom that the moves have absorbed.
         const double taken = std::min(told.moves_told / told.independent, k_most_told);
         told.rows *= std::sqrt(1 - taken);
         told.values *= std::sqrt(1 - taken);
         solve();
-        // Samples far off, by the noise of one.
+        // Outliers by the noise of a single sample.
         const Eigen::VectorXd off =
             (difference - changes * moves).cwiseQuotient(told.weights.cwiseSqrt());
         told.noise = std::max(typical(off), k_noise_floor);

@@ -12,9 +12,9 @@ namespace culet {
 
 namespace {
 
-// Of normal noise one sample in three million is as far off; a stone has twenty thousand.
+// For normal noise one sample in three million exceeds this; a stone has twenty thousand.
 constexpr double k_deviations = 5;
-constexpr double k_least_area = 0.001;  // of the stone: smaller ones are dust
+constexpr double k_least_area = 0.001;  // of the stone; smaller areas are dust
 constexpr std::size_t k_most = 5;
 
 }  // namespace

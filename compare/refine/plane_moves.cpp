@@ -48,7 +48,7 @@ std::vector<double> moves_between(const Solid& from, const Solid& to) {
         }
         const FacetMoves& facet = facets[f];
         const Plane& plane = to.facets[std::size_t(there)].plane;
-        // Turned by a about u, n goes by a u x n.
+        // A rotation by a about u changes n by a u x n.
         moves.push_back(glm::dot(plane.normal, glm::cross(facet.u, facet.normal)));
         moves.push_back(glm::dot(plane.normal, glm::cross(facet.v, facet.normal)));
         moves.push_back((plane.offset - glm::dot(plane.normal, facet.middle)) / facet.reach);
@@ -67,7 +67,7 @@ std::vector<std::vector<double>> moves_of_the_whole(const Solid& solid) {
             along[axis] = 1;
             auto& shift = whole[std::size_t(axis)];
             shift.insert(shift.end(), {0, 0, glm::dot(f.normal, along) / f.reach});
-            // A turn moves the middle of the facet, too.
+            // The rotation also moves the facet's middle.
             auto& turn = whole[std::size_t(3 + axis)];
             turn.insert(turn.end(), {glm::dot(along, f.u), glm::dot(along, f.v),
                                      glm::dot(f.normal, glm::cross(along, from_middle)) / f.reach});
@@ -78,7 +78,7 @@ std::vector<std::vector<double>> moves_of_the_whole(const Solid& solid) {
 }
 
 PlaneSlopes plane_slopes(const FacetMoves& facet, double by_u, double by_v, double by_shift) {
-    // The shift of a plane whose normal turns is dd - dn . middle.
+    // The shift of a plane with a rotating normal is dd - dn . middle.
     const double offset = by_shift / facet.reach;
     return {by_u * glm::cross(facet.u, facet.normal) + by_v * glm::cross(facet.v, facet.normal) -
                 offset * (facet.middle - glm::dot(facet.middle, facet.normal) * facet.normal),

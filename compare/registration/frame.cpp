@@ -12,10 +12,10 @@ namespace culet {
 
 namespace {
 
-constexpr int k_search_size = 1024;  // the stone is looked for at this size
-constexpr double k_margin = 0.15;    // of the diameter, around the stone
-constexpr double k_worth_it = 0.85;  // reductions weaker than this are not made
-constexpr int k_empty_border = 4;    // so that an outline never runs out of the close-up
+constexpr int k_search_size = 1024;  // size at which the stone is searched
+constexpr double k_margin = 0.15;    // around the stone, of the diameter
+constexpr double k_worth_it = 0.85;  // weaker reductions are not made
+constexpr int k_empty_border = 4;    // keeps the outline inside the close-up
 
 cv::Mat reduced(const cv::Mat& picture, double scale) {
     if (scale >= 1 || picture.empty()) return picture;
@@ -75,7 +75,7 @@ CloseUp close_up(const StoneSource& source, const Cut& cut) {
     part.colour = source.colour(cut.box);
     if (!source.coverage.empty()) part.coverage = source.coverage(cut.box);
     part = reduced(part, cut.scale);
-    // Whole pixels of the reduced picture: the true factor differs a little from the asked one.
+    // The true factor differs slightly, because the reduced picture has whole pixels.
     result.scale = static_cast<double>(part.colour.cols) / cut.box.width;
     result.silhouette = silhouette_of(part);
     result.colour = bordered(part.colour);
@@ -91,7 +91,7 @@ cv::Mat plane_of(const std::vector<float>& values, const Photo& photo) {
     return cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(values.data()));
 }
 
-// What is left out, as a close-up shows it. A pixel that it touches at all is in it.
+// Ignored pixels in a close-up: every pixel that an ignored one touches.
 cv::Mat ignored_in(const Photo& photo, const CloseUp& shown) {
     cv::Mat touched = plane_of(photo.ignored, photo) > 0.5f;
     if (shown.scale < 1) {
@@ -111,8 +111,8 @@ cv::Mat ignored_in(const Photo& photo, const CloseUp& shown) {
     return result;
 }
 
-// A map that is a shift by whole pixels to within a thousandth of a pixel is made just that: it
-// then moves samples without mixing them, and a picture laid on itself stays what it is.
+// Rounds a map that is a shift by whole pixels to within 0.001 pixels to exactly that. It then
+// moves samples without mixing them, and a picture registered with itself stays the same.
 cv::Matx23d whole_pixels(const cv::Matx23d& map, cv::Size size) {
     const cv::Matx23d whole(1, 0, std::round(map(0, 2)), 0, 1, std::round(map(1, 2)));
     const cv::Matx23d off = map - whole;
@@ -124,7 +124,7 @@ cv::Matx23d whole_pixels(const cv::Matx23d& map, cv::Size size) {
     return whole;
 }
 
-// The map between close-ups, restated for the pictures as they were given.
+// Converts the map between close-ups to the pictures as given.
 Similarity in_given_pixels(const Similarity& s, const CloseUp& photo, const CloseUp& render) {
     Similarity result;
     result.scale = s.scale * photo.scale / render.scale;

@@ -18,11 +18,11 @@ namespace culet {
 
 namespace {
 
-// Outlines this round hold no turn: 0.0015 of the diameter is half the figure of a 16-gon, and
-// below two thirds of a pixel the stairs of the mask decide.
+// Rounder outlines do not determine the turn: 0.0015 of the diameter is half the figure of a
+// 16-gon, and below two thirds of a pixel the mask's staircase decides.
 constexpr double k_round = 0.0015, k_round_px = 0.67;
 
-// Where the signed distance changes sign between neighbours, by linear interpolation.
+// Zero crossings of the signed distance between neighbours, by linear interpolation.
 std::vector<cv::Point2d> outline_of(const cv::Mat& distance) {
     std::vector<cv::Point2d> points;
     const auto crossing = [](float a, float b) { return static_cast<double>(a) / (a - b); };
@@ -46,7 +46,7 @@ struct Sample {
     cv::Point2d slope;
 };
 
-/// Value and slope of the bilinear surface; outside the picture the distance to it is added.
+/// Value and gradient of the bilinear surface; outside the picture the distance to it is added.
 Sample sample(const cv::Mat& field, const cv::Point2d& p) {
     const double x = std::clamp(p.x, 0.0, field.cols - 1.001);
     const double y = std::clamp(p.y, 0.0, field.rows - 1.001);
@@ -61,14 +61,14 @@ Sample sample(const cv::Mat& field, const cv::Point2d& p) {
     return result;
 }
 
-// a, b, x and y in q = (a, -b; b, a) (p - about) + about + (x, y): the unknowns enter linearly.
+// Unknowns a, b, x and y, which are linear in q = (a, -b; b, a) (p - about) + about + (x, y).
 using Unknowns = std::array<double, 4>;
 
 Similarity similarity_of(const Unknowns& u, const cv::Point2d& about) {
     return {std::hypot(u[0], u[1]), std::atan2(u[1], u[0]), about, {u[2], u[3]}};
 }
 
-/// Distance of a point of the photo's outline from the render's.
+/// Distance of a point of the photo's outline from the render's outline.
 class OutlineResidual : public ceres::SizedCostFunction<1, 4> {
 public:
     OutlineResidual(const cv::Mat& field, const cv::Point2d& point, const cv::Point2d& about)
@@ -107,10 +107,10 @@ double rms_residual(const cv::Mat& field, const std::vector<cv::Point2d>& points
     return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-// The turn is held when it is not in the outline.
+// `turn_free` false: the outline does not determine the turn, which is fixed.
 Found refined(const cv::Mat& field, const std::vector<cv::Point2d>& points,
               const cv::Point2d& about, Unknowns u, double diameter, bool turn_free) {
-    // Wide at first, then down to a pixel: far points must be able to come in, and then not pull.
+    // Huber limit: wide first, so that distant points pull, then a pixel, so that outliers do not.
     for (const double huber : {0.05 * diameter, 1.0}) {
         ceres::Problem problem;
         auto* loss = new ceres::HuberLoss(huber);
@@ -158,13 +158,13 @@ Found best_from(const cv::Mat& field, const std::vector<cv::Point2d>& points,
                     {scale * std::cos(turn), scale * std::sin(turn), shift.x, shift.y},
                     render.diameter, turn_free);
         if (std::abs(std::atan2(found.unknowns[1], found.unknowns[0])) > most_turn) continue;
-        // A later start must be better by more than the noise of a fit that is the same.
+        // A later start must be better by more than the noise between equal fits.
         if (best.rms < 0 || found.rms < 0.98 * best.rms) best = found;
     }
     return best;
 }
 
-// Would the outlines fit if the render were turned by quarters or mirrored?
+// Whether the outlines would fit with the render turned by quarters or mirrored.
 std::string hint(const Silhouette& photo, const Silhouette& render, double iou) {
     std::string best;
     double best_iou = iou + 0.03;
@@ -226,7 +226,7 @@ OutlineMatch match_outlines(const Silhouette& photo, const Silhouette& render,
     };
     match.turn_known = !is_round(photo) && !is_round(render);
     std::vector<double> turns{0};
-    // The long axis means something from an oval of about 1:1.03 on (out_of_round 0.005).
+    // The long axis is meaningful for ovals from about 1:1.03 (out_of_round 0.005).
     if (match.turn_known && std::min(photo.out_of_round, render.out_of_round) > 0.005) {
         const double axes = long_axis(render.mask) - long_axis(photo.mask);
         for (const double turn : {wrapped(axes), wrapped(axes + std::numbers::pi)}) {
@@ -237,7 +237,7 @@ OutlineMatch match_outlines(const Silhouette& photo, const Silhouette& render,
         best_from(field, points, photo, render, turns, match.turn_known, limits.most_turn + 0.05);
     const bool far_turned = found.rms < 0;
     if (far_turned) {
-        // Laid over by centre and area only, for the picture that shows why it does not fit.
+        // Aligned by centre and area only, for the picture that shows why it does not fit.
         const cv::Point2d shift = render.centre - photo.centre;
         found.unknowns = {render.diameter / photo.diameter, 0, shift.x, shift.y};
         found.rms = rms_residual(field, points, photo.centre, found.unknowns);

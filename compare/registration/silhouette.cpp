@@ -15,12 +15,12 @@ namespace culet {
 
 namespace {
 
-// Below 32 pixels across, the finest blur of the scores (1 % of the diameter) is a third of a
-// pixel, and an outline known to half a pixel gives the scale to no better than 3 %.
+// Below 32 pixels across, the scores' finest blur (1 % of the diameter) is a third of a pixel, and
+// an outline known to half a pixel gives the scale only to 3 %.
 constexpr double k_smallest_diameter_px = 32;
 
 // Differences from the background in sRGB-encoded units (0..1). 0.02 is 5 of 255: above the
-// rounding and JPEG noise of a dark box. On a light ground a soft shadow reaches some 0.06.
+// rounding and JPEG noise of a dark box. On a light ground a soft shadow reaches about 0.06.
 constexpr double k_dark_ground = 0.25;  // encoded luminance of the background
 constexpr float k_least_difference_dark = 0.02f, k_least_difference_light = 0.06f;
 
@@ -57,8 +57,8 @@ void judge(Silhouette& silhouette, const std::string& none) {
     }
 }
 
-// One third of the mask's border pixels may touch the picture's edge before the outline counts as
-// cut off: less happens with a holder that runs out of the picture.
+// The share of the picture's border that the mask covers; a holder that runs out of the picture
+// covers little.
 double touching_share(const cv::Mat& mask) {
     const int w = mask.cols, h = mask.rows;
     const int touching = cv::countNonZero(mask.row(0)) + cv::countNonZero(mask.row(h - 1)) +
@@ -72,7 +72,7 @@ struct Background {
     double level = 0;    ///< mean encoded luminance
 };
 
-// A plane a + b x + c y through the border's pixels, refitted twice without what lies far off.
+// A plane a + b x + c y through the border's pixels, refitted twice without outliers.
 cv::Vec3d border_plane(const std::vector<cv::Vec3d>& places, const std::vector<double>& values) {
     cv::Vec3d plane(upper_median(values), 0, 0);
     for (int round = 0; round < 3; ++round) {
@@ -108,7 +108,7 @@ Background background_of(const cv::Mat& shown) {
         }
     }
     Background background;
-    cv::Matx33d planes;  // one row a channel
+    cv::Matx33d planes;  // one row for each channel
     for (int c = 0; c < 3; ++c) {
         std::vector<double> values(colours.size());
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = colours[i][c];
@@ -136,7 +136,7 @@ Background background_of(const cv::Mat& shown) {
 float least_difference(const Background& background) {
     float least = k_least_difference_dark;
     if (background.level > k_dark_ground) {
-        // A third of Otsu's level keeps soft shadows out and pale facets in.
+        // A third of Otsu's level excludes soft shadows and includes pale facets.
         cv::Mat bytes, ignored;
         background.difference.convertTo(bytes, CV_8U, 255);
         const double otsu = cv::threshold(bytes, ignored, 0, 255, cv::THRESH_OTSU) / 255;
@@ -145,21 +145,21 @@ float least_difference(const Background& background) {
     return least;
 }
 
-// The largest of three channels' differences lies about 1.8 sigma of one channel's noise from zero
-// (its median times 1.4826), so that four of these are seven sigma.
+// The largest of three channels' differences is about 1.8 sigma of one channel's noise (its median
+// times 1.4826), so four of these are seven sigma.
 float noise_limit(const Background& background) {
     return 4 * background.noise;
 }
 
 struct Differing {
     cv::Mat mask;
-    cv::Mat difference;  // CV_32F, perhaps blurred
+    cv::Mat difference;  // CV_32F, possibly blurred
     double blur = 0;     // sigma, pixels
     float threshold = 0;
 };
 
-// What differs from the background. A noisy picture is blurred until its noise lies below the
-// differences that matter; a clean one is not touched.
+// Finds what differs from the background. A noisy picture is first blurred until its noise is below
+// the relevant differences.
 Differing differing(const cv::Mat& shown_picture) {
     Differing result;
     Background background = background_of(shown_picture);
@@ -176,12 +176,12 @@ Differing differing(const cv::Mat& shown_picture) {
     return result;
 }
 
-// A low threshold finds the foot of the outline's slope, not its middle. Looks along the normals
-// for the steepest place, and moves the whole outline by the median of what it finds: one offset
-// for all, so that dark facets along the girdle cannot dent it.
+// A low threshold finds the foot of the outline's slope instead of its middle. Finds the steepest
+// places along the normals and moves the whole outline by their median: a single offset, so that
+// dark facets along the girdle cannot dent it.
 cv::Mat settled(const cv::Mat& mask, const Differing& found) {
     const cv::Mat distance = signed_distance(mask);
-    // The foot of a blurred edge lies up to two sigma outside it.
+    // The foot of a blurred edge is up to two sigma outside it.
     const double outward = 1.5, inward = 2 * found.blur + 1.5;
     std::vector<double> offsets;
     for (int y = 1; y + 1 < mask.rows; ++y) {
@@ -204,7 +204,7 @@ cv::Mat settled(const cv::Mat& mask, const Differing& found) {
                 steepest = slope;
                 where = step;
             }
-            // Facets as dark as the ground have no edge to find.
+            // Facets as dark as the ground have no edge.
             if (steepest < found.threshold / 2) continue;
             offsets.push_back(where + static_cast<double>(distance.at<float>(y, x)));
         }
@@ -213,8 +213,8 @@ cv::Mat settled(const cv::Mat& mask, const Differing& found) {
     return distance < upper_median(std::move(offsets));
 }
 
-// The largest connected part, with every part of at least 1/200 of its area that lies within a
-// quarter of the stone's extent: bright facets of a stone in a dark box are islands.
+// The largest connected part, plus every part with at least 1/200 of its area within a quarter of
+// the stone's extent: bright facets of a stone in a dark box are islands.
 std::vector<cv::Point> joined_parts(const cv::Mat& differs) {
     cv::Mat labels, stats, centres;
     const int count = cv::connectedComponentsWithStats(differs, labels, stats, centres);
@@ -280,7 +280,7 @@ Silhouette silhouette_from_background(const cv::Mat& colour) {
         silhouette.trouble = none;
         return silhouette;
     }
-    // Bring pictures of any exposure to a common brightness before differences are judged.
+    // Normalise the exposure before differences are assessed.
     const double bright = quantile(luminance(colour), {}, 0.995);
     if (!(bright > 0)) {
         silhouette.trouble = "the picture is black: no stone can be seen";
@@ -289,7 +289,7 @@ Silhouette silhouette_from_background(const cv::Mat& colour) {
     const cv::Mat scaled = colour * (1.0 / bright);
     const Differing found = differing(encoded(scaled));
     cv::Mat differs = found.mask;
-    // Drop single hot pixels, then close gaps of up to 3 % of the picture.
+    // Remove single hot pixels, then close gaps of up to 3 % of the picture.
     const int reach = std::max(1, std::min(colour.cols, colour.rows) * 3 / 200);
     const auto disc = [](int radius) {
         return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
@@ -322,7 +322,7 @@ cv::Mat signed_distance(const cv::Mat& mask) {
     cv::Mat inside, outside, distance;
     cv::distanceTransform(mask, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
     cv::distanceTransform(255 - mask, outside, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-    // Both count from the centre of the nearest pixel of the other kind; the outline lies half way.
+    // Both distances are to the nearest pixel's centre; the outline is half way.
     cv::Mat is_inside;
     mask.convertTo(is_inside, CV_32F, 1.0 / 255);
     distance = outside - inside + is_inside - 0.5;

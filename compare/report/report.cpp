@@ -28,7 +28,7 @@ std::string report_page(const Report& report) {
         parsed_object<Json>(report.stats_json, "the render's figures for the report");
 
     const FitView fitted{report.fit_json, report.fitted, report.length_unit};
-    // What to believe, what to look at, the picture; then what explains them.
+    // First the verdict, notable points and the picture; then the explanations.
     std::string page = headline_section(report, fitted) + fit_look_section(fitted);
     const std::string compared = pictures_section(report), rendered = changes_section(report);
     page += compared.empty() ? rendered : compared;

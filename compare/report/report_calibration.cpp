@@ -1,5 +1,5 @@
-// Sections of the report that say what the scores mean: sensitivity curves with the photograph's
-// place on them, chance, and other hypotheses.
+// Report sections on the meaning of the scores: sensitivity curves with the photograph's place on
+// them, chance, and hypotheses.
 
 #include <fmt/format.h>
 
@@ -42,8 +42,8 @@ std::string degrees_text(const EquivalentError& error) {
     return error.at_most ? "≤ " + text : text;
 }
 
-// One score against facet error: the curve from the draws, the draws of the nulls as strokes at the
-// right, and the photograph's value as a line across with its place on the curve.
+// One score against facet error: the curve from the draws, the nulls' draws as strokes at the
+// right, and the photograph's value as a horizontal line with its place on the curve.
 class CurvePicture {
 public:
     CurvePicture(const SensitivityCurve& curve, std::vector<double> nulls)
@@ -99,7 +99,7 @@ private:
     static View label(const std::string& x, const std::string& y, const std::string& text) {
         return {{"x", x}, {"y", y}, {"text", text}};
     }
-    // The ceiling stands at the left end.
+    // The ceiling (error 0) is at the left end.
     static double log_deg(double deg) { return std::log10(std::max(deg, 0.01)); }
     double x(double deg) const {
         return k_left + 8 + (log_deg(deg) + 2) / (std::log10(2.0) + 2) * (k_right - k_left - 16);
@@ -170,7 +170,6 @@ std::vector<double> null_values(const Calibration& calibration, const std::strin
 }
 
 View curve_figures(const CalibratedVerdict& verdict) {
-    // Those that weigh most.
     std::vector<SensitivityCurve> curves = verdict.curves;
     std::stable_sort(curves.begin(), curves.end(),
                      [](const auto& a, const auto& b) { return a.weight > b.weight; });

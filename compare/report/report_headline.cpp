@@ -1,4 +1,4 @@
-// The top of the report: the verdict, and the numbers that a reader asks for first.
+// Top of the report: the verdict and the most important numbers.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// The report's pictures: photograph and render on one another, and maps of where they differ.
+// The report's pictures: photograph and render overlaid, and maps of their differences.
 
 #include <fmt/format.h>
 
@@ -44,8 +44,8 @@ std::string map_uri(const PixelMap& map, ColourMap colours, double low, double h
 }
 
 std::optional<double> white_for_stone(std::vector<float> brightest) {
-    // Most of a stone is shown as a medium tone; glints are few and may burn out, but not more than
-    // a fourteenth of it, and not less than a fiftieth: a picture without a white looks dull.
+    // Shows the median as a medium tone. Between 2 and 7 % of the stone may be over-exposed (glints
+    // are few): a picture without white looks dull.
     constexpr double k_median_shown = 0.4, k_most_over = 0.07, k_least_over = 0.02;
     std::erase_if(brightest, [](float v) { return !(v > 0) || !std::isfinite(v); });
     if (brightest.empty()) return std::nullopt;

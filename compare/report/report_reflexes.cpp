@@ -1,4 +1,4 @@
-// The section of the report that draws the bright reflexes over both pictures.
+// Report section that draws the bright reflexes over both pictures.
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ std::string reflexes_section(const Report& report) {
     std::vector<View> rings;
     for (const ReflexCount::Mark& mark : marks) {
         const bool found = mark.partner >= 0;
-        // Lines are drawn once, from the photo's side.
+        // Each line is drawn once, from the photo's side.
         const bool apart = found && mark.of_photo;
         const auto& other =
             apart ? marks[first_of_render + static_cast<std::size_t>(mark.partner)] : mark;

@@ -1,4 +1,4 @@
-// How the render was laid on the photograph, as the report shows it.
+// Report section on the registration of render and photograph.
 
 #include <fmt/format.h>
 
@@ -68,7 +68,7 @@ std::string registration_section(const Report& report) {
                 {"pose", !pose.empty()},
                 {"pose_uri", pose.empty() ? "" : png_uri(pose)},
                 {"used", report.pose_used}});
-    // A refusal is about the outlines.
+    // Open after a refusal, because that is about the outlines.
     return folded_section("registration", "How the outlines were laid on one another", body,
                           !c.usable());
 }

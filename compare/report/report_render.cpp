@@ -1,5 +1,5 @@
-// Sections of the report that come from a render: what changed against the starting mesh, how it
-// was rendered, how the page was made.
+// Report sections from a render: changes against the starting mesh, how it was rendered, how the
+// page was made.
 
 #include <fmt/format.h>
 
@@ -21,11 +21,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr float k_covered = 0.5f;  // of a pixel, what the stone must fill to count as its light
+constexpr float k_covered = 0.5f;  // least coverage of a pixel that counts as the stone's light
 
 double white_of(const Report& report) {
     if (report.renders_white > 0) return report.renders_white;
-    // The same for both pictures: brightness is part of what is compared.
+    // The same for both pictures, because brightness is part of the comparison.
     std::vector<float> brightest;
     for (const auto* picture : {&report.starting_render, &report.fitted_render}) {
         if (!picture->has_value()) continue;

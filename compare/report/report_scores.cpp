@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The null's draws as strokes and the value as a dot, better to the right.
+// The null's draws as strokes and the value as a dot; right is better.
 View strip(const std::vector<double>& null, const std::optional<double>& value,
            bool higher_is_better) {
     if (null.empty() || !value) return false;
@@ -74,7 +74,7 @@ std::string score_name(const std::string& key) {
 std::string scores_section(const Report& report, const nlohmann::json& scores) {
     if (!report.comparison || !scores.contains("scores") || !scores["scores"].is_object())
         return {};
-    // In the order of the table, then whatever else there is.
+    // In the table's order, then any others.
     std::vector<View> rows;
     for (const ScoreKind& kind : score_kinds()) {
         if (scores["scores"].contains(kind.key)) {

@@ -114,7 +114,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
                   k_match_z, k_match_zncc, k_partial_z);
     json["notes"] = comparison.notes;
     if (!comparison.pose_note.empty()) json["notes"].push_back("pose: " + comparison.pose_note);
-    // File names need not be UTF-8; what is not is replaced rather than thrown over.
+    // File names need not be UTF-8: invalid bytes are replaced, so that nothing throws.
     return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
