@@ -183,7 +183,7 @@ void PhotographEvidence::settle(const Solid& solid) {
     // Blurs add in squares.
     p.camera.psf_px *= std::sqrt(
         std::max(k_least_sharper, 1 + (k_softer * k_softer - 1) * found[Nuisance::softer]));
-    // The picture's displacement is the inverse of that of the samples.
+    // The samples move opposite to the picture.
     const double around = -2 * k_moved_by_unit / k_samples_across;
     const double scale = around * found[Nuisance::larger], turn = around * found[Nuisance::turned];
     const double x = -k_moved_by_unit * found[Nuisance::right],

@@ -10,13 +10,13 @@ namespace culet {
 
 namespace {
 
-// A sample within 1 % of the clipping level counts as clipped: JPEGs round there.
+// A sample within 1 % of the clipping level counts as clipped, because JPEGs round there.
 constexpr double k_clipped = 0.99;
 
-// Of the diameter. The longest wavelets are as long; blurs of light that reach as far see nothing
+// Share of the diameter, for the longest wavelets. Blurs of light that reach as far use nothing
 // outside the mask.
 constexpr double k_around = 0.06;
-// The window of SSIM reaches five pixels.
+// SSIM's window reaches five pixels.
 constexpr int k_least_around = 6;
 
 cv::Mat eroded(const cv::Mat& mask, double by_px) {
@@ -31,7 +31,7 @@ cv::Rect part_to_score(const MatchedPictures& pictures) {
     const cv::Rect box = cv::boundingRect(pictures.mask);
     const int around =
         std::max(k_least_around, static_cast<int>(std::ceil(k_around * pictures.diameter)));
-    // From even pixels to even ones, so that scores that halve the pictures pair the same ones.
+    // Even bounds, so that scores that halve the pictures pair the same pixels.
     const auto even = [](int at) { return std::max(0, at - at % 2); };
     const cv::Point corner(even(box.x - around), even(box.y - around));
     const cv::Point far(even(box.x + box.width + around + 1),
@@ -64,7 +64,7 @@ void multiply_channels(cv::Mat& colour, const std::array<double, 3>& gain) {
 
 namespace {
 
-// Mask, white level and gain of pictures that lie on one another.
+// Sets mask, white level and gain of registered pictures.
 void match_exposure(AlignedPair& pair) {
     const Frame& frame = pair.frame;
     if (frame.render.empty()) return;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double k_cell = 8;
 constexpr int k_most_pixels = 30000;
-constexpr std::size_t k_most_cells = 96;  // cv::EMD takes seconds from some 200 on
+constexpr std::size_t k_most_cells = 96;  // cv::EMD takes seconds from about 200
 
 struct Colours {
     std::vector<Lab> pixels;
@@ -26,7 +26,7 @@ struct Colours {
 
 Colours colours_of(const cv::Mat& colour, const cv::Mat& mask, double white) {
     Colours result;
-    // Every so manieth pixel is enough for a distribution.
+    // A subset of the pixels is enough for a distribution.
     const int step = 1 + cv::countNonZero(mask) / k_most_pixels;
     int count = 0;
     for (int y = 0; y < mask.rows; ++y) {
@@ -49,7 +49,7 @@ Colours colours_of(const cv::Mat& colour, const cv::Mat& mask, double white) {
     return result;
 }
 
-// Rows of weight, L, a, b: the mean colour of every cell that holds any.
+// Rows of weight, L, a, b: the mean colour of every non-empty cell.
 cv::Mat signature(const std::vector<Lab>& pixels, double cell) {
     struct Gathered {
         double count = 0, L = 0, a = 0, b = 0;
@@ -76,7 +76,7 @@ cv::Mat signature(const std::vector<Lab>& pixels, double cell) {
 }
 
 double earth_movers_distance(const std::vector<Lab>& photo, const std::vector<Lab>& render) {
-    // One cell size for both: else equal pictures could be apart.
+    // The same cell size for both, or equal pictures could differ.
     for (double cell = k_cell;; cell *= 1.25) {
         const cv::Mat p = signature(photo, cell), r = signature(render, cell);
         if (static_cast<std::size_t>(std::max(p.rows, r.rows)) > k_most_cells) continue;

@@ -38,7 +38,7 @@ PixelMap map_of(const cv::Mat& values, const cv::Mat& mask) {
     return map;
 }
 
-// Values of a part of the frame, in the frame.
+// Inserts a part's values into the frame.
 PixelMap map_of(const cv::Mat& values, const cv::Rect& part, const cv::Mat& mask) {
     cv::Mat whole = cv::Mat::zeros(mask.size(), CV_32F);
     values.copyTo(whole(part));
@@ -88,7 +88,7 @@ Registration registration_of(const Frame& frame) {
     return r;
 }
 
-// `corner`: of the part of the frame in which the reflexes were matched.
+// `corner`: of the frame's part in which the reflexes were matched.
 ReflexCount counted(const ReflexMatch& match, const cv::Point& corner) {
     ReflexCount count{match.in_photo,
                       match.in_render,
@@ -110,7 +110,7 @@ ReflexCount counted(const ReflexMatch& match, const cv::Point& corner) {
     return count;
 }
 
-// One row of scores a draw; the gain is solved anew, as it was for the render itself.
+// Adds one row of scores for each draw. The gain is solved anew, as it was for the render itself.
 void add_null(const MeasuredPair& close, const cv::Mat& usable, const cv::Mat& outline,
               const CompareOptions& options, const Progress& progress, Comparison& result) {
     const std::vector<Rotation> draws =

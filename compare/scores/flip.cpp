@@ -25,7 +25,7 @@ double sigma_px(const Sensitivity& s, double pixels_per_degree) {
     return pixels_per_degree * std::sqrt(s.b / 2) / std::numbers::pi;
 }
 
-// All channels are filtered out to three deviations of the widest, as the authors' program does.
+// Filters all channels out to three sigma of the widest, as the authors' program does.
 cv::Mat blurred(const cv::Mat& plane, double sigma, int radius) {
     cv::Mat result;
     cv::GaussianBlur(plane, result, {2 * radius + 1, 2 * radius + 1}, sigma, sigma,
@@ -38,7 +38,7 @@ const cv::Matx33f k_xyz{0.4124f / 0.9505f, 0.3576f / 0.9505f, 0.1805f / 0.9505f,
                         0.2126f,           0.7152f,           0.0722f,
                         0.0193f / 1.0890f, 0.1192f / 1.0890f, 0.9505f / 1.0890f};
 
-// Y Cx Cz (equation 1) without their constant factors, which linear filters do not see.
+// Y Cx Cz (equation 1) without their constant factors, which do not matter to linear filters.
 const cv::Matx33f k_opponent{0, 1, 0, 1, -1, 0, 0, 1, -1};
 
 struct Seen {
@@ -86,14 +86,14 @@ Seen seen(const cv::Mat& linear, const cv::Mat& asked, double pixels_per_degree)
     return result;
 }
 
-// HyAB (equation 4): lightness apart plus hue and chroma apart.
+// HyAB (equation 4): the lightness difference plus the chromatic distance.
 double hyab(const cv::Vec3f& p, const cv::Vec3f& q) {
     const cv::Vec3f d = p - q;
     return std::abs(static_cast<double>(d[0])) +
            std::hypot(static_cast<double>(d[1]), static_cast<double>(d[2]));
 }
 
-// The largest difference there is: green against blue (section 4.1.2).
+// The largest possible difference: green against blue (section 4.1.2).
 double largest_difference() {
     const auto hunt = [](double r, double g, double b) {
         const Lab lab = lab_from_linear_srgb(r, g, b);
@@ -103,14 +103,14 @@ double largest_difference() {
     return std::pow(hyab(hunt(0, 1, 0), hunt(0, 0, 1)), 0.7);
 }
 
-// Equations 5 and 6: 0.4 of the largest difference is stretched over 0.95 of the scale.
+// Equations 5 and 6: 0.4 of the largest difference is mapped to 0.95 of the scale.
 double colour_difference(double apart, double largest) {
     const double powered = std::pow(apart, 0.7), knee = 0.4 * largest;
     if (powered < knee) return powered * 0.95 / knee;
     return 0.95 + (powered - knee) / (largest - knee) * 0.05;
 }
 
-// One-dimensional Gaussian and its derivatives; positive and negative weights sum to one each.
+// One-dimensional Gaussian and its derivatives; positive and negative weights each sum to one.
 struct FeatureKernels {
     cv::Mat smooth, edge, point;
 };
@@ -142,7 +142,7 @@ FeatureKernels feature_kernels(double pixels_per_degree) {
     return kernels;
 }
 
-// Length of the two directional answers of a feature detector.
+// Magnitude of a feature detector's two directional responses.
 cv::Mat feature(const cv::Mat& luminance, const cv::Mat& kernel, const cv::Mat& smooth) {
     cv::Mat across, down, length;
     cv::sepFilter2D(luminance, across, CV_32F, kernel, smooth, {-1, -1}, 0, cv::BORDER_REPLICATE);
@@ -176,7 +176,7 @@ cv::Mat flip_map(const cv::Mat& first, const cv::Mat& second, const cv::Mat& ask
             if (asked.at<unsigned char>(y, x) == 0) continue;
             const double colour = colour_difference(
                 hyab(a.hunt.at<cv::Vec3f>(y, x), b.hunt.at<cv::Vec3f>(y, x)), largest);
-            // Equation 8, then 9: where features differ, colours count more.
+            // Equations 8 and 9: where features differ, colours count more.
             const double different = std::sqrt(
                 std::min(1.0, static_cast<double>(features.at<float>(y, x)) / std::numbers::sqrt2));
             map.at<float>(y, x) = static_cast<float>(std::pow(colour, 1 - different));

@@ -43,7 +43,7 @@ cv::Mat root_luminance(const cv::Mat& colour, double white) {
     return result;
 }
 
-// sigma of the residuals by their median: 1.4826 is 1 over the normal quantile of 3/4.
+// Sigma of the residuals from their median: 1.4826 is 1 over the normal quantile of 3/4.
 double spread(std::vector<double> residuals) {
     return 1.4826 * upper_median(std::move(residuals));
 }
@@ -60,7 +60,7 @@ double gain_of_channel(const std::vector<double>& photo, const std::vector<doubl
     for (int round = 0; round < 20; ++round) {
         for (std::size_t i = 0; i < photo.size(); ++i)
             off[i] = std::abs(photo[i] - gain * render[i]);
-        // Huber's constant: 95 % efficiency on normal noise. The floor keeps an exact fit exact.
+        // Huber's constant: 95 % efficiency for normal noise. The floor keeps an exact fit exact.
         const double floor = 1e-6 * photo_sum / static_cast<double>(photo.size());
         const double limit = std::max(floor, 1.345 * spread(off));
         double top = 0, bottom = 0;
@@ -83,7 +83,7 @@ double gain_of_channel(const std::vector<double>& photo, const std::vector<doubl
 std::array<double, 3> solve_gain(const cv::Mat& photo, const cv::Mat& render,
                                  const cv::Mat& usable) {
     std::array<double, 3> gain{1, 1, 1};
-    // Every so manieth pixel is enough for three numbers.
+    // A subset of the pixels is enough for three numbers.
     const int step = 1 + cv::countNonZero(usable) / k_most_for_gain;
     for (int c = 0; c < 3; ++c) {
         std::vector<double> p, r;
@@ -110,8 +110,8 @@ ShownPictures shown(const MatchedPictures& pictures) {
 
 std::vector<std::optional<double>> zncc(const MatchedPictures& pictures,
                                         const std::vector<double>& blurs) {
-    // Both under the mask, and the mask itself: their blurs' ratio is the Gaussian mean of what
-    // lies under the mask, and nothing bleeds in from outside.
+    // Normalised convolution: blurs both pictures under the mask and divides by the blurred mask,
+    // so that nothing enters from outside.
     cv::Mat masked;
     {
         cv::Mat inside;
@@ -145,7 +145,7 @@ std::vector<std::optional<double>> zncc(const MatchedPictures& pictures,
             rr += dr * dr;
             pr += dp * dr;
         });
-        // One brightness: contrast below what single precision and 8 bits can carry.
+        // Uniform: contrast below the precision of single floats and 8 bits.
         const double least = count * 1e-4 * 1e-4;
         if (pp <= least || rr <= least) {
             values.emplace_back();

@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_bright_share = 0.9;    // of the pixels are darker than a reflex
+constexpr double k_bright_share = 0.9;    // share of the pixels darker than a reflex
 constexpr double k_least_extent = 0.007;  // of the diameter
 constexpr double k_blur = 0.003;          // of the diameter
 constexpr double k_reach = 0.02;          // of the diameter
@@ -23,8 +23,8 @@ constexpr double k_area_factor = 3;
 constexpr double k_coloured = 10;        // CIELAB chroma
 constexpr double k_hue_cosine = 0.8660;  // of 30 degrees
 
-// Clipped at white, and blurred a little: a flat part of the stone that is as bright as the level
-// would else break up into spots of noise.
+// Luminance clipped at white and slightly blurred: otherwise a flat part of the stone near the
+// level would break up into spots of noise.
 cv::Mat smoothed_light(const cv::Mat& colour, const MatchedPictures& pictures) {
     cv::Mat light = luminance(colour);
     cv::min(light, pictures.white, light);
@@ -33,7 +33,7 @@ cv::Mat smoothed_light(const cv::Mat& colour, const MatchedPictures& pictures) {
     return light;
 }
 
-// Reflexes and where they are: `labels` holds 1 + the index of a reflex, 0 elsewhere.
+// Reflexes and their pixels: `labels` holds 1 + a reflex's index, 0 elsewhere.
 struct Found {
     std::vector<Reflex> reflexes;
     cv::Mat labels;

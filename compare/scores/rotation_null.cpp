@@ -30,12 +30,12 @@ Roots roots_of(const cv::Matx22d& m) {
     return result;
 }
 
-// 53 random bits as 0..1: the same on every standard library.
+// 53 random bits in 0..1, the same with every standard library.
 double uniform(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1.0p-53;
 }
 
-// How much the render is like its rotated self, at the size of a thumbnail.
+// Correlation of the render with its rotated self, at thumbnail size.
 double likeness(const MatchedPictures& pictures, const Rotation& draw) {
     MatchedPictures self = rotated(pictures, draw);
     self.photo = pictures.render;
@@ -48,7 +48,7 @@ MatchedPictures rotated(const MatchedPictures& pictures, const Rotation& draw) {
     MatchedPictures result = pictures;
     result.render = resampled(pictures.render, draw.render_from_rotated, pictures.render.size(),
                               Kernel::linear, Beyond::nearest);
-    // Into a matrix of its own: assigned straight away it would be written over the shared mask.
+    // A separate matrix: assigning directly would overwrite the shared mask.
     const cv::Mat covered = pictures.mask & resampled_mask(pictures.mask, draw.render_from_rotated,
                                                            pictures.mask.size());
     result.mask = covered;
@@ -63,7 +63,7 @@ std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::
     const cv::Vec2d middle(m.m10 / m.m00, m.m01 / m.m00);
     const Roots roots = roots_of({m.mu20 / m.m00, m.mu11 / m.m00, m.mu11 / m.m00, m.mu02 / m.m00});
 
-    // Likeness is judged on a small copy: blurred by 2 % of the diameter it needs no more pixels.
+    // A small copy is enough, because the likeness is blurred by 2 % of the diameter.
     MatchedPictures small = pictures;
     const double scale = std::min(1.0, 160 / pictures.diameter);
     if (scale < 1) {
@@ -82,7 +82,7 @@ std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::
         const cv::Matx22d rotation(c, -s * mirror, s, c * mirror);
         const cv::Matx22d about = roots.root * rotation * roots.inverse;
         const auto matrix = [&](double factor) {
-            // Pixel centres of the small copy lie at (p + 0.5) * factor - 0.5.
+            // Pixel centres of the small copy are at (p + 0.5) * factor - 0.5.
             const cv::Vec2d at((middle[0] + 0.5) * factor - 0.5, (middle[1] + 0.5) * factor - 0.5);
             const cv::Vec2d origin = at - about * at;
             return cv::Matx23d(about(0, 0), about(0, 1), origin[0], about(1, 0), about(1, 1),

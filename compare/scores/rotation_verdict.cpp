@@ -10,8 +10,7 @@ namespace culet {
 
 namespace {
 
-// Bright and dark places, or, where the photograph's brightness is not to be trusted, the facets'
-// images.
+// The pattern of light, or, where the photograph's brightness cannot be trusted, the facets' edges.
 const Score& deciding(const Comparison& result) {
     const char* key = result.geometry_only ? "cw_ssim" : "zncc";
     return *std::find_if(result.scores.begin(), result.scores.end(),

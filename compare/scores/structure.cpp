@@ -15,7 +15,7 @@ constexpr int k_steps = 64;
 
 struct Range {
     double low = 0, high = 0;
-    // The last step holds its upper end too.
+    // The last step includes its upper end.
     int step(float value) const {
         if (!(high > low)) return 0;
         const double share = (static_cast<double>(value) - low) / (high - low);
@@ -40,8 +40,8 @@ double entropy(const double* counts, std::size_t size, double total) {
 }  // namespace
 
 std::optional<double> gmsd(const ShownPictures& pictures, const cv::Mat& mask) {
-    // OpenCV's constant is meant for 0..255. Outside the stone both pictures are made black: what
-    // surrounds a stone must not reach into it.
+    // OpenCV's constant is for 0..255. Outside the stone both pictures are black, so that the
+    // surroundings do not matter.
     cv::Mat photo(mask.size(), CV_8U, cv::Scalar(0)), render = photo.clone(), bytes;
     pictures.photo_luma.convertTo(bytes, CV_8U, 255);
     bytes.copyTo(photo, mask);
@@ -50,7 +50,7 @@ std::optional<double> gmsd(const ShownPictures& pictures, const cv::Mat& mask) {
     if (mask.rows < 4 || mask.cols < 4) return std::nullopt;
     cv::Mat map, inside;
     cv::quality::QualityGMSD::compute(photo, render, map);
-    // A pixel of the map sees the four of its own and those around them.
+    // A pixel of the map depends on its own four pixels and their neighbours.
     cv::resize(mask, inside, map.size(), 0, 0, cv::INTER_AREA);
     inside = inside == 255;
     cv::erode(inside, inside, cv::Mat::ones(3, 3, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, 0);

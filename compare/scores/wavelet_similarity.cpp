@@ -14,12 +14,12 @@ namespace {
 constexpr double k_largest_diameter = 256;
 constexpr std::array k_wavelengths{0.03, 0.06};  // of the diameter
 constexpr int k_directions = 6;
-constexpr double k_octave = 0.65;  // sigma of log frequency, as a ratio: about one octave
-// K of equation 7 keeps flat regions, where both answers are noise, from counting as different: the
-// square of a quarter of an 8-bit step.
+constexpr double k_octave = 0.65;  // sigma of log frequency as a ratio: about one octave
+// K of equation 7 keeps flat regions, where both responses are noise, from counting as different:
+// the square of a quarter of an 8-bit step.
 constexpr double k_flat_part = 1e-6;
 
-// Zero mean under the mask and zero outside, so that the outline itself is no edge.
+// Zero mean under the mask and zero outside, so that the outline is not an edge.
 cv::Mat centred(const cv::Mat& luma, const cv::Mat& mask) {
     const double mean = cv::mean(luma, mask)[0];
     cv::Mat result = cv::Mat::zeros(luma.size(), CV_32F);
@@ -30,10 +30,10 @@ cv::Mat centred(const cv::Mat& luma, const cv::Mat& mask) {
 
 constexpr double k_spread = std::numbers::pi / k_directions;  // sigma of the direction
 
-// Frequencies at which a wavelet weighs less than a hundredth are left out.
+// Frequencies with a weight below 1 % are left out.
 const double k_contour = std::sqrt(2 * std::log(100.0));  // sigmas
 
-// The frequencies, in steps of one over the plane's size, between which the wavelet lies.
+// The frequency band of the wavelet, in steps of one over the plane's size.
 cv::Rect band_of(cv::Size size, double wavelength, double angle) {
     double low[2] = {1, 1}, high[2] = {-1, -1};
     constexpr int k_places = 64;
@@ -56,7 +56,7 @@ cv::Rect band_of(cv::Size size, double wavelength, double angle) {
     return {first[0], first[1], last[0] - first[0] + 1, last[1] - first[1] + 1};
 }
 
-// One log-Gabor wavelet in the frequency plane: one-sided, so that its answer is complex.
+// One log-Gabor wavelet in the frequency plane: one-sided, so that its response is complex.
 WaveletBank::Wavelet wavelet(cv::Size size, double wavelength, int direction) {
     const double angle = std::numbers::pi * direction / k_directions;
     WaveletBank::Wavelet made;
@@ -77,14 +77,14 @@ WaveletBank::Wavelet wavelet(cv::Size size, double wavelength, int direction) {
                     std::remainder(std::atan2(v, u) - angle, 2 * std::numbers::pi) / k_spread;
                 weight = std::exp(-0.5 * (octaves * octaves + off * off));
             }
-            // The inverse transform is scaled by the plane's size, not by the band's.
+            // The inverse transform is scaled by the plane's size, not the band's.
             made.filter.at<float>(y, x) = static_cast<float>(weight / size.area());
         }
     }
     return made;
 }
 
-// The wavelet's answer, CV_32FC2: real and imaginary part.
+// The wavelet's response, CV_32FC2: real and imaginary part.
 cv::Mat answer(const cv::Mat& spectrum, const WaveletBank::Wavelet& one) {
     cv::Mat band = cv::Mat::zeros(one.places, CV_32FC2);
     for (int y = 0; y < one.band.height; ++y) {
@@ -118,7 +118,7 @@ WaveletBank wavelet_bank(cv::Size picture_size, double diameter) {
         cv::getOptimalDFTSize(static_cast<int>(std::ceil(picture_size.width * bank.scale))),
         cv::getOptimalDFTSize(static_cast<int>(std::ceil(picture_size.height * bank.scale)))};
     for (const double part : k_wavelengths) {
-        // Two pixels are the shortest wave there is; four keep clear of the grid.
+        // The shortest representable wavelength is two pixels; four stay clear of the grid.
         const double wavelength = std::max(4.0, part * diameter * bank.scale);
         for (int direction = 0; direction < k_directions; ++direction) {
             bank.wavelets.push_back(wavelet(bank.size, wavelength, direction));
@@ -163,7 +163,7 @@ double cw_ssim(const ShownPictures& pictures, const cv::Mat& mask, const Wavelet
                 if (column >= inside.cols) break;
                 if (inside.at<unsigned char>(row, column) == 0) continue;
                 const cv::Vec3d v = both.at<cv::Vec3f>(y, x);
-                // |sum p q*|: the phase difference may be anything, but must be one over the
+                // |sum p q*|: any phase difference is allowed, but it must be constant over the
                 // window.
                 of_wavelet +=
                     (2 * std::sqrt(v[0] * v[0] + v[1] * v[1]) + k_flat_part) / (v[2] + k_flat_part);

@@ -13,7 +13,7 @@ namespace culet {
 
 namespace {
 
-// As colour_error.h has it: middle grey is a fifth of white.
+// As in colour_error.h: middle grey is a fifth of white.
 constexpr double k_white = 5;
 
 cv::Mat colour_of(const Picture& picture) {
@@ -66,7 +66,7 @@ PictureError PictureMetric::error_of(const Picture& picture) const {
         }
     });
     const double values = 3.0 * stone_pixels_;
-    // A black picture has no scale: any difference is then infinitely large.
+    // A black picture has no scale, so any difference is infinite.
     const auto relative = [&](double off) { return off > 0 ? off / mean_ : 0; };
     error.mean = relative(sum / values);
     error.rmse = relative(std::sqrt(squares / values));

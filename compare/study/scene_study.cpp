@@ -22,12 +22,12 @@ namespace culet {
 namespace {
 
 constexpr double k_reference_share = 0.4, k_design_share = 0.65, k_search_share = 0.85;
-// Of the budget: for the first drawing of one setting, and of one that the study needs.
+// Shares of the budget for the first drawing of a setting, and of one that the study needs.
 constexpr double k_row_share = 0.06, k_needed_share = 0.15;
-// Settings whose first run took up to this times as long as the front's are timed again: their
-// median might be quicker.
+// Settings whose first run took up to this factor longer than the front's are timed again, because
+// their median might be faster.
 constexpr double k_perhaps_quicker = 1.3;
-// A neighbour must be quicker by that much to be worth going on from.
+// A neighbour must be this much faster for the search to continue from it.
 constexpr double k_gain = 0.97;
 
 struct DrawnTimes {
@@ -41,7 +41,7 @@ StudyTime of_runs(std::vector<double> times) {
             times.back()};
 }
 
-// Without the beams' check against the reference renderer: what it finds, the study finds itself.
+// Without the beams' check against the reference renderer, because the study compares itself.
 RenderResult drawn(const Scene& scene, const Progress& progress) {
     if (!drawn_by_beams(scene.settings)) return render(scene, progress);
     FrameRenderer frames(scene);
@@ -49,7 +49,7 @@ RenderResult drawn(const Scene& scene, const Progress& progress) {
     return frames.draw(false);
 }
 
-// The settings that a picture was drawn with in the end.
+// The settings with which a picture was finally drawn.
 RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats) {
     if (!stats.plan) return asked;
     RenderSettings settled = stats.plan->settings;
@@ -98,7 +98,7 @@ private:
     Scene scene_with(const RenderSettings& settings) const {
         Scene scene = ground_.scene;
         scene.settings = settings;
-        // Random paths other than the reference's.
+        // Random paths independent of the reference's.
         scene.settings.seed = scene_.settings.seed + 2;
         scene.settings.spectral = false;
         return scene;
@@ -138,7 +138,7 @@ void SceneStudier::prepare() {
     if (!ground_.beams) study_.notes.push_back("engines beams and preview: " + refused);
 }
 
-// Draws and judges a setting that was not tried yet, if there is time for it.
+// Draws and evaluates a setting that was not tried yet, if there is time.
 void SceneStudier::try_out(const StudyCandidate& candidate) {
     const std::string key = key_of(ground_, candidate.settings);
     if (!tried_.insert(key).second) return;
@@ -167,7 +167,7 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
     StudiedRender render;
     if (candidate.automatic) {
-        // All that `render` does: the plan, its pictures, and their check.
+        // Everything that `render` does: the plan, its pictures, and their check.
         render.checked_cpu = times.cpu.front();
     }
     render.id = static_cast<int>(study_.renders.size());
@@ -193,7 +193,7 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
     clock_.report();
 }
 
-// One more drawing, for its time.
+// Draws once more, only for the time.
 void SceneStudier::time_once(const RenderSettings& settings, DrawnTimes& times) {
     const Scene scene = scene_with(settings);
     const auto wall = std::chrono::steady_clock::now();
@@ -205,7 +205,7 @@ void SceneStudier::time_once(const RenderSettings& settings, DrawnTimes& times) 
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
 }
 
-// Pictures of others are let go.
+// Releases the pictures of renders off the front.
 void SceneStudier::update_front() {
     study_.front = front_of(study_);
     for (StudiedRender& render : study_.renders) {
@@ -217,7 +217,7 @@ void SceneStudier::update_front() {
     }
 }
 
-// False when another is nearer to the truth and much quicker.
+// False when another is both more accurate and much faster.
 bool SceneStudier::may_be_on_front(const StudiedRender& render) const {
     return std::none_of(study_.front.begin(), study_.front.end(), [&](int id) {
         const StudiedRender& rival = study_.render(id);
@@ -226,7 +226,7 @@ bool SceneStudier::may_be_on_front(const StudiedRender& render) const {
     });
 }
 
-// What the plans chose, as somebody would who knows it: without planning.
+// Draws what the plans chose, given directly, without the planning time.
 void SceneStudier::try_by_hand() {
     std::vector<StudyCandidate> chosen;
     for (const StudiedRender& render : study_.renders) {
@@ -235,7 +235,7 @@ void SceneStudier::try_by_hand() {
     for (const StudyCandidate& candidate : chosen) try_out(candidate);
 }
 
-// From the cheapest setting known for each tolerance to cheaper ones that still meet it.
+// Goes from the cheapest known setting for each tolerance to cheaper ones that still meet it.
 void SceneStudier::search() {
     for (const double tolerance : study_.options.tolerances) {
         for (;;) {
@@ -254,7 +254,7 @@ void SceneStudier::search() {
     }
 }
 
-// In turn, so that whatever else the machine does falls on all alike.
+// In turn, so that other load on the machine affects all alike.
 void SceneStudier::time_again() {
     std::vector<int> chosen;
     for (const StudiedRender& render : study_.renders) {
@@ -272,7 +272,7 @@ void SceneStudier::time_again() {
         }
     }
     update_front();
-    // Others may have come to the front whose pictures were let go.
+    // Renders that are new on the front may have lost their pictures.
     for (const int id : study_.front) {
         StudiedRender& render = study_.renders[static_cast<std::size_t>(id)];
         if (!render.picture.rgb.empty()) continue;

@@ -1,4 +1,3 @@
-// A study of a scene as JSON and as comma-separated values.
 
 #include <fmt/format.h>
 
@@ -56,7 +55,7 @@ std::string names_of_effects(const RenderStats& stats) {
     return names;
 }
 
-// The fields of a table's row.
+// The fields of a table row.
 Json row_of(const StudiedRender& render) {
     const RenderSettings& asked = render.settled;
     Json row = {{"id", render.id},
@@ -168,7 +167,7 @@ std::string scene_study_csv(const SceneStudy& study) {
                 line += value.dump();
                 continue;
             }
-            // Settings in words hold commas, but never quotes.
+            // Settings in words contain commas, but never quotes.
             const std::string cell = value.get<std::string>();
             line += cell.find(',') == std::string::npos ? cell : '"' + cell + '"';
         }

@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-// The next on the front is nearer to the truth by more than that.
+// Each setting on the front must reduce the error at least by this factor.
 constexpr double k_better = 0.98;
 
 }  // namespace

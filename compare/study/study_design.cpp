@@ -31,7 +31,7 @@ std::vector<Effects> effects_on(const RenderStats& stats) {
     return on;
 }
 
-// Ever more wavelengths, up to those of the reference.
+// Sets of more and more wavelengths, up to the reference's.
 std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
     const std::vector<double>& finest = ground.exact.wavelengths_nm;
     std::vector<std::vector<double>> sets;
@@ -49,7 +49,7 @@ std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
     return sets;
 }
 
-// From the engine's own choices to everything on at this tolerance.
+// All effects at this tolerance, drawn by `engine`.
 RenderSettings with_all(const Scene& scene, const std::string& engine, double tolerance) {
     RenderSettings settings = exact_settings(scene, tolerance, k_node_counts[1]);
     settings.engine = engine;
@@ -75,7 +75,7 @@ public:
                 tolerance == ground_.tolerance);
         }
     }
-    // The engine, and how finely it cuts.
+    // Engines at all tolerances.
     void engines() {
         std::vector<double> order = ground_.tolerances;
         std::stable_sort(order.begin(), order.end(), [&](double a, double b) {
@@ -94,7 +94,7 @@ public:
                 needed);
         }
     }
-    // One thing at a time; `base` is the quicker engine that can draw the scene.
+    // One setting varied at a time; `base` is the faster engine that can draw the scene.
     void sweeps() {
         const RenderSettings base = with_all(
             ground_.scene, ground_.beams ? k_beam_engine : k_reference_engine, ground_.tolerance);
@@ -130,7 +130,7 @@ public:
             settings.depth = depth;
             add("depth", fmt::format("{}", depth), settings);
         }
-        // Paths are cut for their weight alone.
+        // Limits paths only by weight, at a large depth.
         const int deep = std::min(24, std::max(2, ground_.exact.depth));
         for (const double tolerance : k_tolerances) {
             RenderSettings settings = base;
@@ -163,7 +163,7 @@ RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
     settings.depth = 0;
     settings.effects_auto = false;
     settings.effects.fill(true);
-    // As "all" in a scene file: where the scene calls for it.
+    // As "all" in a scene file: if the scene needs it.
     settings.effects[static_cast<std::size_t>(Effects::coherence)] = false;
     settings.crystal_beams.reset();
     settings.cut_weight.reset();
@@ -172,7 +172,7 @@ RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
     settings.refraction = Refraction::astigmatic;
     settings.samples = 0;
     settings.spectral = false;
-    // A single wavelength is what the scene shows; several are how finely it is computed.
+    // A single wavelength is what the scene shows; several are a matter of accuracy.
     if (settings.wavelengths_nm.size() != 1) {
         settings.wavelengths_nm.clear();
         Scene exact = scene;

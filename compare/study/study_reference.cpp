@@ -18,13 +18,13 @@ namespace culet {
 namespace {
 
 constexpr std::array k_sizes{256, 192, 128, 96, 64};
-// Rays a pixel of each half are this number squared, on a regular grid, and one less, which are
-// spread otherwise.
+// The rays per pixel of the two halves are this number squared, on a regular grid, and one less in
+// another pattern.
 constexpr std::array k_sides{2, 3, 4, 5, 7, 9, 11, 13, 17, 21, 27, 33, 43, 55};
 constexpr int k_most_side = 64;
 constexpr int k_wanted_rays = 64;
 constexpr int k_probe = 24, k_probe_rays = 4;
-// What is cut may bring the truth a third of the finest tolerance at most, by a bound that is
+// Pruning may change the reference by at most a third of the finest tolerance, by a bound that is
 // seldom reached; its noise should be well below.
 constexpr double k_of_finest = 1.0 / 3, k_quiet = 0.1, k_rough_tolerance = 0.03;
 
@@ -35,8 +35,8 @@ Scene exact_scene(const Scene& scene, double finest_tolerance, int samples) {
     return exact;
 }
 
-// Few wavelengths and short paths: near to the exact picture ray by ray, for a small part of the
-// time. Nothing where that would save little.
+// Few wavelengths and short paths: cheap, and close to the exact picture ray by ray. Nothing where
+// that would save little.
 std::optional<RenderSettings> rough_settings(const Scene& scene, const RenderStats& exact) {
     const RenderSettings rough = exact_settings(scene, k_rough_tolerance, k_node_counts.front());
     if (2 * rough.wavelengths_nm.size() > exact.wavelengths_nm.size() + 1) return std::nullopt;
@@ -58,9 +58,9 @@ struct Half {
     int rays = 0, rough_rays = 0;
 };
 
-// Many rough rays, and what exact ones add to as many rough ones along the same rays: the mean is
-// that of exact rays, and the noise that of many (control variates; Giles 2008). `fewer` changes
-// the pattern of the rays.
+// Many cheap rays, plus the mean difference of exact and cheap rays along the same paths: unbiased
+// like exact rays, with the noise of many (control variates; Giles 2008). `fewer` changes the
+// pattern of the rays.
 Half half_of(const Scene& scene, double finest_tolerance, int side, int fewer,
              const Progress& progress) {
     Half half;
@@ -70,7 +70,7 @@ Half half_of(const Scene& scene, double finest_tolerance, int side, int fewer,
     half.picture = std::move(exact.picture);
     const std::optional<RenderSettings> settings = rough_settings(scene, half.stats);
     if (!settings) return half;
-    // About as much time for the rough ones as for the exact ones.
+    // Spend about as much time on the cheap rays as on the exact ones.
     const double times = std::sqrt(static_cast<double>(half.stats.wavelengths_nm.size()) /
                                    static_cast<double>(settings->wavelengths_nm.size()));
     const int rough_side = std::min(k_most_side, side * (1 + static_cast<int>(std::lround(times))));
@@ -94,7 +94,7 @@ Camera resized(const Camera& camera, int longer_side) {
     const auto scaled = [&](int side) {
         return std::max(1, static_cast<int>(std::lround(scale * side)));
     };
-    // The two windows of a dichroscope stay of one size.
+    // The two windows of a dichroscope keep equal sizes.
     const int windows = camera.optics.two_windows ? 2 : 1;
     small.width = windows * scaled(camera.width / windows);
     small.height = scaled(camera.height);
@@ -131,11 +131,11 @@ StudyReference study_reference(const Scene& scene, double finest_tolerance, doub
     reference.tolerance = k_of_finest * finest_tolerance;
     const std::string too_dear =
         fmt::format("more rays would take over {:.0f} s of processor time", seconds);
-    // A few rays tell what many cost and bring; then as many as there is time for.
+    // A few rays show what more will cost and gain; then draws as many as there is time for.
     for (std::size_t at = 0;;) {
         const int side = k_sides[at];
         const double spent = clock.spent() - begin;
-        // The first is needed, however long it takes.
+        // The first round is needed, however long it takes.
         const double allowed =
             at == 0 ? std::numeric_limits<double>::infinity() : 1.5 * seconds - spent;
         Half first, second;
@@ -155,7 +155,7 @@ StudyReference study_reference(const Scene& scene, double finest_tolerance, doub
         reference.samples = first.rays + second.rays;
         reference.rough_samples = first.rough_rays + second.rough_rays;
         reference.stats = std::move(first.stats);
-        // The mean of both is as far from either as half their difference.
+        // The mean differs from either half by half their difference.
         reference.noise = metric.error_of(first.picture);
         reference.picture = metric.truth();
         reference.stone_pixels = metric.stone_pixels();
@@ -171,7 +171,7 @@ StudyReference study_reference(const Scene& scene, double finest_tolerance, doub
         while (at + 1 < k_sides.size()) {
             const double more = std::pow(static_cast<double>(k_sides[at + 1]) / side, 2);
             if (now + took * more > seconds) break;
-            // Noise falls with the rays' number to the power of a half, or faster.
+            // Noise falls with the square root of the number of rays, or faster.
             const double fewer = std::pow(static_cast<double>(k_sides[at]) / side, 2);
             if (at > before && reference.noise.mean <= target * std::sqrt(fewer)) break;
             ++at;

@@ -16,16 +16,16 @@ namespace culet {
 
 namespace {
 
-// Of the picture's 95 % quantile: below half of it is not the ground.
+// Share of the picture's 95 % quantile; darker pixels are not ground.
 constexpr double k_ground = 0.5;
 constexpr double k_least_contrast = 0.3;
 constexpr int k_least_pixels = 400;
-// Pixels across the outline: what lenses blur lies within.
+// Range of the search across the outline, pixels; a lens's blur is within it.
 constexpr double k_reach = 4, k_sample = 0.25;
-// A lens blurs over about so many pixels: points nearer to each other tell the same twice.
+// Pixels between points: a lens's blur correlates nearer ones.
 constexpr int k_spacing = 3;
 constexpr std::size_t k_least_points = 40;
-constexpr int k_border = 6;  // pixels: the outline is not traced there
+constexpr int k_border = 6;  // pixels at the picture's border where the outline is not traced
 
 // The ground as a quadric in the picture's coordinates (-1..1), by least squares.
 cv::Mat ground_of(const cv::Mat& light, double bright) {
@@ -56,10 +56,10 @@ cv::Mat ground_of(const cv::Mat& light, double bright) {
     return ground;
 }
 
-// 255 on the largest thing before the ground, its bright spots filled.
+// 255 on the largest object before the ground, with its bright spots filled.
 cv::Mat stone_before(const cv::Mat& relative) {
     cv::Mat bright = relative > k_ground, labels, stats, centres;
-    // The ground is what bright pixels reach from the border.
+    // The ground is what is connected to the border by bright pixels.
     cv::copyMakeBorder(bright, bright, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
     cv::floodFill(bright, {0, 0}, cv::Scalar(128), nullptr, {}, {}, 4);
     const cv::Mat dark = bright(cv::Rect(1, 1, relative.cols, relative.rows)) != 128;
@@ -79,7 +79,7 @@ struct Crossing {
     double contrast = 0;
 };
 
-// Along the outward normal, from outside in.
+// Searches along the normal, from outside in.
 std::optional<Crossing> crossing(const cv::Mat& relative, const cv::Point2d& pixel,
                                  const cv::Point2d& normal) {
     const auto light = [&](double t) {

@@ -19,18 +19,18 @@ namespace culet {
 
 namespace {
 
-// Lines of sight nearer to each other, or to opposite, share no plane that is well known.
+// Lines of sight nearer to parallel or opposite share no well-determined plane.
 constexpr double k_least_sine = 0.1;
-// Outlines are opposite when they are half a turn apart to so much of a step.
+// Tolerance for outlines half a turn apart, as a share of a step.
 constexpr double k_opposite = 0.05;
 constexpr std::size_t k_most_pairs = 4000;
 constexpr double k_loss_px = 1;
-// Blur and noise of a sharp picture leave a tenth of a pixel or two (turntable_test.cpp).
+// A sharp picture's blur and noise leave a residual of 0.1 to 0.2 pixels (turntable_test.cpp).
 constexpr double k_doubtful_px = 1;
-// Where an angle of the camera is not known to this, outlines tell less of a facet than its name.
+// With a larger uncertainty of the camera's angles, outlines say nothing useful about a facet.
 constexpr double k_unknown = radians(1);
-// Of the normal equations' determinant, as part of the product of the diagonal: below this,
-// rounding.
+// Determinant of the normal equations over the product of the diagonal: below this it is rounding
+// error.
 constexpr double k_singular = 1e-12;
 
 using Hull = std::vector<glm::dvec2>;
@@ -38,7 +38,7 @@ using Hull = std::vector<glm::dvec2>;
 template <class T>
 using V3 = Eigen::Matrix<T, 3, 1>;
 
-// The camera's axes for an outline: towards it, to the right and up in the picture.
+// The camera's axes for an outline: towards it, right and up in the picture.
 template <class T>
 struct View {
     V3<T> sight, right, up;
@@ -50,12 +50,12 @@ View<T> view_at(double turn, const T& elevation) {
     return {{c * x, c * y, s}, {T(-y), T(x), T(0)}, {-s * x, -s * y, c}};
 }
 
-// How far the outline reaches in a direction of space that is square to the line of sight.
+// How far the outline reaches in a direction perpendicular to the line of sight.
 template <class T>
 T reach(const Hull& hull, const View<T>& view, const V3<T>& direction, const T* table) {
     const T x = view.right.dot(direction), y = view.up.dot(direction);
     const T c = cos(table[1]), s = sin(table[1]);
-    // Direction as the picture shows it: its up is the axis, turned by the roll.
+    // The direction in the picture, whose up is the axis, rotated by the roll.
     const T u = c * x + s * y, v = c * y - s * x;
     const auto number = [](const T& t) {
         if constexpr (std::is_same_v<T, double>)
@@ -76,7 +76,7 @@ T reach(const Hull& hull, const View<T>& view, const V3<T>& direction, const T* 
     return u * (T(hull[far].x) - table[0]) + v * hull[far].y;
 }
 
-// Both touch the plane through their lines of sight; `side`: +1 above, -1 below.
+// Both outlines touch the plane through their lines of sight; `side`: +1 above, -1 below.
 struct SharedPlane {
     const Hull *one, *other;
     double turn_one, turn_other, side;
@@ -161,10 +161,10 @@ void add_shared(Problem& problem, const std::vector<BackLitOutline>& outlines) {
     }
 }
 
-// A table's flat top makes a kink at an elevation of 0, where the search would stop.
+// Several starts: a table's flat top makes a kink at elevation 0, where the search would stop.
 constexpr std::array<double, 9> k_starts_deg{0, -0.5, 0.5, -1, 1, -2.5, 2.5, -6, 6};
 
-// The number of residuals.
+// Returns the number of residuals.
 int solve(Problem& problem) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
@@ -243,10 +243,10 @@ Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step)
         if (outlines[i].corners.empty())
             throw InputError(fmt::format("picture {}: {}", i + 1, outlines[i].trouble));
         problem.hulls.push_back(outlines[i].corners);
-        // The stone turns one way, the camera goes round it the other way.
+        // When the stone turns one way, the camera goes round it the other way.
         problem.turns.push_back(-step * static_cast<double>(i));
     }
-    // A start: the middle of all that was seen.
+    // Start with the middle of all outlines.
     double sum = 0;
     for (const Hull& hull : problem.hulls) {
         const auto [low, high] =
