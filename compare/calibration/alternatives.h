@@ -19,7 +19,7 @@ struct WorldsAsked {
     std::uint64_t seed = 1;
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
     /// Standard uncertainty of the pose about either axis across the line of sight, radians. Every
-    /// draw except a wrong pose is turned at random by this much.
+    /// draw except a wrong pose is turned at random by it.
     double view_sigma = 0;
 };
 

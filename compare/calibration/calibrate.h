@@ -35,12 +35,12 @@ struct CalibrateOptions {
 /// Hash of everything that this scene's calibration depends on, as the key of a cache.
 std::string calibration_hash(const Scene& model, const CalibrateOptions& options);
 
-/// Draws pictures of the alternatives. Each is photographed by the simulated camera, registered
-/// with the model's picture by its outline, and scored against it, as the photograph was.
+/// Simulates photographs of the alternatives, registers each with the model's picture by its
+/// outline, and scores it as the photograph was.
 ///
-/// `model`: the stone in its pose under its lights; its camera has the size at which photographs
-/// are compared. `model_picture`: the model as `renderer` draws it. For a stone that is not convex
-/// there are no draws of facet errors, and a note says so. Throws Interrupted.
+/// `model`: in its pose under its lights, with a camera of the compared size. `model_picture`: the
+/// model as `renderer` draws it. A stone that is not convex has no draws of facet errors, which a
+/// note says. Throws Interrupted.
 Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
                       const CalibrateOptions& options, const Progress& progress = {});
 
@@ -51,10 +51,9 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
                                    const std::vector<CameraModel>& cameras,
                                    const Progress& progress = {});
 
-/// Aligns a photograph with the picture and scores it: one score for each row of the score table,
-/// without nulls. Without `tilts` their score is missing. The picture must be as soft as the
-/// photograph (photo_blur.h): against a sharp one the blur outweighs facet errors under 0.1
-/// degrees.
+/// Aligns a photograph with the picture and scores it: the table's scores without nulls. Without
+/// `tilts` their score is missing. The picture must be as soft as the photograph (photo_blur.h),
+/// otherwise blur outweighs facet errors under 0.1 degrees.
 std::vector<Score> scores_against(const Photo& photo, const Photo& soft_picture, double largest,
                                   const FacetTilts* tilts);
 

@@ -1,6 +1,5 @@
 #pragma once
-// What a photograph's scores mean: how large a facet error would lower them as much, and how far
-// they are from chance.
+// What a photograph's scores mean: the equivalent facet error, and the distance from chance.
 
 #include <optional>
 #include <string>
@@ -36,8 +35,8 @@ struct HypothesisWorth {
 
 struct CalibratedVerdict {
     Verdict verdict = Verdict::no_evidence;
-    /// The verdict in one sentence: "The photograph agrees with this stone: as well as with facets
-    /// off by 0.2 degrees (0.17 to 0.24); 0 of 12 wrong lights agree as well".
+    /// "The photograph agrees with this stone: as well as with facets off by 0.2 degrees (0.17 to
+    /// 0.24); 0 of 12 wrong lights agree as well".
     std::string headline;
     EquivalentError equivalent;
     std::vector<SensitivityCurve> curves;  ///< one for each score that takes part
@@ -45,8 +44,8 @@ struct CalibratedVerdict {
     std::vector<HypothesisWorth> hypotheses;
     bool geometry_only = false;  ///< the photograph cannot serve for photometry
     Calibration calibration;
-    /// Minus the logarithm of the scores' mean answer (degrees). Unlike the equivalent error it has
-    /// no end, so it can rank photographs of one calibration.
+    /// Minus the logarithm of the scores' mean answer (degrees): unbounded, for ranking photographs
+    /// of one calibration.
     double evidence = 0;
 };
 

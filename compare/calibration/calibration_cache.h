@@ -15,8 +15,8 @@ struct KeptCalibration {
     TiltVariance tilts;  ///< from which the score of the facets' tilts is computed
 };
 
-/// Keeps a table (JSON) and a picture of numbers (PFM, one row for each direction) under each hash.
-/// If the folder or one of its files is unusable, the calibration is made anew.
+/// One table (JSON) and one picture of numbers (PFM, a row for each direction) for each hash.
+/// Unusable files are ignored, and the calibration is made anew.
 class CalibrationCache {
 public:
     /// With an empty name nothing is kept.

@@ -11,11 +11,10 @@ struct CalibrationPlan {
     bool tilts = true;       ///< whether the effect of each facet's tilt is drawn
 };
 
-/// Tries resolutions from fine to coarse and takes the finest for which four rounds fit into
-/// `allowed_ns`. Otherwise takes the coarsest, with as many rounds as fit, at least two. Work is
-/// counted, not timed, so the plan is the same on every machine. `allowed_ns` 0: no limit, the
-/// finest. `photometric`: whether the photograph can serve for photometry; if not, facet tilts are
-/// not read from it.
+/// Takes the finest resolution for which four rounds fit into `allowed_ns`, otherwise the coarsest
+/// with as many rounds as fit, at least two. Work is counted, not timed, so the plan is the same on
+/// every machine. `allowed_ns` 0: no limit. `photometric`: false for a photograph that cannot serve
+/// for photometry; then facet tilts are not used.
 CalibrationPlan plan_calibration(const Scene& model, const DraftRenderer& fine, int most_rounds,
                                  double allowed_ns, bool photometric);
 

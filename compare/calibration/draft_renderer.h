@@ -9,24 +9,24 @@
 
 namespace culet {
 
-/// Plans the settings once for the first scene. The others are drawn with them and are not checked
-/// against the reference one by one.
+/// Plans the settings once, for the first scene. Later pictures use them without checks against the
+/// reference.
 class DraftRenderer {
 public:
     /// `allowed_ns`: counted work (render/work/price.h) for the first picture, which is as fine as
     /// that allows; 0: no limit. Throws InputError as `render` does.
     DraftRenderer(const Scene& model, double tolerance, double allowed_ns = 0);
-    /// A coarser renderer of the same scene, for pictures that are compared only with each other:
-    /// leaves out paths that carry less than `cut_weight`, and draws beam borders more coarsely.
-    /// Ray-traced pictures stay as they are.
+    /// A coarser renderer for pictures that are compared only with each other: omits paths that
+    /// carry less than `cut_weight` and draws beam borders coarsely. Ray-traced pictures stay as
+    /// they are.
     DraftRenderer coarser(const Scene& model, double cut_weight) const;
 
     /// With coverage. The same scene gives the same bytes. Throws InputError for a stone that
     /// cannot be drawn.
     Photo draw(const Scene& scene, const Progress& progress = {}) const;
-    /// A picture at one wavelength with only the stronger paths, which shows how the picture
-    /// changes. For a crystal it takes a thirtieth of the time. Nothing when the scene is
-    /// ray-traced: the difference of two pictures would be mostly noise.
+    /// A picture at one wavelength with only the stronger paths, to see how the picture changes;
+    /// for a crystal in a thirtieth of the time. Nothing for a ray-traced scene, because noise
+    /// would dominate differences.
     std::optional<Photo> sketch(const Scene& scene) const;
     /// An independent picture of the scene by the reference renderer, `samples` rays a pixel.
     Photo draw_exactly(const Scene& scene, int samples, const Progress& progress = {}) const;
@@ -48,7 +48,7 @@ private:
 };
 
 /// Reduces the environment map to at most 256 directions round: averaging it for beams takes as
-/// long as a picture, and has to be repeated for every turned light.
+/// long as a picture, and is repeated for every turned light.
 Scene with_coarse_environment(const Scene& scene);
 
 }  // namespace culet

@@ -7,11 +7,10 @@
 
 namespace culet {
 
-/// The logarithm is a weighted sum of the scores. Scores of one stone are correlated, and there are
-/// hardly more draws than scores, so the weights of the standardised scores are shrunk by ridge
-/// regression (Hoerl and Kennard 1970) with a strength chosen by generalised cross-validation
-/// (Golub, Heath and Wahba 1979). All levels of error share the weights, because each level has few
-/// draws. A missing score is a NaN.
+/// The logarithm is a weighted sum of the standardised scores. Because scores are correlated and
+/// there are hardly more draws than scores, the weights are shrunk by ridge regression (Hoerl and
+/// Kennard 1970), with a strength from generalised cross-validation (Golub, Heath and Wahba 1979).
+/// All levels of error share the weights, because each has few draws. A missing score is a NaN.
 class ErrorRegression {
 public:
     ErrorRegression() = default;

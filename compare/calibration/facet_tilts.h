@@ -13,15 +13,14 @@
 
 namespace culet {
 
-/// Draws the model with each facet tilted slightly both ways about each of two axes. The
-/// photograph's difference from the render is then fitted with these changes, all facets at once
-/// (tilt_variance.h). This uses all tilts about equally, whereas a score that adds up differences
-/// depends on the few facets that change most. Samples where the tilts' second differences are
-/// large (the change is not linear) get less weight. Shift, scale, turn, exposure and blur are
-/// projected out.
+/// Draws the model with each facet tilted slightly both ways about each of two axes, and fits the
+/// photograph's difference from the render with these changes, all facets at once
+/// (tilt_variance.h). So all tilts count about equally, whereas scores that add up differences
+/// depend on the few facets that change most. Samples with large second differences (non-linear
+/// changes) get less weight. Shift, scale, turn, exposure and blur are projected out.
 ///
-/// All of this works on the root of luminance, clipped at white and blurred by 0.8 % of the stone's
-/// diameter, with the stone 192 pixels across in the model's frame.
+/// Pictures here are the root of luminance, clipped at white and blurred by 0.8 % of the stone's
+/// diameter, with the stone 192 pixels across.
 class FacetTilts {
 public:
     /// `model`, `renderer` with its picture, `camera`: as for a calibration. Draws four sketches
@@ -43,11 +42,11 @@ public:
 
     const TiltVariance& variance() const { return variance_; }
 
-    /// The facet error (facet_error.h) by which the photograph differs from the model, degrees.
-    /// About right from 0.05 to 0.5 degrees. Larger errors are underestimated, and other
-    /// differences count as facet error too, so it needs a calibration like any score. `pair`: the
-    /// photograph and the model's picture, of which only the registration is used. `picture`: a
-    /// finer picture of the model in the renderer's frame; null: the renderer's own.
+    /// The facet error (facet_error.h) by which the photograph differs from the model, degrees:
+    /// about right from 0.05 to 0.5, underestimated above. Other differences count too, so it needs
+    /// a calibration like any score. `pair`: photograph and model; only the registration is used of
+    /// the latter. `picture`: a finer picture of the model in the renderer's frame; null: the
+    /// renderer's own.
     std::optional<double> facet_error_deg(const AlignedPair& pair,
                                           const Photo* picture = nullptr) const;
 

@@ -20,9 +20,8 @@ Material with_index_changed(const Material& material, double by);
 Material without_dispersion(const Material& material);
 Material with_absorption_times(const Material& material, double factor);
 
-/// The catalogue's materials with the nearest mean index at the sodium line that differs by at
-/// least 0.002, nearest first. They keep this material's absorption, so that only the index is
-/// tested.
+/// The catalogue's materials nearest in mean index at the sodium line (different by at least
+/// 0.002), nearest first. They keep this material's absorption, so that only the index is tested.
 std::vector<Material> neighbouring_materials(const Material& material, int count);
 
 }  // namespace culet

@@ -6,8 +6,7 @@
 
 namespace culet {
 
-/// Draws of stones with known facet error. Scores are on scales on which they fall with the error;
-/// a missing one is a NaN.
+/// Draws of stones with known facet error. Scores fall with the error; a missing one is a NaN.
 struct JointDraws {
     std::vector<double> levels;                           ///< logarithms of the errors, rising
     std::vector<std::vector<double>> curves;              ///< [score][level]: the expected score
@@ -15,14 +14,14 @@ struct JointDraws {
 };
 
 /// Scores of one stone are correlated: three blurs of one correlation are not three independent
-/// observations, and scores that disagree more than those of any right stone are explained by no
-/// facet error.
+/// observations, and no facet error explains scores that disagree more than those of any right
+/// stone.
 ///
-/// At each level the scores scatter about the curves with their own standard deviations (smoothed
-/// over neighbouring levels) and one correlation matrix R for all levels. R is the draws' matrix
-/// mixed with the unit matrix in the ratio of N draws to the number of scores (the mean of an
-/// inverse-Wishart posterior: Gelman et al., Bayesian Data Analysis, 3.6). The answer is the error
-/// that minimises z' R^-1 z, with z the scores' distances from the curves in standard deviations.
+/// Scores scatter about the curves with standard deviations for each level (smoothed over
+/// neighbours) and one correlation matrix R: the draws' matrix mixed with the unit matrix in the
+/// ratio of N draws to the number of scores (the mean of an inverse-Wishart posterior: Gelman et
+/// al., Bayesian Data Analysis, 3.6). The answer minimises z' R^-1 z, with z the distances from the
+/// curves in standard deviations.
 class JointScores {
 public:
     JointScores() = default;
@@ -30,8 +29,8 @@ public:
 
     struct Answer {
         double log_error = 0;
-        /// z' R^-1 z per score, over the largest value among the draws. Over 1: the scores disagree
-        /// more than those of any right stone drawn.
+        /// z' R^-1 z per score, relative to the draws' largest. Over 1: the scores disagree more
+        /// than any right stone's.
         double misfit = 0;
     };
     /// Nothing when all scores are missing.

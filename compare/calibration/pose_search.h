@@ -22,15 +22,14 @@ struct SearchedPose {
     int drawn = 0;          ///< number of pictures
 };
 
-/// Standard uncertainty of a view found so, about either axis across the line of sight, radians:
-/// about the last step of the search. It is too small where facets are off by 0.2 degrees: six
-/// simulated photographs that then matched were 0.1 to 0.9 degrees off, and three of a step cut 0.2
-/// to 0.7.
+/// Standard uncertainty of a searched view about either axis across the line of sight, radians:
+/// about the search's last step. Too small where facets are off by 0.2 degrees: six simulated
+/// photographs that then matched were 0.1 to 0.9 degrees off, and three of a step cut 0.2 to 0.7.
 constexpr double k_searched_sigma = 0.0017;  // 0.1 degrees
 
-/// Draws views within `reach` of the start on a hexagonal grid, then around the best one on ever
-/// finer grids. Only the two tilts of the view are sought; registration finds place, size and turn
-/// in the picture. The result does not depend on the number of threads. Throws Interrupted.
+/// Draws views within `reach` of the start on a hexagonal grid, then on ever finer grids around the
+/// best. Seeks only the two tilts, because registration finds place, size and turn. Independent of
+/// the number of threads. Throws Interrupted.
 SearchedPose search_pose(const Photo& photo, const Scene& scene, const DraftRenderer& renderer,
                          const PoseSearch& search, const Progress& progress = {});
 

@@ -1,6 +1,6 @@
 #pragma once
-// Compares a photograph with a scene: finds the stone's pose, draws the scene at the photograph's
-// scale, compares, and calibrates on request.
+// Finds a stone's pose in a photograph, draws the scene at its scale, compares, and calibrates on
+// request.
 
 #include <filesystem>
 #include <optional>
@@ -23,15 +23,15 @@ struct SceneCompareOptions {
     bool find_pose = true;  ///< false: the scene's camera is used as it is
     bool calibrate = false;
     /// Time budget of a calibrated comparison on two processors, in counted work
-    /// (render/work/price.h). It limits how fine and how many pictures are drawn. 0: no limit.
+    /// (render/work/price.h). Limits the pictures' number and resolution. 0: no limit.
     double budget_seconds = 30;
     int draws = 8;  ///< at each facet error, at most; nulls have three times as many
     /// Largest size of the stone in pixels, at which every draw of the calibration is made.
     double largest = 256;
     std::filesystem::path cache{};  ///< folder of calibrations; empty: no cache
     std::optional<Solid> start{};   ///< the mesh that the fit started from
-    /// The uncertainty of the stone's facets. If given, `Comparison::within` says how much of the
-    /// photograph is within it, from `drawn_stones` random stones.
+    /// If given, `Comparison::within` says how much of the photograph is within this uncertainty,
+    /// from `drawn_stones` random stones.
     std::optional<StoneUncertainty> uncertainty{};
     int drawn_stones = 100;
 };

@@ -39,19 +39,18 @@ struct EquivalentError {
     double low_deg = 0,
            high_deg = 0;  ///< 95 % interval for right stones, from leave-one-out errors
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
-    /// For ranking: the logarithm of the error. If the misfit exceeds the largest of right stones
-    /// by a factor f, log(f) / 2 is added, as errors are scaled when residuals are too large (Birge
-    /// 1932).
+    /// For ranking: the logarithm of the error, plus log(f) / 2 if the misfit is f > 1 times the
+    /// largest of right stones, as errors are scaled for large residuals (Birge 1932).
     std::optional<double> rank;
 };
 
 /// Combines several scores into an equivalent facet error, by regression on all draws with facet
 /// errors (error_regression.h).
 ///
-/// Where the scores disagree more than those of any right stone (joint_scores.h), each score's
-/// curve is made monotone and inverted in the logarithm of the error. These answers are averaged
-/// with inverse-variance weights, from the variance that each shows for right stones of about that
-/// error. The average's own curve is inverted in turn, which removes its bias.
+/// If the scores disagree more than any right stone's (joint_scores.h), instead inverts each
+/// score's monotone curve in the logarithm of the error, averages the answers with weights from
+/// their inverse variances for right stones of about that error, and inverts the average's own
+/// curve, which removes its bias.
 class FacetErrorScale {
 public:
     /// Uses the calibration's draws with facet errors; `keys`: the scores that take part.

@@ -24,9 +24,9 @@ const EquivalentError* equivalent_of(const PhotographRow& row);
 struct SeveralPhotographs {
     Verdict verdict = Verdict::no_evidence;
     std::string reason;
-    /// Weighted mean of the logarithms of the photographs' equivalent facet errors, with
-    /// inverse-variance weights. The interval is the wider of the one from those variances and the
-    /// one from the photographs' scatter.
+    /// Mean of the logarithms of the photographs' equivalent facet errors with inverse-variance
+    /// weights. Its interval comes from those variances or from the photographs' scatter, whichever
+    /// is wider.
     EquivalentError together;
     /// The same without each of the photographs, in their order.
     std::vector<EquivalentError> without;

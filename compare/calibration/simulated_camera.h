@@ -17,11 +17,11 @@ struct CameraModel {
     bool clips = true;                     ///< at 1
     std::array<double, 3> gain{1, 1, 1};   ///< exposure and white balance: 1 is the clipping level
     std::array<float, 3> ground{0, 0, 0};  ///< colour around the stone, after the gain
-    /// True: the outline is found against the background, as in the photograph. False: the coverage
-    /// is kept, as from a mask or an alpha channel.
+    /// True: find the outline against the background, as in the photograph. False: keep the
+    /// coverage, as with a mask or an alpha channel.
     bool outline_from_background = true;
-    /// The picture is moved at random by up to half a pixel and scaled by up to this share, so that
-    /// registration must undo it and resample, as for the photograph.
+    /// The picture is moved by up to half a pixel and scaled by up to this share at random, so that
+    /// registration must resample it like the photograph.
     double scale_error = 0.002;
 };
 

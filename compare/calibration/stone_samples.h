@@ -1,6 +1,6 @@
 #pragma once
-// The stone's picture from which facet tilts are estimated: the root of luminance, clipped at white
-// and blurred, on a grid 192 samples across the stone.
+// The picture for facet tilts: the root of luminance, clipped at white and blurred, on a grid 192
+// samples across the stone.
 
 #include <opencv2/core.hpp>
 #include <optional>
@@ -33,8 +33,8 @@ struct StoneSamples {
     cv::Mat outline_distance;       ///< CV_32F: distance inside the outline, samples; 0 outside
     cv::Size size() const { return outline_distance.size(); }
 
-    /// A sketch as the photograph's camera would see it, blurred by `blur` samples. Blacks out the
-    /// ground, which differs from the photograph's.
+    /// A sketch seen by the photograph's camera, blurred by `blur` samples; black outside the
+    /// stone, because the photograph's ground differs.
     cv::Mat sketched(const Photo& sketch, const CameraModel& camera, double blur) const;
     /// The model's picture through the camera's lens of `psf_px`, blurred by `blur` samples, at its
     /// full resolution.
@@ -65,8 +65,7 @@ std::vector<double> samples_of(const cv::Mat& plane, const cv::Mat& mask);
 
 cv::Matx33d squared(const cv::Matx23d& m);
 
-/// Nuisance directions: ways in which a photograph may differ from the model's picture that are not
-/// the facets' doing. In this order:
+/// Nuisance directions: differences from the model's picture that facets do not cause, in order:
 struct Nuisance {
     enum Of { exposure, stray_light, right, down, larger, turned, softer, k_linear, k_all = 10 };
 };

@@ -20,13 +20,13 @@ struct TiltModel {
 
 /// The causes' root mean square in their unit: the square root of Rao's quadratic estimate of a
 /// variance component (Rao 1971, MINQUE; the first iterate of restricted maximum likelihood,
-/// Patterson and Thompson 1971). After whitening the noise and projecting out the nuisances, with y
-/// and s the difference and the singular values along the changes' principal directions, it is
+/// Patterson and Thompson 1971). After whitening and projecting out the nuisances it is
 ///     sum w (y / s)^2 / sum w,   w = (s^2 / (s^2 + t^2))^2,
-/// so that barely visible directions do not count and clearly visible ones count alike. t is the
-/// median of s, because the noise beside the causes is unknown beforehand (it is mostly the causes'
-/// non-linear effect). The noise's share is not subtracted, so that the logarithm always exists. A
-/// calibration must find the estimate's value for no causes and its bias for large ones.
+/// with y and s the difference and the singular values along the changes' principal directions;
+/// barely visible directions do not count, clearly visible ones count alike. t is the median of s,
+/// because other noise (mostly the causes' non-linear effect) is unknown. The noise's share is not
+/// subtracted, so that the logarithm always exists: a calibration must find the estimate for no
+/// causes, and its bias for large ones.
 class TiltVariance {
 public:
     /// Not usable.

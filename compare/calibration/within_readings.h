@@ -7,9 +7,9 @@ namespace culet {
 
 struct AlignedPair;  // compare/scores/aligned_pair.h
 
-/// For a registered pair; nothing where the render has no bands (Photo::bands) or no pixel is
-/// compared. The bands are blurred as the photograph is, and widened by its noise and quantisation.
-/// Clipped pixels are left out. Registration errors are not included in the bands.
+/// Nothing where the render has no bands (Photo::bands) or no pixel is compared. The bands are
+/// blurred as the photograph is, and widened by its noise and quantisation, but not by registration
+/// errors. Clipped pixels are left out.
 std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Photo& photo,
                                               const Photo& render);
 

@@ -1,6 +1,6 @@
 #pragma once
-// From a rough view to a few views worth refining: tries all rotations near the start, fits size
-// and place to the outline, and scores the photograph's edges under the wireframe.
+// Finds views worth refining: tries all rotations near a rough view, fits size and place to the
+// outline, and scores the photograph's edges under the wireframe.
 
 #include <vector>
 

@@ -1,8 +1,7 @@
 #pragma once
-// The evidence of whole wireframe edges. An edge between facets is straight, so it counts as met
-// only where the photograph has a straight edge along most of it. The same edge, shifted alone to
-// other places on the stone, shows how often that happens by chance: often on a gem full of
-// parallel reflexes, and then it proves little.
+// Evidence of whole wireframe edges. A straight edge of the stone is met only where the photograph
+// has a straight edge along most of it. Shifting the same edge shows how often that happens by
+// chance: on a gem full of parallel reflexes often, and then it proves little.
 
 #include <opencv2/core/mat.hpp>
 

@@ -18,10 +18,10 @@ struct MetLine {
     std::vector<Place> places;
 };
 
-/// One for each edge that has points. `points` come from `points_along`, so those of an edge are
-/// adjacent. For each point, `expected` is where its edge is expected, as an offset along the
-/// normal, and `width` is how far from there to search. The straight line that meets most points
-/// wins; `places` stays empty when it meets fewer than half of them, or fewer than three.
+/// One for each edge with points; `points` come from `points_along`, so an edge's are adjacent. For
+/// each point, `expected` is the edge's expected offset along the normal, and `width` how far from
+/// there to search. The line that meets most points wins; `places` stays empty below half of them,
+/// or below three.
 std::vector<MetLine> met_lines(const EdgePicture& picture, const std::vector<WirePoint>& points,
                                const std::vector<double>& expected,
                                const std::vector<double>& width);

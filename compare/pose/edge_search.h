@@ -24,8 +24,8 @@ struct FoundEdge {
     double sigma = 0;     ///< of the offset, pixels
 };
 
-/// All edges within `reach` pixels, sorted by offset. An edge is where linear light is steepest: a
-/// lens blurs linear light, so blur does not move that place.
+/// All edges within `reach` pixels, sorted by offset. An edge is where linear light is steepest, a
+/// place that a lens's blur does not move.
 std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint& point,
                                     double reach);
 

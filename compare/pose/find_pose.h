@@ -2,14 +2,14 @@
 // Finds the camera that took a photograph, from the stone's solid and a rough camera. The public
 // interface of compare/pose: plain data in and out.
 //
-// Only edges between facets and air are used: the outline and the visible facets' edges (mostly the
-// crown's). Internal reflexes are what a comparison is about, so they are never used. Most edges in
-// a photograph of a gem are neither (facets of the far side seen through the near ones). Therefore
-// an edge counts only if it lies along a whole wireframe edge, and a pose only if its wireframe
-// meets more edges than the same wireframe laid elsewhere.
+// Uses only the outline and the visible facets' edges (mostly the crown's), never internal
+// reflexes, which are what a comparison is about. Most edges in a photograph of a gem are neither
+// (facets of the far side seen through the near ones), so an edge counts only along a whole
+// wireframe edge, and a pose only if its wireframe meets more edges than the same wireframe laid
+// elsewhere.
 //
-// Angles are in radians, lengths in the stone's unit. Positions are pixels of the photograph with
-// the corner of the first pixel at (0, 0) (EyeRays), x to the right, y down.
+// Angles in radians, lengths in the stone's unit. Positions are pixels of the photograph with the
+// corner of the first pixel at (0, 0) (EyeRays), x to the right, y down.
 
 #include <array>
 #include <optional>
@@ -26,8 +26,8 @@ namespace culet {
 /// Limits beyond which a pose is refused. docs/registration.md derives them.
 struct PoseLimits {
     /// 99 % uncertainty of the view's angle to the stone, radians (10 degrees), and of the stone's
-    /// place in the picture; 0: 3 % of the stone's diameter, or a pixel. Both are wide, because a
-    /// pose states its own uncertainty; callers who need more can ask for more.
+    /// place in the picture; 0: 3 % of the diameter, or a pixel. Wide, because a pose states its
+    /// own uncertainty.
     double angle = 0.1745;
     double shift_px = 0;
     /// Median distance of the outline from the photograph's, as a share of the diameter.
@@ -40,14 +40,14 @@ struct PoseLimits {
 struct PoseOptions {
     double search = 0.61;   ///< the start's view may be off by this angle (35 degrees) ...
     bool all_turns = true;  ///< ... besides any turn about the stone's z axis
-    /// Also tries the photograph mirrored left to right. For a stone with mirror symmetry only the
-    /// facets' errors tell the two apart, and a small picture does not show them.
+    /// Also tries the photograph mirrored left to right. For a stone with mirror symmetry only
+    /// facet errors tell which it is, and a small picture does not show them.
     bool both_chiralities = false;
-    /// Standard uncertainty of the model's facet tilts (angle to the true facet), 0.2 degrees. The
-    /// edge errors that follow from it are part of the pose's uncertainty.
+    /// Standard uncertainty of the model's facet tilts (angle to the true facet), 0.2 degrees. It
+    /// contributes to the pose's uncertainty.
     double facet_error = 0.0035;
-    /// Relative standard uncertainty of the start's focal length (perspective cameras). A
-    /// photograph from far away cannot separate it from the distance; then this prior decides.
+    /// Relative standard uncertainty of the start's focal length (perspective cameras): this prior
+    /// decides when a distant photograph cannot separate it from the distance.
     double focal_error = 0.2;
     /// Standard uncertainty of the start's principal point, as a share of the picture's width; 0:
     /// fixed.
@@ -82,11 +82,11 @@ struct TriedPose {
 struct CrownEvidence {
     int looked = 0, met = 0;  ///< crown edges
     double chance_share = 0;  ///< share of their length that shifted edges meet
-    /// Log-likelihood ratio of the edges met: the stone's edges against chance. Treats edges as
-    /// independent, and does not correct for the number of places tried.
+    /// Log-likelihood ratio of the edges met, the stone's against chance. Treats edges as
+    /// independent and ignores the number of places tried.
     double log_odds = 0;
-    /// Root mean square distance of the photograph's edges from the wireframe edges they meet, in
-    /// units of the sigma expected from facet errors and the picture.
+    /// Root mean square distance of the photograph's edges from the wireframe edges that they meet,
+    /// in expected sigmas of facet errors and picture.
     double misfit = 0;
 };
 
@@ -134,12 +134,11 @@ struct FoundPose {
     bool usable() const { return trouble.empty(); }
 };
 
-/// `start`: the best guess. Its focal length counts (see `focal_error`). Its distance and the
-/// stone's place in the picture do not, because they follow from the outline. An orthographic start
-/// stays orthographic. The result has the photograph's `width` and `height`, whatever the start's.
-/// Throws InputError for a solid that is not convex and closed, a conoscope's camera, or a mask of
-/// another size; Interrupted when `progress` says so. Does not throw if it finds no view: see
-/// `trouble`.
+/// `start`: the best guess. Its focal length counts (see `focal_error`); its distance and the
+/// stone's place do not, because the outline gives them. An orthographic start stays orthographic.
+/// The result has the photograph's `width` and `height`. Throws InputError for a solid that is not
+/// convex and closed, a conoscope's camera, or a mask of another size; Interrupted. If no view is
+/// found, see `trouble`.
 FoundPose find_pose(const Photo& photo, const Solid& solid, const Camera& start,
                     const PoseOptions& options = {}, const Progress& progress = {});
 

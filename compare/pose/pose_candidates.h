@@ -27,8 +27,8 @@ std::vector<Candidate> coarse_candidates(const PoseTask& task);
 /// nearest to the start.
 std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side, const StoneView& view);
 
-/// Among views that differ from this one by a turn about the stone's axis and look alike except for
-/// small irregularities, the one nearest to the start. Nothing when none is within the search
+/// The view nearest to the start among those that differ from this one by a turn about the stone's
+/// axis and look alike except for small irregularities. Nothing when none is within the search
 /// range.
 std::optional<StoneView> meant_look_alike(const PoseTask& task, const PhotoSide& side,
                                           const StoneView& view);

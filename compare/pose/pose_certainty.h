@@ -11,9 +11,8 @@ void describe_sigmas(const PoseTask& task, const Candidate& won, FoundPose& pose
 /// Sets the photograph's edge at every wireframe point, and the medians of their distances.
 void describe_marks(const Candidate& won, FoundPose& pose);
 
-/// Sets `doubt`. Explains in `trouble` which limit is exceeded, and in `remedy` what to do about
-/// it. `rival`: the lead over the next other view (infinite: there is none); `rival_turn`: the
-/// angle to it, radians.
+/// Sets `doubt`; says in `trouble` which limit is exceeded and in `remedy` what to do. `rival`: the
+/// lead over the next other view (infinite: there is none); `rival_turn`: the angle to it, radians.
 void judge(const PoseTask& task, const Candidate& won, double rival, double rival_turn,
            FoundPose& pose);
 

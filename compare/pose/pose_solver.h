@@ -18,8 +18,8 @@ struct MetEdge {
 
 struct SolverSettings {
     bool facets_free = false;
-    /// Expected errors of the facets, one sigma, as their prior: angle to the true facet, and
-    /// distance of its plane from the facet's middle.
+    /// Prior sigmas of the facets' errors: angle to the true facet, and distance of its plane from
+    /// the facet's middle.
     double facet_error = 0.0035, facet_offset = 0;
     double focal_error = 0;            ///< relative, of the start's focal length; 0: fixed
     double principal_point_error = 0;  ///< pixels; 0: fixed

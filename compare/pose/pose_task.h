@@ -38,10 +38,9 @@ struct PoseTask {
 /// Throws InputError for input for which no pose can be found.
 void require_suitable(const Photo& photo, const Solid& solid, const Camera& start);
 
-/// The start with the photograph's size. If the aspect ratios agree, the photograph is the same
-/// picture with more or fewer pixels. Otherwise it was cropped: unless the start has a principal
-/// point, the principal point and focal length are then less well known, which is recorded in
-/// `options`.
+/// The start with the photograph's size. With another aspect ratio the photograph was cropped;
+/// then, unless the start has a principal point, that and the focal length are less certain, which
+/// is recorded in `options`.
 Camera start_for(const Camera& start, int width, int height, PoseOptions& options);
 
 /// Scales the photograph so that its bright parts are near 1. `saturation`: where it clips then.

@@ -1,6 +1,6 @@
 #pragma once
 // Refines a view that is right to about a degree: searches edges along the wireframe's normals,
-// fits the view to them, and repeats with a narrower search.
+// fits the view, and repeats with a narrower search.
 
 #include "compare/pose/edge_search.h"
 #include "compare/pose/pose_solver.h"
@@ -34,8 +34,8 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
                    const RefineSettings& settings);
 
 /// Jackknife variances (Quenouille 1949, Tukey 1958) over sixteen groups of edges: of the view's
-/// rotation (three axes), place (two) and logarithm of scale. They show the effect of mistaken
-/// edges, which the covariance ignores.
+/// rotation (three axes), place (two) and logarithm of scale. They include mistaken edges, which
+/// the covariance ignores.
 std::array<double, 6> variances_by_groups(const WireSolid& wire, const RefinedView& refined,
                                           const RefineSettings& settings);
 

@@ -5,9 +5,9 @@
 
 namespace culet {
 
-/// Views are alike when nearly all of the area seen in the first belongs to facets with a
-/// counterpart of about the same direction and size in the second. `mirrored`: one of the two
-/// pictures is flipped left to right.
+/// Whether nearly all of the area seen in the first view belongs to facets with a counterpart of
+/// about the same direction and size in the second. `mirrored`: one of the pictures is flipped left
+/// to right.
 bool look_alike(const WireSolid& wire, const StoneView& a, const StoneView& b, bool mirrored);
 
 /// All rotations about its middle, with and without a reflection, that map the solid onto itself up

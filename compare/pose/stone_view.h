@@ -1,7 +1,6 @@
 #pragma once
-// A camera relative to the stone: the stone's rotation, its place in the picture, and its size.
-// These unknowns are almost uncorrelated, unlike position, look_at and fov, and an orthographic
-// camera is no special case.
+// A camera relative to the stone: rotation, place in the picture, size. Unlike position, look_at
+// and fov, these unknowns are almost uncorrelated, and an orthographic camera is no special case.
 
 #include <array>
 #include <glm/mat3x3.hpp>

@@ -56,8 +56,8 @@ struct WireSpacing {
 std::vector<WirePoint> points_along(const WireSolid& wire, const StoneView& view,
                                     const WireSpacing& spacing);
 
-/// Initial prior of the facets' offsets when only their tilts are known: facets tilted about some
-/// point of the stone move at their middles by the tilt times about a sixth of the diameter.
+/// Initial prior of the facets' offsets, from their tilts: facets tilted about some point of the
+/// stone move at their middles by the tilt times about a sixth of the diameter.
 double expected_offset(const WireSolid& wire, double facet_error);
 
 }  // namespace culet
