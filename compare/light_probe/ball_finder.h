@@ -23,10 +23,10 @@ struct FoundBall {
 /// Evidence of a rival, as a share of the ball's.
 inline constexpr double k_rival_evidence = 0.8;
 
-/// The likeliest balls, by falling evidence. Finds circles with Hough's transform at several scales
-/// and thresholds. Then fits each to the edges on rays from its middle, to a fraction of a pixel
-/// (RANSAC over three points, then iterated least squares with Tukey's weights). For a ball cut off
-/// by the picture's border only the visible part counts. Empty when no ball has `least_support`.
+/// The likeliest balls, by falling evidence: circles from Hough's transform at several scales and
+/// thresholds, each fitted to a fraction of a pixel to the edges on rays from its middle (RANSAC
+/// over three points, then iterated least squares with Tukey's weights). Of a ball cut off by the
+/// picture's border only the visible part counts. Empty when none has `least_support`.
 /// Deterministic.
 std::vector<FoundBall> find_balls(const Photo& photo, double least_support = 0.45);
 

@@ -26,10 +26,10 @@ struct SortedShot {
     std::optional<double> exposure;
 };
 
-/// Groups shots into views, in the order given. Shots of rising or falling exposure belong
-/// together; a new view starts when an exposure repeats. Files without a known exposure (HDR
-/// pictures, or one shot a view) are views of their own. Throws InputError when neither applies;
-/// the message says how to name the views.
+/// Groups shots into views, in the order given: shots of rising or falling exposure belong
+/// together, and a repeated exposure starts a new view. Files without a known exposure (HDR
+/// pictures, or one shot a view) are views of their own. Otherwise throws InputError, which says
+/// how to name the views.
 std::vector<std::vector<std::size_t>> views_of(const std::vector<SortedShot>& shots);
 
 struct ReadSeries {
@@ -37,9 +37,8 @@ struct ReadSeries {
     std::vector<std::string> notes;
 };
 
-/// Reads, groups and merges the shots. Throws InputError for unreadable files, missing exposures or
-/// a wrong number of them, the same exposure twice in a view, NaN, or pictures whose shape is not
-/// the lens's.
+/// Reads, groups and merges the shots. Throws InputError for unreadable files, missing or too few
+/// exposures, equal exposures in a view, NaN, or pictures of another shape than the lens's.
 ReadSeries read_ball_series(const BallSeries& series, const Progress& progress = {});
 
 }  // namespace culet

@@ -12,9 +12,8 @@
 
 namespace culet {
 
-/// Angles from the camera's direction within which the camera and the photographer may be
-/// reflected, radians. Inside `within` nothing is used when another view shows it; outside `beyond`
-/// everything is.
+/// Angles from the camera's direction, radians, where camera and photographer may be reflected.
+/// Inside `within` nothing is used if another view shows it; outside `beyond` everything is.
 struct PhotographerCone {
     double within = 0.175, beyond = 0.28;  // 10 and 16 degrees
 };
@@ -27,10 +26,10 @@ struct BallView {
     /// 1 for each pixel not to be used (the reflex of a near light); null: all are used.
     std::shared_ptr<const std::vector<std::uint8_t>> left_out = nullptr;
 
-    /// 0..1: ((1 + cos theta) / 2)^2, with theta from the camera's direction. This is the density
-    /// of the ball's picture: 1 in the middle, 0 at the rim, where the picture is compressed.
-    /// Nearly 0 where the photographer may be, so that a single view still keeps what it shows
-    /// there. 0 in the blind cone, within three degrees of it, and at left-out pixels.
+    /// 0..1: the density of the ball's picture, ((1 + cos theta) / 2)^2 with theta from the
+    /// camera's direction: 1 in the middle, 0 at the compressed rim. Nearly 0 where the
+    /// photographer may be, so that a single view keeps what it shows there. 0 in the blind cone,
+    /// within three degrees of it, and at left-out pixels.
     double quality(const Vec3& direction_in_camera) const;
 };
 
@@ -41,9 +40,8 @@ struct SeenLight {
 };
 SeenLight light_at(const Photo& picture, const PixelPlace& place);
 
-/// What one view knows of all directions of the world: a lat-long map of mean radiance (the
-/// picture's, not divided by the ball's reflectance) and of quality. Texels that the view does not
-/// show have quality 0.
+/// What one view shows of all directions: a lat-long map of mean radiance (not divided by the
+/// ball's reflectance) and of quality, 0 for texels that it does not show.
 struct ViewMap {
     int width = 0, height = 0;
     std::vector<float> rgb;

@@ -16,11 +16,10 @@ struct MergedLight {
     double filled_sr = 0;             ///< solid angle that no view shows, filled in
 };
 
-/// The quality-weighted mean of all views, then sharpened: `passes` of Richardson (1972) and Lucy
-/// (1974) correct the map until the views' pictures computed from it match the ones taken. This
-/// removes the blur of resampling and conserves energy. Texels that no view shows are filled with
-/// the mean of their surroundings, over ever larger distances. `gains`: one for each view, to bring
-/// differently exposed pictures to the first.
+/// The quality-weighted mean of all views, sharpened: `passes` of Richardson (1972) and Lucy (1974)
+/// correct the map until the views' pictures computed from it match the photographs. This removes
+/// resampling blur and conserves energy. Texels without a view get the mean of their surroundings,
+/// over ever larger distances. `gains` bring each view's exposure to the first's.
 MergedLight merge_views(const std::vector<BallView>& views, const std::vector<double>& gains,
                         int width, int passes, const Progress& progress = {});
 

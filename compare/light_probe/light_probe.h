@@ -27,8 +27,8 @@ struct ProbeOptions {
     double distance = 0;       ///< camera to ball in ball radii, may be infinite; 0: unknown
     Rgb reflectance{1, 1, 1};  ///< of the ball, 0..1
     PhotographerCone photographer;
-    /// Where the first camera looked, in the stone's frame: azimuth counter-clockwise from +x, and
-    /// elevation over the horizontal. If it looks straight down, the picture's top points to the
+    /// Where the first camera looked, in the stone's frame: azimuth counter-clockwise from +x,
+    /// elevation over the horizontal. Looking straight down, the picture's top points to the
     /// azimuth.
     double towards_azimuth = 0, towards_elevation = 0;
     /// The second camera's rotation about the vertical of the first picture, counter-clockwise from

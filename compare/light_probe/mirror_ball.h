@@ -1,10 +1,10 @@
 #pragma once
 // Maps between a mirror ball's pixels and the directions of the world.
 //
-// Camera frame: x to the right of the picture, y up, z from the scene towards the camera, which is
-// a pinhole looking along -z. Pixels: x to the right, y down, the centre of the first pixel at (0,
-// 0). Lengths are in radii of the ball. Reflected things are infinitely far away unless a function
-// mentions a point.
+// Camera frame: x to the right of the picture, y up, z from the scene towards the camera, a pinhole
+// that looks along -z. Pixels: x to the right, y down, the centre of the first pixel at (0, 0).
+// Lengths in radii of the ball. The surroundings are infinitely far away unless a function mentions
+// a point.
 
 #include <limits>
 #include <optional>
@@ -21,13 +21,13 @@ struct PixelPlace {
     double x = 0, y = 0;
 };
 
-/// Geometry of one view. A ball off the picture's middle has an elliptic outline; this is the ball
+/// Geometry of one view. Off the picture's middle a ball's outline is an ellipse; this is the ball
 /// whose rays at the given circle best fit a cone about its centre.
 class MirrorBall {
 public:
-    /// `distance`: camera to ball centre in ball radii (over 1; infinity: telecentric). The focal
-    /// length follows from the circle. `principal`: where the camera's axis meets the picture; its
-    /// middle, unless the picture was cropped.
+    /// `distance`: camera to ball centre in ball radii (over 1; infinity: telecentric), which gives
+    /// the focal length. `principal`: where the camera's axis meets the picture; its middle, unless
+    /// cropped.
     static MirrorBall at_distance(const BallCircle& circle, const PixelPlace& principal,
                                   double distance);
     /// Focal length in pixels; the distance follows from the circle.

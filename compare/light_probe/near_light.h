@@ -53,10 +53,10 @@ struct FoundNearLights {
     std::vector<std::shared_ptr<const std::vector<std::uint8_t>>> shown;
 };
 
-/// With two or more places, the middle's distance follows from the parallax between the points of
-/// the ball that reflect the light. These are about 0.6 radii apart when a camera went round a
-/// quarter turn, and any distance apart when the ball was moved. Throws InputError when there is no
-/// light at the pixel, or the places cannot determine its distance.
+/// With two or more places the distance follows from the parallax of the points of the ball that
+/// reflect the light: about 0.6 radii apart when a camera went round a quarter turn, any distance
+/// apart when the ball was moved. Throws InputError when there is no light at the pixel, or the
+/// places cannot determine its distance.
 FoundNearLights find_near_lights(const std::vector<BallPlace>& places,
                                  const std::vector<NearLightRequest>& requests);
 

@@ -33,10 +33,9 @@ struct ReflexSearch {
     NoReflex why = NoReflex::not_brighter;
 };
 
-/// The light at a pixel of the ball: the connected pixels brighter than half way between the light
-/// and its surroundings, with holes filled. It must be at least twice as bright as its
-/// surroundings, have at least nine pixels, and end before the ball's rim, where the picture is
-/// compressed.
+/// The light at a pixel of the ball: the connected pixels brighter than half way between light and
+/// surroundings, holes filled. It must be at least twice as bright as its surroundings, have nine
+/// pixels, and end before the ball's compressed rim.
 ReflexSearch reflex_at(const Photo& picture, const BallCircle& ball, const PixelPlace& seed);
 
 }  // namespace culet

@@ -9,12 +9,12 @@ namespace culet {
 
 /// What a ring just inside a circle's rim shows.
 struct RimLook {
-    /// How many times more the light changes along the radius than across it. A mirror ball
-    /// compresses its picture towards the rim, at the share rho of its radius by 1 / (1 - rho^2): 7
-    /// to 50 times in this ring, less in a soft picture. Elsewhere the ratio is about 1.
+    /// Ratio of the light's change along the radius to that across it. A mirror ball compresses its
+    /// picture at the share rho of its radius by 1 / (1 - rho^2): 7 to 50 times in this ring, less
+    /// in a soft picture. Elsewhere about 1.
     double compression = 0;
     /// 0..1: how much of the change along the radius is the same all round. A ball shows something
-    /// different on each side; a lid, a ring or a plate has the same edge everywhere.
+    /// different on each side; a lid, a ring or a plate has one edge everywhere.
     double alike = 0;
 };
 

@@ -18,8 +18,8 @@ double stops_at(const cv::Mat& stops, const PixelPlace& place);
 /// Correlation of stops where both views show well.
 double correlation_of(const ViewPair& pair, const ViewParameters& p);
 
-/// Gain, first over second: the median over blocks of directions of their ratios of linear light.
-/// Blur hardly changes sums of light, but it shifts medians of stops.
+/// Gain, first over second: the median over blocks of directions of the ratios of their summed
+/// linear light, which blur hardly changes (it shifts medians of stops).
 double gain_of(const ViewPair& pair, const ViewParameters& p);
 
 }  // namespace culet

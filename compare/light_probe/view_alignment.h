@@ -49,14 +49,14 @@ RoughTurn rough_turn(const BallView& first, const BallView& second);
 /// Free are the rotation, the outlines within their sigmas, the gain, and the distance if no prior
 /// knows it. Deterministic.
 ///
-/// First both pictures are compared direction by direction, coarse to fine. Then each picture is
-/// predicted, through its own pixels, from a sharpened map of the other (light_merge.h). So both
-/// sides of the comparison have the same blur; different blur of dark beside bright looks like a
-/// shift. Outlines that must move farther than their sigmas allow get larger sigmas.
+/// First compares both pictures direction by direction, coarse to fine. Then predicts each picture,
+/// through its own pixels, from a sharpened map of the other (light_merge.h), so that both have the
+/// same blur; different blur of dark beside bright looks like a shift. Outlines that must move too
+/// far for their sigmas get larger ones.
 ///
-/// Four such solutions from separate pixels are averaged. Sigma combines their scatter and their
-/// own sigmas, because neither error averages out: over 20 random rooms the rotation's error was
-/// 0.85 (60 pixels) and 0.97 (110 pixels) of it.
+/// Averages four such solutions from separate pixels. Sigma combines their scatter and their own
+/// sigmas, because neither error averages out: over 20 random rooms the rotation's error was 0.85
+/// (60 pixels) and 0.97 (110 pixels) of it.
 ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
                           const BallView& second, const ViewPrior& second_prior,
                           const RoughTurn& rough);

@@ -27,8 +27,8 @@ glm::dmat3 world_from_camera(double azimuth, double elevation);
 /// starts from the known one.
 void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress);
 
-/// Refines the rotations to the first view again without left-out pixels, from the outlines as
-/// found (`priors`), because near lights distorted the first alignment.
+/// Refines the rotations to the first view without left-out pixels, from the outlines as found
+/// (`priors`), because near lights distorted the first alignment.
 void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors);
 
 /// Places the balls that one camera saw; the focal length is the first view's. Throws InputError

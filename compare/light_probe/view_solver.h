@@ -45,12 +45,12 @@ struct ViewSolution {
 
 /// Least squares with Cauchy's loss (Ceres), with the outlines' sigmas as priors.
 ///
-/// Neighbouring pixels have correlated errors: the sampling grids shift each edge of a light as a
-/// whole. Treated as independent, they would outweigh the outlines' priors and give too small a
-/// sigma. So the scatter of the gradient is taken over patches of the sphere (clustered errors:
+/// Neighbouring pixels have correlated errors, because the sampling grids shift each edge of a
+/// light as a whole. Treated as independent, they would outweigh the outlines' priors and give too
+/// small a sigma. So the gradient's scatter is taken over patches of the sphere (clustered errors:
 /// White 1980; Liang and Zeger 1986). Its ratio to that of independent residuals gives the
-/// effective number of correspondences, which the next solution uses (from `start`), and the
-/// rotation's sigma.
+/// effective number of correspondences, for the next solution (from `start`), and the rotation's
+/// sigma.
 ViewSolution solve_views(const ViewPair& pair,
                          const std::vector<ViewCorrespondence>& correspondences,
                          const ViewResiduals& residuals, ViewSolution start);

@@ -14,8 +14,8 @@ struct EdgeSight {
     Vec3 from, direction;  ///< unit direction
 };
 
-/// All edge sights from one place. Places after the first may be rotated about themselves by an
-/// unknown small angle against the first.
+/// All edge sights from one place. A place after the first may be rotated about itself by an
+/// unknown small angle.
 struct SeenOutline {
     std::vector<EdgeSight> sights;
     Vec3 place{0, 0, 0};
@@ -37,12 +37,12 @@ struct WindowFit {
 };
 
 /// Minimises the angles by which lines of sight miss the nearest edge (Ceres). Free are the
-/// middle's direction and 1 / distance, the turn, the extents, the tilt, and the places' rotations
-/// within their sigmas. No formula is singular for an infinitely far light. With `nearness` given
-/// it is fixed and the window faces the origin, because a single place cannot tell a tilted window
-/// from a narrower one. A tilt with a sigma over half a radian is dropped, and the window faces the
-/// origin. Sigmas come from the sights' sigmas or the residuals, whichever is larger. Nothing when
-/// the outlines are too short for eight unknowns.
+/// middle's direction and 1 / distance (so an infinitely far light is no special case), the turn,
+/// the extents, the tilt, and the places' rotations within their sigmas. A given `nearness` is
+/// fixed, and the window then faces the origin, because a single place cannot tell a tilted window
+/// from a narrower one. It also faces the origin when the tilt's sigma is over half a radian.
+/// Sigmas come from the sights' sigmas or the residuals, whichever is larger. Nothing when the
+/// outlines are too short for eight unknowns.
 std::optional<WindowFit> fit_window(const std::vector<SeenOutline>& outlines,
                                     const std::optional<double>& nearness);
 

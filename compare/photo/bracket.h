@@ -52,16 +52,14 @@ struct Bracket {
     std::vector<std::string> notes;
 };
 
-/// Each pixel is the mean of the shots' values over their exposures, with inverse-variance weights
-/// (shot noise, read noise, and 8-bit rounding). Over-exposed values are left out, and values near
-/// over-exposure fade out, so that no edge appears. A pixel that every shot over-exposes keeps the
-/// darkest shot's value and is marked.
+/// Each pixel is the mean of the shots' values over their exposures with inverse-variance weights
+/// (shot noise, read noise, 8-bit rounding). Values near over-exposure fade out, so that no edge
+/// appears. A pixel that every shot over-exposes keeps the darkest shot's value and is marked.
 ///
-/// Shots are aligned to the first by shifts (correlation of log-luminance, to 0.1 pixels); smaller
-/// shifts are not applied. Shots are read from the brightest to the darkest, once to analyse and
-/// once to add. Two shots at a time are in memory beside the sums, and up to 512 MiB of shots are
-/// kept between the passes. Throws InputError for different sizes, equal exposures, non-finite
-/// samples, or all black.
+/// Shots are shifted onto the first (correlation of log-luminance, to 0.1 pixels; smaller shifts
+/// are not applied). They are read from the brightest to the darkest, once to analyse and once to
+/// add, two at a time; up to 512 MiB of them are kept in between. Throws InputError for different
+/// sizes, equal exposures, non-finite samples, or all black.
 Bracket merge_bracket(const std::vector<BracketShot>& shots, const BracketOptions& options = {},
                       const Progress& progress = {});
 

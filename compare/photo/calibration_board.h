@@ -1,6 +1,6 @@
 #pragma once
 // A printable board of squares and markers (ChArUco: Garrido-Jurado et al. 2014, in OpenCV), and
-// the lens calibration from photographs of it.
+// lens calibration from its photographs.
 
 #include <filesystem>
 #include <functional>

@@ -53,7 +53,7 @@ class ExposureSum {
 public:
     explicit ExposureSum(std::size_t pixels);
 
-    /// Call from the brightest shot to the darkest: the variance comes from the sum of the brighter
+    /// Call from the brightest shot to the darkest: the variance comes from the sum of brighter
     /// shots, so that a shot's noise does not choose its own weight. The `last` shot's value is
     /// used where every shot is over-exposed.
     void add(const Photo& shot, double exposure, const ShotNoise& noise, bool last);

@@ -1,6 +1,6 @@
 #pragma once
-// A camera's geometry: focal length, principal point, distortion. It is calibrated with pictures of
-// a board, stored in a file, and used to undistort photographs.
+// A camera's geometry (focal length, principal point, distortion): calibrated with pictures of a
+// board, stored in a file, and used to undistort photographs.
 
 #include <array>
 #include <filesystem>

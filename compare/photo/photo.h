@@ -40,12 +40,11 @@ struct Photo {
     std::vector<std::string> notes;
 };
 
-/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h).
-/// render/image/image_io.h follows or notes what the file says of its encoding; by default integers
-/// are sRGB and floats are linear. A JPEG is not photometric, because cameras apply their own tone
-/// curves, and phones even local ones. `mask`, `ignored`: files for Photo::mask and Photo::ignored
-/// (all of the latter combined); may be empty. Throws InputError for a file that is missing,
-/// broken, or over `k_max_photo_pixels`.
+/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h). The file's encoding
+/// is followed or noted (render/image/image_io.h); by default integers are sRGB and floats are
+/// linear. JPEGs are not photometric, because cameras apply tone curves, and phones even local
+/// ones. `mask`, `ignored`: files for Photo::mask and Photo::ignored (all combined); may be empty.
+/// Throws InputError for a missing or broken file, or over `k_max_photo_pixels`.
 Photo read_photo(const std::filesystem::path& file, const std::filesystem::path& mask = {},
                  const std::vector<std::string>& ignored = {});
 

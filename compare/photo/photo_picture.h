@@ -7,8 +7,7 @@
 namespace culet {
 
 /// With `variance.R`, `variance.G`, `variance.B` (to 1.6 %) and `saturated` where known. Uses half
-/// floats where every pixel's noise exceeds their rounding. Moves the photo's pixels into the
-/// picture.
+/// floats if every pixel's noise exceeds their rounding. Moves the photo's pixels.
 Picture picture_of(Photo photo);
 
 }  // namespace culet

@@ -12,10 +12,10 @@ namespace culet {
 /// By the file's extension, because a raw file often starts like a TIFF.
 bool has_raw_extension(const std::filesystem::path& file);
 
-/// Linear light in sRGB primaries: black level subtracted, the camera's own white balance (a grey
-/// card is better: white_balance.h), no tone curve, no automatic brightness, turned upright. Green
-/// clips at 1; other channels may go beyond. `saturated` marks pixels whose own or neighbouring
-/// sensor samples reach the white level, before interpolation. Throws InputError.
+/// Linear light in sRGB primaries: black level subtracted, the camera's white balance (a grey card
+/// is better: white_balance.h), no tone curve, no automatic brightness, turned upright. Green clips
+/// at 1; other channels may go beyond. `saturated` marks pixels whose own or neighbouring sensor
+/// samples reach the white level. Throws InputError.
 Photo read_raw(const std::filesystem::path& file);
 
 /// What the camera recorded, without the picture. Throws InputError.

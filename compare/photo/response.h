@@ -8,9 +8,8 @@
 namespace culet {
 
 /// The curve of Debevec & Malik 1997 (OpenCV's createCalibrateDebevec), made increasing and the
-/// same for all channels. `shots`: read by read_photo from 8-bit files, of one size; about a
-/// thousand pixels of each are enough. Throws InputError when the series does not determine the
-/// curve.
+/// same for all channels. `shots`: as read_photo reads 8-bit files, of one size; about a thousand
+/// pixels are enough. Throws InputError when they do not determine the curve.
 ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures);
 
 /// Replaces the photo's sRGB-decoded values by the curve's.

@@ -24,14 +24,14 @@ struct AlignedPair {
     static constexpr int k_least_pixels = 400;
 };
 
-/// Aligns `photo` (with its mask and ignored pixels) and `render` by their outlines. Compares
-/// pixels that are not ignored and lie inside both outlines by two pixels, or by 0.5 % of a large
-/// stone, to keep clear of the outlines' errors. With too few pixels no gain is solved. `largest`:
-/// as for `align`. This is the only way to compared pictures of one raster.
+/// Aligns `photo` and `render` by their outlines; the only way to compared pictures of one raster.
+/// Compares pixels that are not ignored and lie inside both outlines by two pixels, or 0.5 % of a
+/// large stone, clear of the outlines' errors. With too few pixels no gain is solved. `largest`: as
+/// for `align`.
 AlignedPair aligned(const Photo& photo, const Photo& render, double largest = 640);
 
-/// Replaces the render by another picture of the same size and outline, such as a blurred one. The
-/// registration stays; the gain is solved anew.
+/// Replaces the render by another picture of the same size and outline, such as a blurred one.
+/// Keeps the registration and solves the gain anew.
 AlignedPair with_render(AlignedPair pair, const Photo& render);
 
 /// The part of the frame that the scores need: the mask's box plus the margin that they look beyond

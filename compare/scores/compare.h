@@ -65,8 +65,8 @@ struct ReflexCount {
 /// "37 of 42 reflexes found, 0.4 % of the diameter apart; 9 of 11 coloured ones of one hue"
 std::string sentence_of(const ReflexCount& reflexes);
 
-/// How much of a photograph is within the readings' uncertainty: within the luminance bands of
-/// stones drawn from the fit's uncertainty. For one of those stones it would be 0.683 and 0.954.
+/// The share of a photograph within the luminance bands of stones drawn from the fit's uncertainty.
+/// For one of those stones it would be 0.683 and 0.954.
 struct WithinReadings {
     double within_one = 0, within_two = 0;  ///< share of the compared pixels within 1, 2 sigma
     int pixels = 0;                         ///< compared, and not clipped by the camera
@@ -87,8 +87,8 @@ struct Comparison {
     double photo_light = 0, render_light = 0;
     int null_draws = 0;
     std::string null_note;
-    /// Standard deviation in pixels of the Gaussian that blurred the render before scoring. In a
-    /// calibrated comparison the render is as soft as the photograph; otherwise 0.
+    /// Standard deviation in pixels of the Gaussian that made the render as soft as the photograph,
+    /// in a calibrated comparison; otherwise 0.
     double render_blur_px = 0;
     std::vector<std::string> notes;
     std::string pose_note;  ///< for a comparison with a scene: where its view was sought, and why
@@ -108,10 +108,10 @@ struct CompareOptions {
     int threads = 0;         ///< 0: all processors; the result does not depend on it
 };
 
-/// The verdict is a proposal and not validated. `match`: zncc is at least `k_match_z` standard
+/// The verdict is a proposal, not validated. `match`: zncc is at least `k_match_z` standard
 /// deviations above its null and at least `k_match_zncc`, about what random facet errors of half a
 /// degree leave of a brilliant's pattern. `partial`: from `k_partial_z` on, if no draw was as good.
-/// It tells a pattern from the same pattern rotated, but not a stone from another of the same cut.
+/// It tells a pattern from itself rotated, but not a stone from another of the same cut.
 constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
 /// The same for CW-SSIM, which decides for photographs that cannot serve for photometry.
 constexpr double k_match_cw_ssim = 0.55;

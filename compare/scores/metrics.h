@@ -16,11 +16,10 @@ struct MatchedPictures {
     double white = 1;     ///< linear value shown as white; both are clipped there
 };
 
-/// Factor for each channel of the render that brings it to the photo's: exposure and white balance.
-/// Weighted least squares in linear light through zero, with Huber weights (1964) so that single
-/// reflexes do not dominate. `usable`: pixels that may be used (not saturated). 1 for a channel in
-/// which either picture is black. Misplaced reflexes pull the factor towards 0, so unless the
-/// pictures match it is not a photometric measurement.
+/// Factor for each channel of the render: exposure and white balance. Least squares in linear light
+/// through zero, with Huber weights (1964) against single reflexes. `usable`: pixels that are not
+/// saturated. 1 for a channel in which either picture is black. Misplaced reflexes pull it towards
+/// 0, so it is a photometric measurement only if the pictures match.
 std::array<double, 3> solve_gain(const cv::Mat& photo, const cv::Mat& render,
                                  const cv::Mat& usable);
 
@@ -31,9 +30,9 @@ struct ShownPictures {
 };
 ShownPictures shown(const MatchedPictures& pictures);
 
-/// For each of `blurs`, the correlation coefficient of the square roots of luminance, each blurred
-/// inside the mask by a Gaussian of that many diameters: are the same places bright and dark?
-/// -1..1; independent of the gain. Nothing when either picture is uniform.
+/// Are the same places bright and dark? For each of `blurs`, the correlation of the square roots of
+/// luminance, blurred inside the mask by a Gaussian of that many diameters. -1..1; independent of
+/// the gain. Nothing when either picture is uniform.
 std::vector<std::optional<double>> zncc(const MatchedPictures& pictures,
                                         const std::vector<double>& blurs);
 std::optional<double> zncc(const MatchedPictures& pictures, double blur);

@@ -22,19 +22,19 @@ struct ReflexMatch {
     double area_f1 = 0;  ///< the same, weighted by the reflexes' areas
     /// Median distance between the middles of matched reflexes, in diameters.
     std::optional<double> displacement;
-    /// `coloured`: matched reflexes with a mean CIELAB chroma over 10 in the photo. `same_hue`:
-    /// those whose hue in the render is within 30 degrees; a chroma below 10 there does not count.
-    /// `hue_agreement`: their share, nothing when none is coloured. It shows dispersion, which
-    /// hardly moves any other score. The limits are proposals.
+    /// `coloured`: matched reflexes with a CIELAB chroma over 10 in the photo. `same_hue`: those
+    /// with a hue within 30 degrees in the render and a chroma of at least 10. `hue_agreement`:
+    /// their share, nothing when none is coloured. It shows dispersion, which hardly moves other
+    /// scores. The limits are proposals.
     int coloured = 0, same_hue = 0;
     std::optional<double> hue_agreement;
 };
 
-/// Light is first clipped at white and blurred by 0.3 % of the diameter. A reflex is a connected
-/// region brighter than 90 % of the photo's compared pixels, with an area of at least (0.7 % of the
-/// diameter) squared. Two match when their middles are within 2 % of the diameter and their areas
-/// within a factor of three; nearest pairs first, each reflex once. Both pictures use the photo's
-/// level, so a render with too little light has too few reflexes. Nothing when the photo has none.
+/// Light is clipped at white and blurred by 0.3 % of the diameter. A reflex is a connected region
+/// brighter than 90 % of the photo's compared pixels, of at least (0.7 % of the diameter) squared.
+/// Reflexes match when their middles are within 2 % of the diameter and their areas within a factor
+/// of three; nearest pairs first, each once. The photo's level is used for both, so a render with
+/// too little light has too few. Nothing when the photo has none.
 std::optional<ReflexMatch> match_reflexes(const MatchedPictures& pictures);
 
 }  // namespace culet

@@ -15,10 +15,10 @@ struct Rotation {
 };
 
 /// Random rotations about the middle of `outline`, every second one mirrored. For a stone that is
-/// not round they are rotations in the frame in which its ellipse of inertia is a circle, so that
-/// the rotated stone covers the same area. A draw that hardly changes the render (correlation over
-/// `k_same_render`: a symmetric stone under symmetric light) is no null and is drawn again; fewer
-/// than `count` come back when there are too few others. Repeatable for one seed on every machine.
+/// not round, rotations in the frame where its ellipse of inertia is a circle, so that it covers
+/// the same area. A draw that hardly changes the render (correlation over `k_same_render`: a
+/// symmetric stone under symmetric light) is drawn again; there may be fewer than `count` others.
+/// One seed gives the same on every machine.
 std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::Mat& outline,
                                      int count, std::uint64_t seed);
 

@@ -15,8 +15,8 @@ enum class Verdict {
 };
 const char* name_of(Verdict verdict);
 
-/// A score and its null: the same score for the render rotated or mirrored in the picture's plane.
-/// The null shows what outline and general brightness reach without any agreement of the pattern.
+/// A score and its null, the same score for the render rotated or mirrored in the picture's plane:
+/// what outline and brightness reach without any agreement of the pattern.
 struct Score {
     std::string key;              ///< as in the JSON: "zncc", "ssim", ...
     std::optional<double> value;  ///< nothing: undefined for these pictures, see `note`

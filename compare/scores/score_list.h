@@ -30,8 +30,8 @@ struct Measures {
 };
 Measures measures_of(const MatchedPictures& pictures, const WaveletBank& wavelets);
 
-/// The range of a score. It says which way is better, and which variance-stabilising transform
-/// makes the score nearly linear in the logarithm of the facet error.
+/// The range of a score: which way is better, and which variance-stabilising transform makes it
+/// nearly linear in the logarithm of the facet error.
 enum class ScoreScale {
     correlation,  ///< up to 1; z is computed from atanh (Fisher 1915)
     up_to_one,    ///< 1 is perfect
@@ -44,9 +44,9 @@ enum class ScoreScale {
 /// the latter little harm.
 enum class Needs { photometry, geometry };
 
-/// Whether the equivalent facet error uses this score: never, only for photometric photographs,
-/// only when just geometry is used, or always. Pure colour scores see no geometry, and counts of
-/// reflexes are coarser than their areas.
+/// Whether the equivalent facet error uses a score: never, for photometric photographs only, when
+/// just geometry is used, or always. Colour scores see no geometry, and counts of reflexes are
+/// coarser than areas.
 enum class InCalibration { no, photometric, geometry_only, always };
 
 struct ScoreKind {
@@ -80,9 +80,8 @@ void keep_geometry_only(std::vector<Score>& scores, const std::string& why);
 /// The variance-stabilising transform: nearly linear in the logarithm of the facet error.
 double stabilised(double score, ScoreScale scale);
 
-/// Sets mean, spread, z and p from the values of the score's null. A correlation's z is computed
-/// from atanh (Fisher 1915), whose spread does not depend on the value, so that the end of the
-/// scale does not limit a perfect match.
+/// Sets mean, spread, z and p from the null's values. A correlation's z uses atanh (Fisher 1915),
+/// whose spread is constant, so that the end of the scale does not limit a perfect match.
 void fill_null(Score& score);
 
 }  // namespace culet

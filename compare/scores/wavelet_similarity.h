@@ -12,8 +12,8 @@ namespace culet {
 struct WaveletBank {
     double scale = 1;  ///< reduces the pictures to at most 256 pixels across the stone
     cv::Size size;     ///< of the frequency plane
-    /// The response has a narrow band, so it is computed at few places: the band is moved to
-    /// frequency zero, which shifts all phases alike, and transformed by itself.
+    /// The response has a narrow band, so few places are enough: the band is moved to frequency
+    /// zero, which shifts all phases alike, and transformed by itself.
     struct Wavelet {
         double wavelength_px = 0;
         cv::Rect band;    ///< of frequencies, relative to zero; may be negative
@@ -26,7 +26,7 @@ WaveletBank wavelet_bank(cv::Size picture_size, double diameter);
 
 /// CW-SSIM (Sampat, Wang, Gupta, Bovik, Markey 2009, equation 7) of encoded luminance under the
 /// mask: 0 to 1, insensitive to small shifts and slow changes of brightness. The pictures must have
-/// the size that the bank was made for.
+/// the bank's size.
 double cw_ssim(const ShownPictures& pictures, const cv::Mat& mask, const WaveletBank& bank);
 
 }  // namespace culet
