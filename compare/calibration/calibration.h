@@ -33,8 +33,7 @@ struct Calibration {
     std::vector<CalibrationDraw> draws;
     std::uint64_t seed = 1;
     double stone_px = 0;   ///< diameter of the stone in the compared pictures
-    double psf_px = 0;     ///< standard deviation of the blur that the simulated photographs were
-                           ///< given
+    double psf_px = 0;     ///< sigma of the simulated photographs' blur
     double electrons = 0;  ///< electrons at the clipping level that stand for their noise
     bool from_cache = false;
     std::string hash;  ///< of everything that the calibration depends on

@@ -18,8 +18,7 @@ constexpr std::array k_cuts{0.003, 0.01, 0.03};
 constexpr int k_enough_rounds = 4, k_least_rounds = 2;
 // Alternatives that are drawn once: the symmetrical stone, two materials, six small errors.
 constexpr double k_single_draws = 9;
-constexpr double k_nulls = 3, k_null_draws = 3;  // per round: light, pose, both; three draws of
-                                                 // each
+constexpr double k_nulls = 3, k_null_draws = 3;  // per round: light, pose, both; draws of each
 // Measured cost of photographing, aligning and scoring one picture, nanoseconds per pixel.
 constexpr double k_scoring_ns = 800;
 

@@ -29,8 +29,8 @@ DraftRenderer::DraftRenderer(const Scene& model, double tolerance, double allowe
     scene.settings.spectral = false;
     scene.settings.checked_pixels = k_checked_pixels;
     scene.settings.checked_samples = k_checked_samples;
-    // Prefer beams wherever they can draw the scene: their error is the same in all the pictures,
-    // and a hundred pictures by the reference would take an hour.
+    // Prefer beams: their error is the same in all pictures, and a hundred by the reference would
+    // take an hour.
     if (model.settings.engine != k_reference_engine) {
         scene.settings.engine = k_beam_engine;
         try {

@@ -78,8 +78,8 @@ glm::dmat3 mirror_across(const Vec3& normal) {
     return glm::dmat3(1) - 2.0 * glm::outerProduct(normal, normal);
 }
 
-// The facet's plane rotated about an axis in it through the mean of its corners; `turn` is the
-// axis' angle in the plane.
+// The facet's plane rotated about an axis in it, at the angle `turn`, through the mean of its
+// corners.
 NamedPlane tilted(const Solid& solid, const Facet& facet, double turn, double angle) {
     const Vec3& n = facet.plane.normal;
     const Vec3 away = std::abs(n.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double k_most = 4, k_step = 0.25;
 
-// Mean square of the detail between one and two pixels. The root makes noise uniform; averaging
-// over two pixels removes most of it.
+// Mean square of the detail between one and two pixels, in the root of light, where noise is
+// uniform and mostly averaged out over two pixels.
 double detail(const cv::Mat& light, double white, const cv::Mat& mask) {
     const cv::Mat root = root_of(light, white);
     const cv::Mat band = softened(root, 1) - softened(root, 2);

@@ -29,8 +29,8 @@ cv::Mat between(const cv::Mat& colour, double low, double high) {
     return result;
 }
 
-// Quantises roots of light to the steps of an sRGB file (IEC 61966-2-1, above its linear part). For
-// noise below one step this is not the same as adding quantisation noise.
+// Quantises roots of light like an sRGB file (IEC 61966-2-1, above its linear part), which for
+// noise below one step differs from adding quantisation noise.
 cv::Mat in_steps(const cv::Mat& root, int bits) {
     if (bits <= 0) return root;
     const double steps = std::ldexp(1.0, bits) - 1;

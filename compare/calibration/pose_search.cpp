@@ -16,8 +16,8 @@ namespace culet {
 namespace {
 
 constexpr double k_searched_across = 160;  // pixels across the stone; enough for a blur of 2 %
-// Reflexes a few degrees off still overlap when both are blurred by 4 % of the diameter; the last
-// steps compare finer ones.
+// Reflexes a few degrees off still overlap after a blur of 4 % of the diameter; the last steps
+// compare finer ones.
 constexpr double k_wide_blur = 0.04, k_fine_blur = 0.02;
 constexpr double k_finest = radians(0.1);  // the last step; the view's error is about half of it
 constexpr int k_most_moves = 4;            // at one step

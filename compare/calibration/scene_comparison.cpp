@@ -29,12 +29,10 @@ namespace culet {
 namespace {
 
 constexpr double k_tolerance = 0.03;                             // of the compared pictures
-constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;   // ends of the phases in the
-                                                                 // progress bar
-constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // likewise, of the calibration's
-                                                                 // part
-// The time budget in counted work (render/work/price.h). Finding the pose and scoring the
-// photograph take a fixed time and a time for each pixel, both measured.
+constexpr double k_bar_for_pose = 0.2, k_bar_for_stones = 0.6;   // of the progress: their ends
+constexpr double k_bar_for_tilts = 0.3, k_bar_for_scores = 0.4;  // of the calibration's
+// The time budget in counted work (render/work/price.h). Finding the pose and scoring take a fixed
+// time and a time per pixel, both measured.
 constexpr double k_ns_per_second = 2e9, k_fixed_ns = 6e9, k_fixed_ns_per_pixel = 3;
 // Shares of the budget for the photograph's own picture, and for the planning of the view search.
 constexpr double k_for_picture = 0.15, k_for_search = 0.05;
@@ -132,8 +130,8 @@ struct Standpoint {
     std::string note;
 };
 
-// Searches by the stone's picture: from the pose found by its edges, or from the scene's camera if
-// that pose is not trusted.
+// Searches by the stone's picture, from the pose by its edges, or if that is not trusted from the
+// scene's camera.
 void search_further(const Photo& photo, const Scene& scene, const SceneCompareOptions& options,
                     SceneComparison& result, Standpoint& stand, const Progress& progress) {
     FoundPose& pose = *result.pose;

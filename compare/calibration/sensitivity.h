@@ -28,8 +28,7 @@ struct SensitivityCurve {
     std::vector<Level> levels;  ///< rising error; the first is the ceiling
     bool higher_is_better = true;
     std::optional<double> value;           ///< the photograph's
-    std::optional<double> equivalent_deg;  ///< where the curve has this value; beyond its ends see
-                                           ///< EquivalentError
+    std::optional<double> equivalent_deg;  ///< where the curve has it; ends: see EquivalentError
     double weight = 0;                     ///< share in the combined answer
 };
 

@@ -114,8 +114,8 @@ cv::Matx33d squared(const cv::Matx23d& m) {
     return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), 0, 0, 1};
 }
 
-// Derivatives by whole steps of the fine picture. On the samples' own grid they would be a fifth
-// too small for the finest detail, and the rest of a shift would look like tilts.
+// Derivatives by whole steps of the fine picture. On the samples' grid they would be a fifth too
+// small for the finest detail, and the rest of a shift would look like tilts.
 std::vector<cv::Mat> nuisances_of(const cv::Mat& fine, const cv::Mat& softer,
                                   const StoneSamples& samples) {
     const cv::Size size = samples.size();

@@ -72,8 +72,8 @@ BallCircle enlarged(const BallCircle& c, double factor) {
     return {(c.x + 0.5) * factor - 0.5, (c.y + 0.5) * factor - 0.5, c.radius * factor};
 }
 
-// Edges alone may belong to a can or a table. If no rim shows compression, the support decides,
-// with a preference for larger circles, because a ball's own reflections are circles too.
+// Edges alone may belong to a can or a table. If no rim is compressed, sorts by support with a
+// preference for larger circles, because a ball's reflections are circles too.
 void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<FoundBall>& found) {
     cv::Mat soft;
     cv::GaussianBlur(whole, soft, {}, 1.0);

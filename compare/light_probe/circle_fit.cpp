@@ -90,8 +90,8 @@ double off(const BallCircle& circle, const EdgePoint& p) {
     return std::hypot(p.x - circle.x, p.y - circle.y) - circle.radius;
 }
 
-// Mean over all rays of the edge within `tolerance` of the circle, relative to the strongest one
-// along its ray. Noise has an edge there only by chance, and seldom the strongest.
+// Mean over all rays of the edge within `tolerance` of the circle, relative to the ray's strongest
+// one. Noise seldom is the strongest there.
 double support_of(const std::vector<EdgePoint>& points, const BallCircle& circle,
                   double tolerance) {
     std::array<double, k_rays> met{};
@@ -171,8 +171,8 @@ std::optional<FoundBall> fitted(const cv::Mat& plane, const BallCircle& rough, d
     return found;
 }
 
-// Points where light crosses the middle between inside and outside, along rays near the outline.
-// Uses linear light, because edge pixels are means of it. Rays without a clear step give none.
+// Points half way between the light inside and outside, along rays near the outline, in linear
+// light, of which edge pixels are means. Rays without a clear step give none.
 std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& circle) {
     constexpr double k_step = 0.25, k_reach = 3, k_near = 1.25;
     constexpr int k_half = static_cast<int>(k_reach / k_step);

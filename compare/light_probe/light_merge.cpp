@@ -41,8 +41,8 @@ cv::Mat halved(const cv::Mat& picture) {
     return half;
 }
 
-// Pull-push (in the spirit of Grossman & Gortler 1998): means over ever larger blocks fill texels
-// of weight 0, interpolated between the blocks and periodic in azimuth.
+// Pull-push (in the spirit of Grossman & Gortler 1998): fills texels of weight 0 with means over
+// ever larger blocks, interpolated and periodic in azimuth.
 cv::Mat with_holes_filled(const cv::Mat& rgb, const cv::Mat& weight) {
     if (rgb.total() == 1 || cv::countNonZero(weight) == static_cast<int>(weight.total()))
         return rgb;
@@ -106,8 +106,8 @@ Rows rows_of(const BallView& view) {
             std::min(view.picture->width, static_cast<int>(std::ceil(c.x + c.radius)) + 1)};
 }
 
-// Number of bands of rows, which are summed in order, so that the result does not depend on
-// threads. Each needs its own map.
+// Number of bands of rows. They are summed in order, so that the result does not depend on threads;
+// each needs its own map.
 int bands_for(int width) {
     return width <= 1024 ? 16 : width <= 2048 ? 8 : 2;
 }

@@ -246,7 +246,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
             throw Interrupted();
     }
     // 20 % more texels round the horizon than the ball has pixels, so that none is lost, in
-    // multiples of 128. A coarser map is averaged from this one; a finer one is made directly.
+    // multiples of 128. Coarser maps are averaged from this one; finer ones are made directly.
     const int natural =
         std::clamp(128 * static_cast<int>(std::ceil(1.2 * std::numbers::pi * largest / 128)),
                    k_narrowest, k_widest);

@@ -19,7 +19,7 @@ Vec3 ray_through(const PixelPlace& place, const PixelPlace& principal, double fo
 }
 
 // Rays v at the outline of a ball with half-angle alpha about the unit axis a satisfy v . a = cos
-// alpha. With m = a / cos alpha this is linear least squares for v . m = 1.
+// alpha: linear least squares for v . m = 1 with m = a / cos alpha.
 struct Cone {
     Vec3 axis;
     double distance;  // 1 / sin alpha
@@ -148,7 +148,7 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
 }
 
 std::optional<PixelPlace> MirrorBall::place_of_point(const Vec3& at, double nearness) const {
-    // Alhazen's problem by fixed-point iteration: takes the direction from the ball's point that
+    // Alhazen's problem by fixed-point iteration: the direction from the ball's point that
     // reflected the last direction. Each step multiplies the error by about half the nearness.
     constexpr int k_steps = 60;
     Vec3 direction = glm::normalize(at);

@@ -20,8 +20,8 @@ namespace {
 
 // Error of an edge between two pixels, a tenth of their distance (reflex.h).
 constexpr double k_edge_sigma_px = 0.1;
-// Smallest brightness of a light in the second picture, relative to the first: paper in front of a
-// lamp is darker to the side.
+// Smallest brightness of a light in the second picture, relative to the first: paper before a lamp
+// is darker to the side.
 constexpr double k_least_brightness = 0.25;
 // Share of a measured window's extents that certainly is window.
 constexpr double k_surely_inside = 0.8;
@@ -66,8 +66,8 @@ SeenOutline outline_of(const BallPlace& place, const Reflex& reflex) {
     return outline;
 }
 
-// Where a picture may show what another place sees along a line: the brightest pixels on and beside
-// the line's picture, over all distances.
+// Where a picture may show what another place sees along a line: its brightest pixels on and beside
+// the line, over all distances.
 std::vector<Reflex> reflexes_along(const BallPlace& place, const EdgeSight& line, double bright) {
     constexpr int k_steps = 160;
     constexpr double k_nearest = 0.8;  // 1 / distance: the light is outside the ball
@@ -203,7 +203,7 @@ NearLight from_reflex(const std::vector<BallPlace>& places, const NearLightReque
     return light;
 }
 
-// Position of a line of sight in the window, 1 at its edge; infinite when it misses the plane or
+// Position of a line of sight in the window, 1 at its edge; infinite if it misses the plane or
 // comes from behind.
 double share_of_extents(const Window& window, const Vec3& normal, const EdgeSight& sight) {
     constexpr double k_missed = std::numeric_limits<double>::infinity();

@@ -18,8 +18,7 @@ struct NearLightRequest {
     std::string name;                    ///< for messages: the pixel as the user wrote it
     std::optional<PixelPlace> at;        ///< on its reflex in the first picture
     std::optional<PixelPlace> at_other;  ///< in the second picture; otherwise searched
-    std::optional<double> distance;      ///< of its middle from the ball's centre; otherwise by
-                                         ///< parallax
+    std::optional<double> distance;      ///< of its middle from the ball; otherwise by parallax
     std::optional<Window> measured;      ///< with a ruler; then nothing else is given
 };
 

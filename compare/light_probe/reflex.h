@@ -19,7 +19,7 @@ struct Reflex {
     /// Where the luminance between two neighbouring pixels passes half way between the light and
     /// its surroundings. Accurate to 0.1 pixels for a box-filtered straight edge.
     std::vector<PixelPlace> outline;
-    Rgb radiance{};                 ///< mean of the inside pixels whose neighbours are inside too
+    Rgb radiance{};                 ///< mean of inside pixels with inside neighbours
     double within = 0, around = 0;  ///< luminance: median of the light, and of its surroundings
     double over = 0;                ///< share of the inside pixels that are over-exposed
     int pixels = 0;

@@ -16,8 +16,8 @@ namespace culet {
 
 namespace {
 
-// Gains nearer to 1 than this come from flickering lamps, shutter scatter or measurement errors.
-// Deliberate changes of exposure are at least a third of a stop.
+// Gains nearer to 1 than this are flicker, shutter scatter or measurement errors; deliberate
+// changes of exposure are at least a third of a stop.
 constexpr double k_rounding = 0.01;
 // Farther away than this, the radius in pixels does not give the distance: 0.1 of 100 pixels is one
 // of 1000 radii.

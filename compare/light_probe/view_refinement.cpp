@@ -118,8 +118,8 @@ double predicted(const Pixel& pixel, int steps, const MirrorBall& own,
         if (!d) return k_unseen;
         Vec3 in_map = other_from_own * *d;
         if (!same_ball) {
-            // The other ball's geometry has changed since the map was made: find the pixel that
-            // shows the direction now, and where the map has that pixel's light.
+            // The other ball's geometry has changed since its map was made: go through the pixel
+            // that shows the direction now.
             const auto place = other.place_of(in_map);
             const auto moved = place ? map.ball.direction_of(*place) : std::nullopt;
             if (!moved) return k_unseen;
@@ -199,8 +199,8 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
     const int width =
         std::clamp(1 << static_cast<int>(std::log2(std::numbers::pi * radius)), 128, 1024);
     solution = by_prediction(pair, solution, width, 0);
-    // Outlines that moved by more than their sigmas had sigmas that were too small (Birge 1932):
-    // light behind a ball may shift its outline.
+    // Outlines that moved by more than their sigmas get larger ones (Birge 1932): light behind a
+    // ball may shift its outline.
     for (int round = 0; round < k_most_doubts; ++round) {
         const double moved = outline_moves(pair, solution.at);
         if (!(moved > k_doubtful_moves)) break;

@@ -24,8 +24,8 @@ namespace {
 constexpr int k_patches = 96;
 constexpr int k_distance = 9, k_gain = 10;  // indices of the parameters
 constexpr double k_distance_sigma = 0.05;   // of 1 / distance about 1 / k_unknown_distance
-// Residuals over this many scales count only by their logarithm (photographers, moved lamps). An
-// unseen one counts as k_lost scales, so that losing overlap gains nothing.
+// Residuals over k_loss scales count only by their logarithm (photographers, moved lamps). Unseen
+// ones count as k_lost scales, so that losing overlap gains nothing.
 constexpr double k_loss = 2, k_lost = 4;
 // Scale and solution depend on each other: alternate until the scale changes by less than
 // k_same_scale.
@@ -93,8 +93,8 @@ public:
         return result;
     }
 
-    // Scale of the residuals where the pictures have structure. Uniform walls agree for any
-    // rotation and would make every edge an outlier.
+    // Scale of the residuals where the pictures have structure: uniform walls agree for any
+    // rotation, and would make every edge an outlier.
     double scale() const {
         ViewParameters p = at_;
         for (int k = 0; k < 3; ++k) p[k] += 1e-3;
@@ -216,8 +216,7 @@ private:
     void tell_certainty(const Differences& differences, double scale, double share_before,
                         double all, ViewSolution& result) const {
         Square normal = Square::Zero();  // Gauss-Newton matrix of the reweighted squares
-        Square bend = Square::Zero();    // Hessian of the loss itself; outliers contribute with the
-                                         // opposite sign
+        Square bend = Square::Zero();    // Hessian of the loss; outliers have the opposite sign
         Eigen::Matrix<double, k_view_parameters, k_patches> pulls;
         Eigen::Array<bool, k_patches, 1> holds;
         pulls.setZero();

@@ -15,9 +15,9 @@ namespace culet {
 
 namespace {
 
-// Parameters of the window in units of its distance: the middle's two offsets from the start
-// direction, and the nearness; a rotation (about the two axes across that direction, then about
-// itself); the logarithms of the half-extents.
+// The window in units of its distance: the middle's two offsets from the start direction, and the
+// nearness; a rotation (about the two axes across that direction, then about itself); the
+// logarithms of the half-extents.
 enum Parameter { beside_x, beside_y, near, tilt_x, tilt_y, roll, log_u, log_v, parameter_count };
 using Parameters = std::array<double, parameter_count>;
 
@@ -66,7 +66,7 @@ ScaledWindow<Number> window_of(const Frame& frame, const Number* p) {
 }
 
 /// Sine of the angle by which a direction passes inside the nearest of the four planes through the
-/// place and an edge; negative outside. `place`: the place times the nearness.
+/// place and an edge; negative outside. `place`: times the nearness.
 template <class Number>
 Number inside_edges(const ScaledWindow<Number>& w, const Vector<Number>& place,
                     const Vector<Number>& direction) {

@@ -46,8 +46,8 @@ std::vector<std::size_t> from_bright_to_dark(const std::vector<BracketShot>& sho
     return order;
 }
 
-// Processes a series: a first pass finds shifts and the camera's response, a second one adds up the
-// shots. Both go from the brightest shot to the darkest, because neighbours share the most.
+// Processes a series in two passes: shifts and response, then the sum. Both go from the brightest
+// shot to the darkest, because neighbours share the most.
 class Series {
 public:
     Series(const std::vector<BracketShot>& shots, const BracketOptions& options,

@@ -31,8 +31,8 @@ bool fits_half_floats(const Photo& photo) {
     return true;
 }
 
-// Keeps six bits of a variance: it rests on a guess of the camera, and its last digits are noise
-// that does not compress.
+// Keeps six bits of a variance: it rests on a guess of the camera, and more would be noise that
+// does not compress.
 float rounded(float variance) {
     constexpr float k_steps = 64;
     int exponent = 0;

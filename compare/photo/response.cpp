@@ -13,13 +13,13 @@ namespace culet {
 
 namespace {
 
-// Number of pixels for the fit, and the weight of the curve's smoothness. The fit's time grows with
-// the square of the number; more would take seconds.
+// Pixels in the fit, and the weight of the curve's smoothness. The time grows with the square of
+// the number; more would take seconds.
 constexpr int k_samples = 200;
 constexpr float k_smoothness = 10;
 
-// Recovers an 8-bit file's values from what read_photo made of them. Exact, because two values are
-// never as near as two places of the table (1 / (255 * 12.92) in the dark).
+// Recovers an 8-bit file's values from those of read_photo. Exact: two values are never as near as
+// two places of the table (1 / (255 * 12.92) in the dark).
 class FileValues {
 public:
     FileValues() : codes_(k_places + 1) {
@@ -41,8 +41,8 @@ private:
 
 ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures) {
     const FileValues values;
-    // One curve for all channels, whose responses are alike in cameras. Separate curves would each
-    // have an unknown factor, and its error would be a wrong white balance.
+    // One curve for all channels, which respond alike in cameras. The unknown factor of separate
+    // curves would be a wrong white balance.
     std::vector<cv::Mat> pictures;
     std::vector<float> times;
     for (std::size_t k = 0; k < shots.size(); ++k) {

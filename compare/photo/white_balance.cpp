@@ -115,8 +115,8 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
     if (chart.empty()) return std::nullopt;
     const std::vector<cv::Point2f> box = chart->getBox();
     if (box.size() != 4) return std::nullopt;
-    // Medians of the patches' middles in the linear picture; the box's corners are in order from
-    // the first patch. Margins of the printed chart: patches of 1 with gaps of an eighth.
+    // Medians of the patches' middles in linear light; the box's corners are in order from the
+    // first patch. Patches of 1 with gaps of an eighth.
     const std::vector<cv::Point2f> model{{0, 0}, {6, 0}, {6, 4}, {0, 4}};
     const cv::Mat picture_from_chart = cv::getPerspectiveTransform(model, box);
     std::vector<Rgb> measured;

@@ -11,8 +11,7 @@ namespace culet {
 struct GreyCard {
     std::array<double, 3> gain{1, 1, 1};  ///< per channel; green's is 1
     double level = 0;                     ///< luminance of the card after balancing, linear
-    double unevenness = 0;    ///< standard deviation over mean within it; large for a shadow or a
-                              ///< print
+    double unevenness = 0;    ///< standard deviation over mean; large for a shadow or a print
     double over_exposed = 0;  ///< share of the rectangle
 };
 

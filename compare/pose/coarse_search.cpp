@@ -25,8 +25,8 @@ constexpr double k_same_deg = 1.2;
 // A smaller outline error, as a share of the diameter, may come from the coarse grid, the mask's
 // pixels or facet errors.
 constexpr double k_outline_slack = 0.004;
-// An unrelated edge of the picture runs for about 3 % of the diameter before another takes its
-// place: nearer points of the wireframe are not independent.
+// Nearer points of the wireframe are not independent: an unrelated edge of the picture runs for
+// about 3 % of the diameter.
 constexpr double k_independent = 0.03;
 
 double sum_of_agreement(const Target& target, const StoneView& view, double& variance) {

@@ -12,8 +12,8 @@ constexpr double k_least_share = 0.65;
 constexpr int k_least_points = 3;
 // At most this many points start or end a trial line.
 constexpr std::size_t k_most_ends = 8;
-// Penalty for distance: a line at the end of the search range must meet this much more of the edge
-// than one at the expected place.
+// Penalty: a line at the end of the search range must meet this much more of the edge than one at
+// the expected place.
 constexpr double k_far_costs = 0.25;
 
 struct Peak {

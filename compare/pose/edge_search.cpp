@@ -17,8 +17,8 @@ constexpr double k_along = 1.0;      // profiles are the mean of three lines thi
 constexpr double k_step = 0.5;       // along a profile, pixels
 // Error of an edge's place in a clean 8-bit picture, from sampling and neighbouring edges.
 constexpr double k_least_sigma = 0.06;
-// A clipped side is too dark in the picture. The steepest place of a step to twice the limit is off
-// by 0.4 of the blur's sigma, to ten times by 1.3.
+// A clipped side is too dark, so the steepest place of a step to twice the limit is off by 0.4 of
+// the blur's sigma, to ten times by 1.3.
 constexpr double k_clipped_sigma = 0.6;
 
 /// Adds the picture's bilinearly interpolated colour.
@@ -42,8 +42,8 @@ float step_between(const cv::Vec3f& a, const cv::Vec3f& b) {
     return std::sqrt(d.dot(d));
 }
 
-/// Centroid of the part of a peak above its foot. The highest place of the interpolated slope
-/// sticks to pixels; the centroid does not.
+/// Centroid of the part of a peak above its foot; the maximum of the interpolated slope would stick
+/// to pixels.
 double middle_of_peak(const std::vector<float>& slope, std::size_t top) {
     const float foot = 0.25f * slope[top];
     std::size_t first = top, last = top;
@@ -66,8 +66,8 @@ EdgePicture::EdgePicture(const cv::Mat& colour, double saturation) {
     cv::Mat shown = culet::encoded(colour);
     const double noise = noise_of(shown);
     cv::GaussianBlur(shown, encoded, {0, 0}, k_smoothing, k_smoothing, cv::BORDER_REPLICATE);
-    // After smoothing and averaging along the edge, the noise of three colours is about 0.5 of one
-    // pixel's sigma. Takes four of these, and at least the rounding of eight bits.
+    // After smoothing and averaging along the edge the noise of three colours is about 0.5 of one
+    // pixel's sigma. Four of these, and at least the rounding of eight bits.
     least_step = std::max(2.0 / 255, 4 * 0.5 * std::sqrt(2.0) * noise);
     if (saturation > 0) {
         clipped = brightest_channel(colour) >= 0.99 * saturation;

@@ -19,12 +19,12 @@ namespace {
 
 constexpr std::size_t k_settled = 8;  // refined to the end
 constexpr std::size_t k_meant = 3;    // and symmetric views that the start means
-// Poses that look alike by the stone's symmetry and whose log-likelihoods differ by less cannot be
-// told apart: the one nearest to the start is taken.
+// Symmetric poses whose log-likelihoods differ by less cannot be told apart; the one nearest to the
+// start is taken.
 constexpr double k_tie = 8;
-// Because of facet errors, small pictures of right stones prefer another symmetric view by up to 23
-// (bench_pose --as-taken --stone-px 200 400). A view that the start means is preferred unless the
-// other is likelier by more than this.
+// A view that the start means is preferred unless another symmetric one is likelier by more than
+// this. Because of facet errors, small pictures of right stones prefer others by up to 23
+// (bench_pose --as-taken --stone-px 200 400).
 constexpr double k_not_meant = 25;
 constexpr double k_near = radians(10);  // nearer views are the same view with other facet errors
 
@@ -64,16 +64,16 @@ bool looks_alike(const PoseTask& task, const Candidate& a, const Candidate& b) {
                       a.side->mirrored != b.side->mirrored);
 }
 
-/// Negative log prior of a view's angle to the start. The start's sigma is half the search angle,
-/// and one start in a thousand means another symmetric view.
+/// Negative log prior of a view's angle to the start: sigma is half the search angle, and one start
+/// in a thousand means another symmetric view.
 double unlikely_from(double start_angle, const PoseTask& task, bool symmetric = true) {
     const double far = 0.5 * std::pow(start_angle / (0.5 * task.options.search), 2);
     return symmetric ? std::min(far, std::log(1000.0)) : far;
 }
 
-/// Log-likelihood ratio of two views that look alike by the stone's symmetry, from the edges met
-/// and from the size of the facet errors that they need. (For normal errors of unknown size the
-/// likelihood is the size to the power of minus their number.)
+/// Log-likelihood ratio of two symmetric views, from the edges met and the size of the facet errors
+/// needed. (For normal errors of unknown size the likelihood is the size to the power of minus
+/// their number.)
 double lead_of(const Candidate& a, const Candidate& b) {
     const SolvedView &one = a.refined.solved, &other = b.refined.solved;
     const int tilts = std::min(one.tilts_found, other.tilts_found);
@@ -81,8 +81,8 @@ double lead_of(const Candidate& a, const Candidate& b) {
            tilts * std::log(other.facet_error / one.facet_error);
 }
 
-/// Of symmetric poses takes the likeliest by edges and start prior. Among nearly equal ones takes
-/// the one that is not mirrored and nearest to the start.
+/// Takes the likeliest symmetric pose by edges and start prior; among nearly equal ones one that is
+/// not mirrored and nearest to the start.
 void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) {
     const auto start_angle = [](const Candidate& c) {
         return angle_between(c.refined.solved.view, c.side->start);
@@ -119,8 +119,8 @@ void widen(const Candidate& won, const Candidate& other, const TriedPose& tried,
     pose.sigmas.shift_99_px = std::max(pose.sigmas.shift_99_px, std::hypot(a.x - b.x, a.y - b.y));
 }
 
-/// Log-likelihood ratio of the pose to another view, with the start prior. A view within the pose's
-/// uncertainty is the same view. A symmetric view counts only where the start may have meant it.
+/// Log-likelihood ratio of the pose to another view, with the start prior; infinite for a view
+/// within the pose's uncertainty, and for a symmetric one that the start cannot have meant.
 double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
     const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
     if (within) return 1e300;
@@ -208,8 +208,8 @@ void refine(const PoseTask& task, std::vector<Candidate>& candidates) {
     });
 }
 
-/// A small picture may fit slightly better from a symmetric view that the start does not mean. Then
-/// also refines the view that it does mean, from there.
+/// A small picture may fit slightly better from a symmetric view that the start does not mean: then
+/// also refines the view that it means.
 void add_meant_look_alikes(const PoseTask& task, std::vector<Candidate>& best) {
     std::vector<Candidate> meant;
     for (const Candidate& candidate : best) {

@@ -60,8 +60,7 @@ struct PoseOptions {
 /// the stone or from the edge's first facet.
 struct EdgeMark {
     std::array<double, 2> at{}, normal{};
-    std::optional<double> offset_px;  ///< along `normal` to the photograph's edge; empty: none
-                                      ///< found
+    std::optional<double> offset_px;  ///< to the photograph's edge along `normal`; empty: none
     bool outline = false;             ///< false: of the crown
     bool counted = false;             ///< near enough to the prediction to count
 };

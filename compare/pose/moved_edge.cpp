@@ -8,8 +8,8 @@ namespace culet {
 
 namespace {
 
-/// A changed plane at a point: its normal, the point's depth below it, and the derivatives of both
-/// by the three changes.
+/// A changed plane at a point: its normal, the point's depth below it, and their derivatives by the
+/// three changes.
 struct ChangedPlane {
     Vec3 normal;
     double below = 0;

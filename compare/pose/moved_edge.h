@@ -21,8 +21,7 @@ FacetFrame frame_of(const WireSolid& wire, int facet);
 /// The point on both changed planes nearest to `x`, which lies on both unchanged planes.
 struct MovedEdge {
     Vec3 at;
-    std::array<Vec3, 6> slopes;  ///< derivatives by the changes of the left facet, then of the
-                                 ///< right one
+    std::array<Vec3, 6> slopes;  ///< derivatives by the left facet's changes, then the right one's
 };
 MovedEdge moved_edge(const FacetFrame& left, const FacetFrame& right, const Vec3& x,
                      const double* left_change, const double* right_change);

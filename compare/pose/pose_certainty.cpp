@@ -13,17 +13,17 @@ namespace culet {
 namespace {
 
 // 99 % quantiles in sigmas. The length of a vector of normal errors is below 2.6 times the root sum
-// of its variances in 99 % of cases, however these are shared (2.58 for one axis, 2.15 for two,
-// 1.94 for three). Mistaken edges are not normal, and the normal equations ignore them, hence 4.4;
-// the jackknife by groups sees them. For the place, 2.6 was too small for groups as well.
+// of its variances in 99 % of cases (2.58 for one axis, 2.15 for two, 1.94 for three). Mistaken
+// edges are not normal: the normal equations ignore them, hence 4.4; groups of edges show them. For
+// the place, 2.6 was too small for groups too.
 constexpr double k_surely = 4.4, k_surely_by_groups = 2.6, k_place_by_groups = 3.3;
 
 // Share of the stone's diameter.
 constexpr double k_place = 0.03;
 // A less certain view cannot be accepted even by an option.
 constexpr double k_farthest_deg = 45;
-// Correction for trying many views until one exceeds chance: wrong proportions and pictures of
-// other things reached evidence of up to 11 (bench_pose --fault all).
+// Correction for trying many views: wrong proportions and pictures of other things reached evidence
+// of up to 11 (bench_pose --fault all).
 constexpr double k_places_tried = 8;
 
 /// Evidence that the edges are the stone's: from whole edges, and from the z of the share of their

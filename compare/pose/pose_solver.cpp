@@ -32,8 +32,8 @@ private:
     const ViewChange& change_;
 };
 
-/// Distance of a wireframe point along its normal from where its edge was met, in sigmas, with the
-/// derivatives by the view's change and by the point on the stone.
+/// Distance of a wireframe point along its normal from its met edge, in sigmas, with derivatives by
+/// the view's change and by the point.
 struct EdgeMisfit {
     double value = 0;
     std::array<double, k_view_unknowns> by_change;
@@ -149,9 +149,8 @@ Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
 // Weight of the prior, in number of observed changes.
 constexpr double k_belief = 6;
 
-/// Estimates the size of the facets' changes: each one over the square root of the share of its
-/// prior variance that the edges determine. Uses the median, so that facets with mistaken edges do
-/// not count.
+/// Size of the facets' changes: each one over the square root of the share of its prior variance
+/// that the edges determine. By the median, so that mistaken edges do not count.
 class Component {
 public:
     explicit Component(double expected) : expected_(expected) {}

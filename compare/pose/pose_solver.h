@@ -36,8 +36,7 @@ struct SolvedView {
     /// Facet errors estimated from the edges, shrunk slightly towards the prior. Set only with the
     /// covariance.
     double facet_error = 0, facet_offset = 0;
-    int tilts_found = 0;  ///< number of tilts that the edges determine, from which `facet_error` is
-                          ///< estimated
+    int tilts_found = 0;  ///< tilts that the edges determine: the source of `facet_error`
     bool converged = false;
 };
 

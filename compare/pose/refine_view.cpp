@@ -20,7 +20,7 @@ constexpr int k_settling_rounds = 7;
 constexpr int k_groups = 16;
 // Half-width of the search: pixels, and sigmas of the facet errors.
 constexpr double k_first_width = 0.7, k_width = 0.4, k_facet_widths = 2.5;
-// Bounds of the estimated facet errors, relative to the expected ones. Below, too little caution
+// Bounds of the estimated facet errors relative to the expected ones: below, too little caution
 // would be left; above, no edges were searched.
 constexpr double k_least_error = 0.1, k_most_error = 2;
 

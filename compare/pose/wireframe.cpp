@@ -31,8 +31,8 @@ PicturePoint minus(const PicturePoint& a, const PicturePoint& b) {
     return {a.x - b.x, a.y - b.y};
 }
 
-/// Distance along the normal of `point` to the nearest other edge that runs within 45 degrees of
-/// its direction. Crossing edges matter only where they cross.
+/// Distance along the normal of `point` to the nearest other edge within 45 degrees of its
+/// direction; crossing edges matter only where they cross.
 double gap_at(const WirePoint& point, const std::vector<WireEdge>& edges, double reach) {
     double nearest = reach;
     for (const WireEdge& other : edges) {
@@ -53,8 +53,8 @@ double gap_at(const WirePoint& point, const std::vector<WireEdge>& edges, double
     return nearest;
 }
 
-/// Shift in the picture, along the edge's normal, of a point of an edge when one of its facets is
-/// raised by one length at the point.
+/// Shift in the picture, along the edge's normal, of a point of an edge when one of its facets
+/// rises by one length there.
 double picture_shift(const Projection& project, const WirePoint& point, const Vec3& moved,
                      const Vec3& fixed, double small) {
     const double cosine = glm::dot(moved, fixed);

@@ -20,8 +20,7 @@ namespace {
 constexpr double k_tolerance = 0.02;      // of the pictures compared with the photograph
 constexpr double k_least_noise = 0.003;   // of the root of light
 constexpr double k_least_sharper = 0.25;  // lower limit of one step's factor on the squared blur
-constexpr double k_inside_blurs = 2;      // distance from the outline in blurs, because the ground
-                                          // differs
+constexpr double k_inside_blurs = 2;      // from the outline, in blurs: the ground differs
 // Prior sigma of the set-up's angles: found poses are 0.2 degrees off in the median.
 constexpr double k_angle_spread = radians(0.5);
 // Number of a photograph's own unknowns: exposure, place, blur, set-up.

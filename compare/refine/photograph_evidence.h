@@ -14,9 +14,9 @@
 namespace culet {
 
 struct PlaneEvidence {
-    /// The sum over the solid's facets of normal . dn + offset * dd is `value` with sigma 1,
-    /// independently of the other rows; dn, dd: the true planes minus the solid's. Independent of
-    /// the stone's rotation as a whole.
+    /// The sum over the facets of normal . dn + offset * dd is `value` with sigma 1, independently
+    /// of other rows; dn, dd: the true planes minus the solid's. A rotation of the whole stone does
+    /// not matter.
     struct Row {
         std::vector<PlaneSlopes> facets;
         double value = 0;
@@ -40,21 +40,21 @@ struct EvidenceFit {
     std::vector<Contradiction> contradictions;  ///< strongest first
 };
 
-/// Keeps the estimated set-up of the photograph: exposure, place in the picture, and small
-/// rotations of light and camera (set_up.h). It improves with the stone.
+/// Keeps the photograph's estimated set-up, which improves with the stone: exposure, place, and
+/// small rotations of light and camera (set_up.h).
 class PhotographEvidence {
 public:
-    /// `scene`: with the camera of the photograph's pose and the initial stone, which must be
-    /// convex. Throws InputError as `render` does, when the photograph's outline does not fit the
-    /// stone, and when the scene can only be ray-traced.
+    /// `scene`: with the photograph's camera and the initial stone, which must be convex. Throws
+    /// InputError as `render` does, when the outlines do not fit, and when the scene can only be
+    /// ray-traced.
     PhotographEvidence(const Photo& photo, const Scene& scene, int threads);
     ~PhotographEvidence();
     PhotographEvidence(PhotographEvidence&&) noexcept;
 
     /// Finds how the picture changes with the planes around `solid`, by two sketches for each move.
-    /// `sketch_anew` false: reuses the last changes, which still hold for a stone that moved
-    /// little. `spread`: prior standard deviation of each move (three per facet). `blur`: of both
-    /// pictures, a share of the diameter; as large as reflexes may be displaced.
+    /// `sketch_anew` false: keeps the last changes, which still hold for a stone that moved little.
+    /// `spread`: prior sigma of each move (three per facet). `blur`: of both pictures, a share of
+    /// the diameter; as large as reflexes may be displaced.
     PlaneEvidence measure(const Solid& solid, const std::vector<double>& spread, double blur,
                           bool sketch_anew, const Progress& progress = {});
 

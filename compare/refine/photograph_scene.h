@@ -9,8 +9,8 @@
 
 namespace culet {
 
-/// Cut to the stone, at most 256 pixels across. `find_pose`: finds the pose in the photograph;
-/// otherwise uses the scene's camera. Throws InputError when the pose cannot be found.
+/// Cut to the stone, at most 256 pixels across. `find_pose` false: uses the scene's camera. Throws
+/// InputError when the pose cannot be found.
 Scene photograph_scene(const Photo& photo, const Scene& scene, bool find_pose, int threads,
                        const Progress& progress = {});
 

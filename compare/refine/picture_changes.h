@@ -1,6 +1,6 @@
 #pragma once
-// Derivatives of the stone's picture by the moves of its planes and the angles of its set-up, by
-// finite differences of sketches.
+// Derivatives of the stone's picture by its planes' moves and the set-up's angles, from differences
+// of sketches.
 
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -27,9 +27,8 @@ struct SketchedStone {
     double blur = 1;     ///< samples
 };
 
-/// For the samples under `mask`: for each plane's moves (three per facet), then for each set-up
-/// angle, the slope (per radian), and the second difference (both sketches minus twice the middle
-/// one).
+/// At the samples under `mask`, for each plane's moves (three per facet), then each set-up angle:
+/// the slope (per radian), and both sketches minus twice the middle one.
 struct PictureChanges {
     std::vector<std::vector<double>> slopes, bends;
 };

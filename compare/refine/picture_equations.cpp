@@ -16,8 +16,8 @@ namespace {
 constexpr double k_huber = 2;        // deviations beyond which a sample's weight falls
 constexpr int k_rounds = 3;          // of weights and noise, which settle in two
 constexpr double k_rounding = 1e-9;  // of the largest eigenvalue
-// Range of the noise's correlation. For blurred noise it is exp(-d^2 / 4 blur^2): a ten-millionth
-// at 8. Other errors are correlated farther.
+// Range of the noise's correlation. Blurred noise has exp(-d^2 / 4 blur^2), a ten-millionth at 8;
+// other errors reach farther.
 constexpr double k_reach = 8;  // blurs
 // Lower limit in units of a sample's `noise`: even two equal pictures say nothing finer.
 constexpr double k_noise_floor = 0.1;
@@ -55,8 +55,8 @@ cv::Mat blurred_correlation(int reach, double blur) {
     return correlation;
 }
 
-// Bartlett's weights of pairs at each offset, which keep the sum over all pairs non-negative,
-// divided by the share of such noise that they keep.
+// Bartlett's weights of pairs at each offset, which keep the sum non-negative, over the share of
+// such noise that they keep.
 cv::Mat pair_weights(const cv::Mat& correlation) {
     const int reach = correlation.rows / 2;
     cv::Mat line(correlation.rows, 1, CV_32F);

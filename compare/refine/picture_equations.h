@@ -1,6 +1,6 @@
 #pragma once
-// Estimates the moves behind the difference of two pictures: weighted least squares with noise
-// correlated between neighbours, whose size the pictures themselves show.
+// Estimates the moves behind the difference of two pictures: weighted least squares, with
+// correlated noise estimated from the pictures.
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
@@ -29,10 +29,10 @@ struct MovesTold {
     double moves_told = 0;    ///< number of moves that the picture determines
 };
 
-/// The covariance of the least-squares sums is estimated from products of nearby residuals (Newey
-/// and West 1987, in the plane: Conley 1999), because noise is as smooth as the blur, and model
-/// errors are largest where moves change most. The expected non-linearity is added, because the
-/// moves absorb part of it and residuals do not show that. The nuisances have no prior.
+/// Estimates the sums' covariance from products of nearby residuals (Newey and West 1987, in the
+/// plane: Conley 1999), because noise is as smooth as the blur, and model errors are largest where
+/// moves change most. Adds the expected non-linearity, which the moves partly absorb and residuals
+/// do not show. The nuisances have no prior.
 MovesTold moves_told(const PictureEquations& equations);
 
 /// The amounts of the first `spread.size()` nuisances that fit these moves best, without the

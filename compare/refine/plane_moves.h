@@ -11,7 +11,7 @@ namespace culet {
 
 constexpr std::size_t k_moves_of_a_facet = 3;
 
-/// The reference frame of a facet's moves. Turns are radians about `u` and `v`. A shift is a length
+/// Reference frame of a facet's moves. Turns are radians about `u` and `v`; a shift is a length
 /// over `reach`, so that all three change a picture about equally.
 struct FacetMoves {
     Vec3 middle{0}, u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
@@ -26,12 +26,12 @@ Plane moved_plane(const FacetMoves& facet, std::size_t move, double amount);
 std::optional<Solid> with_plane_moved(const Solid& solid, std::size_t facet, const FacetMoves& from,
                                       std::size_t move, double amount);
 
-/// The moves (three per facet) that bring each facet of `from` into the plane of the same name, to
-/// first order. Zero for facets that `to` lacks.
+/// The moves (three per facet), to first order, from each facet of `from` to the plane of the same
+/// name. Zero where `to` has none.
 std::vector<double> moves_between(const Solid& from, const Solid& to);
 
-/// The moves (three per facet) for a unit of each change of the whole stone: shift along x, y, z,
-/// rotation about them (through its middle), and scale.
+/// The moves (three per facet) for a unit of shift along x, y, z, of rotation about them (through
+/// the middle), and of scale, of the whole stone.
 std::vector<std::vector<double>> moves_of_the_whole(const Solid& solid);
 
 /// Derivatives by a facet's plane instead of its moves: the number changes by normal . dn + offset

@@ -111,8 +111,8 @@ cv::Mat ignored_in(const Photo& photo, const CloseUp& shown) {
     return result;
 }
 
-// Rounds a map that is a shift by whole pixels to within 0.001 pixels to exactly that. It then
-// moves samples without mixing them, and a picture registered with itself stays the same.
+// Makes a map that is within 0.001 pixels of a whole shift exactly that, so that samples are not
+// mixed and a picture registered with itself stays the same.
 cv::Matx23d whole_pixels(const cv::Matx23d& map, cv::Size size) {
     const cv::Matx23d whole(1, 0, std::round(map(0, 2)), 0, 1, std::round(map(1, 2)));
     const cv::Matx23d off = map - whole;

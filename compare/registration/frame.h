@@ -51,9 +51,8 @@ struct Frame {
     cv::Matx23d cut_from_photo;
 };
 
-/// Compares at the smaller of the stone's two sizes, and at most `largest` pixels across. Sizes
-/// within 15 % are left alone, so that pictures of equal size are resampled only once, by the
-/// registration.
+/// Compares at the smaller of the stone's two sizes, at most `largest` pixels across. Leaves sizes
+/// within 15 % alone, so that pictures of equal size are resampled only by the registration.
 Frame align(const Photo& photo, const Photo& render, double largest);
 
 /// Another picture of the render's size and outline, moved as the render was.

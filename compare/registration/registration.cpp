@@ -19,7 +19,7 @@ namespace culet {
 namespace {
 
 // Rounder outlines do not determine the turn: 0.0015 of the diameter is half the figure of a
-// 16-gon, and below two thirds of a pixel the mask's staircase decides.
+// 16-gon; below two thirds of a pixel the mask's staircase decides.
 constexpr double k_round = 0.0015, k_round_px = 0.67;
 
 // Zero crossings of the signed distance between neighbours, by linear interpolation.

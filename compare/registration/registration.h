@@ -1,6 +1,6 @@
 #pragma once
-// Registers the render's outline with the photo's. Only outlines are used: internal reflexes are
-// what the comparison is about, and misplaced ones would bias the registration.
+// Registers the render's outline with the photo's. Internal reflexes are not used: they are what
+// the comparison is about, and misplaced ones would bias it.
 
 #include <array>
 #include <opencv2/core/mat.hpp>
@@ -12,9 +12,8 @@
 namespace culet {
 
 /// q = scale * R(turn) * (p - about) + about + shift, from photo pixels p to render pixels q.
-/// Positive `turn` takes +x towards +y: clockwise as seen, because y runs down. A similarity, not
-/// an affinity: a camera's shift, turn and distance are free, but a stretch would hide a stone of
-/// the wrong shape or a wrong viewing direction.
+/// Positive `turn` takes +x towards +y: clockwise as seen, because y runs down. Not an affinity,
+/// because a stretch would hide a wrong shape or viewing direction.
 struct Similarity {
     double scale = 1, turn = 0;
     cv::Point2d about{0, 0}, shift{0, 0};
@@ -43,9 +42,9 @@ struct OutlineLimits {
 };
 
 /// Starts from the silhouettes' centres and areas with turn 0 and, for stones that are not round,
-/// also with the turn of their long axes. Then least squares (Ceres) on the distances of the
-/// photo's outline points to the render's outline, with Huber's loss (1964) against a holder or a
-/// chip. Quarter turns and mirroring are tried only to explain a failure.
+/// the turn of their long axes. Then least squares (Ceres) on the distances of the photo's outline
+/// points to the render's outline, with Huber's loss (1964) against a holder or a chip. Quarter
+/// turns and mirroring serve only to explain a failure.
 OutlineMatch match_outlines(const Silhouette& photo, const Silhouette& render,
                             const OutlineLimits& limits = {});
 

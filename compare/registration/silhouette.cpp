@@ -16,7 +16,7 @@ namespace culet {
 namespace {
 
 // Below 32 pixels across, the scores' finest blur (1 % of the diameter) is a third of a pixel, and
-// an outline known to half a pixel gives the scale only to 3 %.
+// an outline good to half a pixel gives the scale only to 3 %.
 constexpr double k_smallest_diameter_px = 32;
 
 // Differences from the background in sRGB-encoded units (0..1). 0.02 is 5 of 255: above the
@@ -176,9 +176,9 @@ Differing differing(const cv::Mat& shown_picture) {
     return result;
 }
 
-// A low threshold finds the foot of the outline's slope instead of its middle. Finds the steepest
-// places along the normals and moves the whole outline by their median: a single offset, so that
-// dark facets along the girdle cannot dent it.
+// A low threshold finds the foot of the outline's slope. Moves the whole outline by the median
+// distance of the steepest places along its normals: a single offset, so that dark facets along the
+// girdle cannot dent it.
 cv::Mat settled(const cv::Mat& mask, const Differing& found) {
     const cv::Mat distance = signed_distance(mask);
     // The foot of a blurred edge is up to two sigma outside it.
@@ -213,8 +213,8 @@ cv::Mat settled(const cv::Mat& mask, const Differing& found) {
     return distance < upper_median(std::move(offsets));
 }
 
-// The largest connected part, plus every part with at least 1/200 of its area within a quarter of
-// the stone's extent: bright facets of a stone in a dark box are islands.
+// The largest connected part, plus parts of at least 1/200 of its area within a quarter of the
+// stone's extent: bright facets in a dark box are islands.
 std::vector<cv::Point> joined_parts(const cv::Mat& differs) {
     cv::Mat labels, stats, centres;
     const int count = cv::connectedComponentsWithStats(differs, labels, stats, centres);

@@ -23,14 +23,14 @@ struct Silhouette {
 /// From the file's coverage (CV_32F, 0..1): over one half is stone.
 Silhouette silhouette_from_coverage(const cv::Mat& coverage, const std::string& source);
 
-/// From the colours (CV_32FC3, linear): pixels that differ from the background, closed over dark
-/// gaps and filled to the convex hull. A convex stone's outline is convex, and without the hull
-/// dark facets in a dark box would be lost. The background is a plane in each colour fitted to the
-/// picture's border, so that light may fall off sideways. The stone must not touch the border.
+/// Pixels (CV_32FC3, linear) that differ from the background, closed over dark gaps and filled to
+/// the convex hull, because otherwise dark facets in a dark box would be lost. The background is a
+/// plane in each colour fitted to the picture's border, so light may fall off sideways. The stone
+/// must not touch the border.
 Silhouette silhouette_from_background(const cv::Mat& colour);
 
-/// Signed distance to the mask's outline in pixels, positive outside (CV_32F), smoothed by a
-/// Gaussian of one pixel against the mask's staircase.
+/// Signed distance to the mask's outline in pixels, positive outside (CV_32F), with a Gaussian of
+/// one pixel against the mask's staircase.
 cv::Mat signed_distance(const cv::Mat& mask);
 
 }  // namespace culet

@@ -12,8 +12,8 @@
 
 namespace culet {
 
-/// The linear value at which the stone is well exposed. `brightest`: the largest channel of each of
-/// its pixels. Nothing without light.
+/// The linear value that exposes the stone well. `brightest`: each pixel's largest channel. Nothing
+/// without light.
 std::optional<double> white_for_stone(std::vector<float> brightest);
 /// The white level for both pictures of a comparison, at most the photograph's own.
 double white_shown(const Comparison& comparison);

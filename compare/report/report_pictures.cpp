@@ -44,8 +44,8 @@ std::string map_uri(const PixelMap& map, ColourMap colours, double low, double h
 }
 
 std::optional<double> white_for_stone(std::vector<float> brightest) {
-    // Shows the median as a medium tone. Between 2 and 7 % of the stone may be over-exposed (glints
-    // are few): a picture without white looks dull.
+    // The median is a medium tone, and 2 to 7 % of the stone (glints) may be over-exposed: without
+    // white a picture looks dull.
     constexpr double k_median_shown = 0.4, k_most_over = 0.07, k_least_over = 0.02;
     std::erase_if(brightest, [](float v) { return !(v > 0) || !std::isfinite(v); });
     if (brightest.empty()) return std::nullopt;

@@ -20,8 +20,7 @@ struct Registration {
     double scale = 1;        ///< render pixels per photo pixel
     double turn_deg = 0;     ///< from photo to render, clockwise as seen
     bool turn_known = true;  ///< false: the outlines are round, and the turn stays 0
-    std::array<double, 2> shift_px{};   ///< from the stone's centre in the photo to that in the
-                                        ///< render
+    std::array<double, 2> shift_px{};   ///< from the stone's centre in the photo to the render's
     std::array<double, 2> centre_px{};  ///< of the stone in the photo
     double photo_diameter_px = 0, render_diameter_px = 0;  ///< of the circles of equal area
     std::string photo_outline, render_outline;  ///< origin: "mask", "coverage", "background"

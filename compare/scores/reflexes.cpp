@@ -23,8 +23,8 @@ constexpr double k_area_factor = 3;
 constexpr double k_coloured = 10;        // CIELAB chroma
 constexpr double k_hue_cosine = 0.8660;  // of 30 degrees
 
-// Luminance clipped at white and slightly blurred: otherwise a flat part of the stone near the
-// level would break up into spots of noise.
+// Luminance clipped at white and slightly blurred, or a flat part near the level would break up
+// into spots of noise.
 cv::Mat smoothed_light(const cv::Mat& colour, const MatchedPictures& pictures) {
     cv::Mat light = luminance(colour);
     cv::min(light, pictures.white, light);

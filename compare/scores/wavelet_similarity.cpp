@@ -15,8 +15,8 @@ constexpr double k_largest_diameter = 256;
 constexpr std::array k_wavelengths{0.03, 0.06};  // of the diameter
 constexpr int k_directions = 6;
 constexpr double k_octave = 0.65;  // sigma of log frequency as a ratio: about one octave
-// K of equation 7 keeps flat regions, where both responses are noise, from counting as different:
-// the square of a quarter of an 8-bit step.
+// K of equation 7 keeps flat regions, where both responses are noise, from counting as different: a
+// quarter of an 8-bit step, squared.
 constexpr double k_flat_part = 1e-6;
 
 // Zero mean under the mask and zero outside, so that the outline is not an edge.

@@ -1,6 +1,6 @@
 #pragma once
-// The error of a render against a finer one of the same scene and view, pixel by pixel, without
-// registration or gain.
+// The error of a render against a finer one of the same view, pixel by pixel, without registration
+// or gain.
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -14,8 +14,8 @@ namespace culet {
 /// Measures pictures against a reference.
 class PictureMetric {
 public:
-    /// The stone's pixels are those with coverage in the reference; all, when it has none. White,
-    /// for the scores of encoded pictures, is five times their mean.
+    /// The stone's pixels are those with coverage in the reference; without coverage, all. White,
+    /// for encoded pictures, is five times their mean.
     explicit PictureMetric(Picture truth);
 
     PictureError error_of(const Picture& picture) const;

@@ -24,8 +24,8 @@ namespace {
 constexpr double k_reference_share = 0.4, k_design_share = 0.65, k_search_share = 0.85;
 // Shares of the budget for the first drawing of a setting, and of one that the study needs.
 constexpr double k_row_share = 0.06, k_needed_share = 0.15;
-// Settings whose first run took up to this factor longer than the front's are timed again, because
-// their median might be faster.
+// Settings whose first run took up to this factor longer than the front's are timed again: their
+// median might be faster.
 constexpr double k_perhaps_quicker = 1.3;
 // A neighbour must be this much faster for the search to continue from it.
 constexpr double k_gain = 0.97;

@@ -2,10 +2,10 @@
 // What accuracy costs in time: draws one scene with many settings and compares each with the
 // reference.
 //
-// The reference comes from the reference renderer with all effects, a third of the finest
+// The reference is drawn by the reference renderer with all effects, a third of the finest
 // tolerance, and as many rays per pixel as the budget allows. It is the mean of two drawings with
-// different rays and random paths. Half their difference estimates the reference's own error, and
-// no smaller error is claimed.
+// different rays and random paths; half their difference estimates its error, and no smaller error
+// is claimed.
 
 #include <string>
 

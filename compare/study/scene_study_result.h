@@ -11,11 +11,11 @@
 namespace culet {
 
 struct SceneStudyOptions {
-    /// Longer side of the pictures, pixels. 0: from 64 to 256, the largest for which a reference of
-    /// 64 rays a pixel should fit into its share of the budget.
+    /// Longer side of the pictures, pixels. 0: 64 to 256, the largest whose reference of 64 rays a
+    /// pixel should fit into its share of the budget.
     int size = 0;
     /// Seconds of processor time; 0: no limit. The reference takes up to 40 %, the design 25 %, the
-    /// search 20 %, and repeated timing the rest. A budget that is too small is exceeded: the
+    /// search 20 %, and repeated timing the rest. Too small a budget is exceeded, because the
     /// automatic settings and each engine are drawn at least once.
     double budget_seconds = 120;
     std::vector<double> tolerances{0.1, 0.03, 0.01, 0.003};
@@ -44,8 +44,7 @@ struct StudiedRender {
     int id = 0;
     std::string sweep;    ///< what is varied: "tolerance", "depth", "search", ...
     std::string setting;  ///< "8", "without dispersion", ...
-    std::string words;    ///< the complete setting: "beams, depth 8, tolerance 0.01, without
-                          ///< dispersion"
+    std::string words;    ///< complete: "beams, depth 8, tolerance 0.01, without dispersion"
     bool automatic = false;
     RenderSettings settings;  ///< as requested
     RenderSettings settled;   ///< as drawn; automatic: as completed by the plan
@@ -55,8 +54,8 @@ struct StudiedRender {
     double claimed_error = 0;
     bool at_noise = false;  ///< the error is less than twice the reference's own
     int runs = 0;
-    /// Of the drawing, without the beams' check against the reference renderer. Automatic: with the
-    /// planning, and with the beams and their check if these were not accurate enough.
+    /// Without the beams' check against the reference renderer. Automatic: with the planning, and
+    /// with the beams and their check if these were not accurate enough.
     StudyTime cpu, wall;
     double checked_cpu = 0;  ///< automatic: all that `render` does, with the check
     bool on_front = false;
@@ -66,9 +65,8 @@ struct StudiedRender {
 
 struct StudyReference {
     int samples = 0;  ///< rays per pixel of both halves together
-    /// Rays per pixel of cheap samples (few wavelengths, short paths) used as a control variate:
-    /// their mean plus the mean difference of exact and cheap samples along the same rays. 0: none,
-    /// where they would save little time.
+    /// Rays per pixel with few wavelengths and short paths, a control variate: their mean plus the
+    /// mean difference of exact rays along the same paths. 0: none, where they would save little.
     int rough_samples = 0;
     double tolerance = 0;
     RenderStats stats;   ///< of the first half
@@ -83,8 +81,7 @@ struct StudyReference {
 /// The cheapest way found to meet a tolerance, compared with the automatic settings.
 struct StudyAdvice {
     double tolerance = 0;
-    std::optional<int> cheapest, automatic;  ///< ids; automatic: set if drawn, whether it met the
-                                             ///< tolerance or not
+    std::optional<int> cheapest, automatic;  ///< ids; automatic: drawn, whether it met it or not
     bool automatic_meets = false;
     std::optional<double> ratio;  ///< processor time, automatic over cheapest
     std::string words;

@@ -16,12 +16,12 @@ struct StudyCandidate {
     bool needed = false;  ///< drawn regardless of the budget
 };
 
-/// All effects on and nothing left to a plan: the reference's settings except samples and seed.
+/// The reference's settings except samples and seed: all effects on, nothing left to a plan.
 /// `nodes`: number of wavelengths, if a spectrum is needed.
 RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes);
 
 /// Automatic settings at each tolerance, the engines, and one setting varied at a time about the
-/// scene's tolerance; the most informative first.
+/// scene's tolerance; most informative first.
 std::vector<StudyCandidate> study_design(const StudyGround& ground);
 
 /// Settings that are cheaper in one respect: shallower, fewer wavelengths, one effect less, ...

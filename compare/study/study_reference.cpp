@@ -18,14 +18,14 @@ namespace culet {
 namespace {
 
 constexpr std::array k_sizes{256, 192, 128, 96, 64};
-// The rays per pixel of the two halves are this number squared, on a regular grid, and one less in
-// another pattern.
+// Rays per pixel of the two halves: this number squared, on a regular grid, and one less in another
+// pattern.
 constexpr std::array k_sides{2, 3, 4, 5, 7, 9, 11, 13, 17, 21, 27, 33, 43, 55};
 constexpr int k_most_side = 64;
 constexpr int k_wanted_rays = 64;
 constexpr int k_probe = 24, k_probe_rays = 4;
-// Pruning may change the reference by at most a third of the finest tolerance, by a bound that is
-// seldom reached; its noise should be well below.
+// Pruning may change the reference by a third of the finest tolerance, a bound that is seldom
+// reached; its noise should be well below.
 constexpr double k_of_finest = 1.0 / 3, k_quiet = 0.1, k_rough_tolerance = 0.03;
 
 Scene exact_scene(const Scene& scene, double finest_tolerance, int samples) {
@@ -58,9 +58,8 @@ struct Half {
     int rays = 0, rough_rays = 0;
 };
 
-// Many cheap rays, plus the mean difference of exact and cheap rays along the same paths: unbiased
-// like exact rays, with the noise of many (control variates; Giles 2008). `fewer` changes the
-// pattern of the rays.
+// Many cheap rays, plus the mean difference of exact and cheap rays along the same paths: unbiased,
+// with the noise of many (control variates; Giles 2008). `fewer` changes the rays' pattern.
 Half half_of(const Scene& scene, double finest_tolerance, int side, int fewer,
              const Progress& progress) {
     Half half;

@@ -15,7 +15,7 @@ Camera resized(const Camera& camera, int longer_side);
 
 /// Draws two independent references with more and more rays until half their mean difference is
 /// below a tenth of the finest tolerance, or the next round would exceed `seconds` of processor
-/// time. The first round is always drawn. Throws InputError when the stone is not in the picture.
+/// time. Draws at least one round. Throws InputError when the stone is not in the picture.
 StudyReference study_reference(const Scene& scene, double finest_tolerance, double seconds,
                                StudyClock& clock);
 

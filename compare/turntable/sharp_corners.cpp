@@ -10,8 +10,8 @@ namespace culet {
 
 namespace {
 
-// Pixels: points this near to a chord belong to one side; blur reaches this far from a corner along
-// the sides; a corner is at most this far from its blurred image.
+// Pixels: distance of a side's points from its chord; reach of blur along the sides; largest
+// distance of a corner from its blurred image.
 constexpr double k_one_side = 0.5, k_blurred = 3, k_farthest = 6;
 constexpr double k_turn = 0.14;  // radians, 8 degrees: a flatter corner is blurred by less than 0.1
 constexpr std::size_t k_least = 4;

@@ -24,11 +24,11 @@ struct Turntable {
     std::string trouble, remedy;
 };
 
-/// `step`: rotation from one outline to the next, radians, counter-clockwise from above. A plane
-/// that touches the stone and contains two lines of sight appears in both outlines at the same
-/// height along the axis (Wong and Cipolla 2001, Cipolla and Giblin 2000). Opposite outlines have
-/// the same distances from the axis on opposite sides. Throws InputError with fewer than three
-/// outlines, or when no two are opposite, so that the axis' place is not identifiable.
+/// `step`: rotation from one outline to the next, radians, counter-clockwise from above. A tangent
+/// plane through two lines of sight appears in both outlines at the same height along the axis
+/// (Wong and Cipolla 2001, Cipolla and Giblin 2000), and opposite outlines are equally far from the
+/// axis. Throws InputError with fewer than three outlines, or without opposite ones, when the axis'
+/// place is not identifiable.
 Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step);
 
 /// Order of file names by the numbers in them: turn-2 comes before turn-10, which a shell lists
