@@ -1,6 +1,6 @@
 #pragma once
-// The alternatives whose photographs a calibration simulates: the model with other facets, another
-// light, pose or material, or one thing wrong.
+// The alternatives that a calibration photographs: the model with other facets, light, pose or
+// material, or one thing wrong.
 
 #include <glm/mat3x3.hpp>
 #include <optional>
@@ -17,7 +17,7 @@ struct WorldsAsked {
     int draws = 8;        ///< at each facet error
     int null_draws = 24;  ///< of each null
     std::uint64_t seed = 1;
-    std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
+    std::optional<Solid> start{};  ///< where the fit started: the catalogue's cut
     /// Standard uncertainty of the pose about either axis across the line of sight, radians. Every
     /// draw except a wrong pose is turned at random by it.
     double view_sigma = 0;
@@ -33,10 +33,10 @@ struct WorldDraw {
 
 class Alternatives {
 public:
-    /// Adds to `notes` which alternatives do not exist, and why. The model must outlive this.
+    /// Adds to `notes` which alternatives there are none of, and why. The model must outlive this.
     Alternatives(const Scene& model, const WorldsAsked& asked, std::vector<std::string>& notes);
 
-    /// Every kind comes up early, so that a time budget that runs out leaves a complete set.
+    /// All kinds come up early, in case the time budget runs out.
     const std::vector<WorldDraw>& draws() const { return draws_; }
     Scene scene_of(const WorldDraw& draw) const;
 

@@ -25,14 +25,14 @@ struct CalibrateOptions {
     std::uint64_t seed = 1;
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     double largest = 256;  ///< as for `aligned`
-    /// In the frame of the model's picture: pixels over 0.5 are left out. Empty: none is.
+    /// In the model picture's frame: over 0.5 is left out. Empty: nothing.
     std::vector<float> ignored{};
-    std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
-    /// For the same model, renderer and camera. Null: that score is missing. Not owned.
+    std::optional<Solid> start{};  ///< where the fit started: the catalogue's cut
+    /// For the same model, renderer and camera; null: no such score. Not owned.
     const FacetTilts* tilts = nullptr;
 };
 
-/// Hash of everything that this scene's calibration depends on, as the key of a cache.
+/// Hash of everything that the calibration depends on: the key of a cache.
 std::string calibration_hash(const Scene& model, const CalibrateOptions& options);
 
 /// Simulates photographs of the alternatives, registers each with the model's picture by its
@@ -44,8 +44,7 @@ std::string calibration_hash(const Scene& model, const CalibrateOptions& options
 Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
                       const CalibrateOptions& options, const Progress& progress = {});
 
-/// One calibration for each of several cameras (not `options.camera`); each alternative is drawn
-/// once.
+/// One for each of several cameras (not `options.camera`); each alternative is drawn once.
 std::vector<Calibration> calibrate(const Scene& model, const Photo& model_picture,
                                    const DraftRenderer& renderer, const CalibrateOptions& options,
                                    const std::vector<CameraModel>& cameras,
@@ -57,8 +56,8 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
 std::vector<Score> scores_against(const Photo& photo, const Photo& soft_picture, double largest,
                                   const FacetTilts* tilts);
 
-/// The scores of one photograph in the calibration's order. `soft_picture` is the model's picture
-/// softened by the camera's point spread.
+/// One photograph's scores in the calibration's order. `soft_picture`: the model's, softened by the
+/// camera's point spread.
 std::vector<std::optional<double>> calibration_scores(const Photo& photo, const Photo& soft_picture,
                                                       const CalibrateOptions& options);
 

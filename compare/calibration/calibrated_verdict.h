@@ -11,7 +11,6 @@
 
 namespace culet {
 
-/// The photograph against the draws of one null distribution.
 struct NullStatistics {
     World world = World::light;
     int draws = 0;
@@ -25,7 +24,6 @@ struct NullStatistics {
     double least_deg = 0, median_deg = 0;
 };
 
-/// A hypothesis, and the facet error it would be equivalent to if it were true.
 struct HypothesisWorth {
     World world = World::wrong;
     std::string name;
@@ -49,10 +47,9 @@ struct CalibratedVerdict {
     double evidence = 0;
 };
 
-/// Explains to people how the verdict is reached.
 extern const char* const k_calibrated_rule;
 
-/// `scores`: the photograph's against the model's render, at the calibration's size.
+/// `scores`: photograph against model's render, at the calibration's size.
 CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibration calibration,
                                      bool geometry_only = false);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A calibrated verdict as JSON. Private to the folder, because it exposes nlohmann's types.
+// Private to the folder, because it exposes nlohmann's types.
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,7 +9,7 @@ namespace culet {
 
 /// "meaning": headline, equivalent facet error, nulls, hypotheses.
 nlohmann::ordered_json calibrated_verdict_json(const CalibratedVerdict& verdict);
-/// "sensitivity": one row for each facet error, with mean, spread and fitted curve of every score.
+/// "sensitivity": for each facet error, the mean, spread and fitted curve of every score.
 nlohmann::ordered_json sensitivity_json(const CalibratedVerdict& verdict);
 
 }  // namespace culet

@@ -9,11 +9,11 @@
 namespace culet {
 
 enum class World {
-    facet_error,  ///< the model with tilted facets: the sensitivity curve. 0 degrees is the ceiling
-    light,        ///< the model under its lights turned by 15 to 180 degrees
-    pose,         ///< the model turned and tilted, registered anew
+    facet_error,  ///< tilted facets: the sensitivity curve; 0 degrees is the ceiling
+    light,        ///< lights turned by 15 to 180 degrees
+    pose,         ///< turned and tilted, registered anew
     both,         ///< wrong light and wrong pose
-    catalogue,    ///< the model's most symmetrical neighbour, or the mesh that the fit started from
+    catalogue,    ///< the most symmetrical neighbour, or the mesh that the fit started from
     material,     ///< neighbours in the catalogue of materials
     wrong         ///< one thing slightly wrong: index, dispersion, absorption, light, tilt
 };
@@ -23,8 +23,7 @@ struct CalibrationDraw {
     World world = World::facet_error;
     std::string name;            ///< "0.1 degrees", "quartz", "no dispersion"; nulls: empty
     double facet_error_deg = 0;  ///< of World::facet_error
-    /// One for each key; nothing: undefined for this picture, or the picture could not be
-    /// registered.
+    /// One for each key; nothing: undefined, or the picture could not be registered.
     std::vector<std::optional<double>> scores;
 };
 
@@ -34,13 +33,13 @@ struct Calibration {
     std::uint64_t seed = 1;
     double stone_px = 0;   ///< diameter of the stone in the compared pictures
     double psf_px = 0;     ///< sigma of the simulated photographs' blur
-    double electrons = 0;  ///< electrons at the clipping level that stand for their noise
+    double electrons = 0;  ///< at the clipping level, for their noise
     bool from_cache = false;
     std::string hash;  ///< of everything that the calibration depends on
     std::vector<std::string> notes;
 };
 
-/// To and from the text of a cache file. Nothing for other text, or text of another version.
+/// To and from a cache file's text. Nothing for other text or another version.
 std::string calibration_json(const Calibration& calibration);
 std::optional<Calibration> calibration_from(const std::string& json);
 

@@ -12,7 +12,7 @@ namespace culet {
 
 struct KeptCalibration {
     Calibration calibration;
-    TiltVariance tilts;  ///< from which the score of the facets' tilts is computed
+    TiltVariance tilts;  ///< for the score of the facets' tilts
 };
 
 /// One table (JSON) and one picture of numbers (PFM, a row for each direction) for each hash.

@@ -1,5 +1,5 @@
 #pragma once
-// How fine a calibration's pictures are and how many it draws, within a time budget.
+// The resolution and number of a calibration's pictures within a time budget.
 
 #include "compare/calibration/draft_renderer.h"
 
@@ -8,7 +8,7 @@ namespace culet {
 struct CalibrationPlan {
     DraftRenderer renderer;  ///< of all its pictures
     int rounds = 8;          ///< draws at each facet error; nulls have three times as many
-    bool tilts = true;       ///< whether the effect of each facet's tilt is drawn
+    bool tilts = true;       ///< whether facet tilts are drawn
 };
 
 /// Takes the finest resolution for which four rounds fit into `allowed_ns`, otherwise the coarsest

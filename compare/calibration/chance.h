@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers that are the same on every machine; the standard library's distributions are not.
+// Random numbers that, unlike those of the standard's distributions, are the same on every machine.
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -23,11 +23,10 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// Seed of one draw among many: neighbouring seeds are unrelated (splitmix64, Steele et al. 2014).
+/// Unrelated seeds for many draws (splitmix64, Steele et al. 2014).
 std::uint64_t seed_of(std::uint64_t seed, std::uint64_t group, std::uint64_t draw);
 
-/// Rotation by `angle` (radians) about a unit axis, counter-clockwise when the axis points to the
-/// viewer.
+/// By `angle` (radians) about a unit axis, counter-clockwise when it points to the viewer.
 glm::dmat3 rotation_about(const Vec3& axis, double angle);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// A camera that draws only the part of its picture that shows the stone, at another scale.
+// A camera that shows only the stone's part of a picture, at another scale.
 
 #include <vector>
 
@@ -12,10 +12,10 @@ namespace culet {
 /// pixel at (0, 0) as in EyeRays.
 std::vector<std::array<double, 2>> projected_corners(const Solid& solid, const Camera& camera);
 
-/// Diameter of the circle with the area of the corners' convex hull, in the camera's pixels.
+/// Diameter of the circle with the area of the corners' convex hull, pixels.
 double projected_diameter(const Solid& solid, const Camera& camera);
 
-/// Margin around a compared stone, as a share of its diameter.
+/// Around a compared stone, share of its diameter.
 constexpr double k_stone_margin = 0.18;
 
 /// The same view, cut to the stone's corners plus `margin` (a share of the diameter), the stone

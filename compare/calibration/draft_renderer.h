@@ -21,21 +21,20 @@ public:
     /// they are.
     DraftRenderer coarser(const Scene& model, double cut_weight) const;
 
-    /// With coverage. The same scene gives the same bytes. Throws InputError for a stone that
-    /// cannot be drawn.
+    /// With coverage; deterministic. Throws InputError for a stone that cannot be drawn.
     Photo draw(const Scene& scene, const Progress& progress = {}) const;
     /// A picture at one wavelength with only the stronger paths, to see how the picture changes;
     /// for a crystal in a thirtieth of the time. Nothing for a ray-traced scene, because noise
     /// would dominate differences.
     std::optional<Photo> sketch(const Scene& scene) const;
-    /// An independent picture of the scene by the reference renderer, `samples` rays a pixel.
+    /// An independent picture by the reference renderer, `samples` rays a pixel.
     Photo draw_exactly(const Scene& scene, int samples, const Progress& progress = {}) const;
 
     /// The first scene's picture.
     const Photo& picture() const { return picture_; }
     const RenderSettings& settings() const { return settings_; }
     const RenderStats& stats() const { return stats_; }
-    /// Counted work of all pictures so far; for ray-traced ones, estimated from the first picture.
+    /// Counted work of all pictures; for ray-traced ones estimated from the first.
     double worked_ns() const;
 
 private:

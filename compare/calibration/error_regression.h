@@ -1,6 +1,6 @@
 #pragma once
-// Predicts the logarithm of a stone's facet error from its scores, learnt from draws of known
-// error: multivariate inverse regression.
+// Predicts the logarithm of a stone's facet error from its scores: multivariate inverse regression
+// on draws of known error.
 
 #include <optional>
 #include <vector>
@@ -18,7 +18,7 @@ public:
     /// the scores that are asked for are left out.
     ErrorRegression(std::vector<double> log_errors, std::vector<std::vector<double>> scores);
 
-    /// Nothing when all scores are missing, or fewer than three draws have those that are present.
+    /// Nothing when all scores are missing, or fewer than three draws have them.
     std::optional<double> of(const std::vector<double>& scores) const;
 
     /// Each draw's leave-one-out error (Cook and Weisberg 1982, 2.2: residual / (1 - leverage));

@@ -1,6 +1,5 @@
 #pragma once
-// Estimates the facets' tilts from the picture: how much of a photograph's error is what tilted
-// facets would change.
+// How much of a photograph's error is what tilted facets would change.
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -23,21 +22,20 @@ namespace culet {
 /// diameter, with the stone 192 pixels across.
 class FacetTilts {
 public:
-    /// `model`, `renderer` with its picture, `camera`: as for a calibration. Draws four sketches
-    /// for each facet (`sketches_for`). Throws Interrupted.
+    /// Arguments as for a calibration. Draws four sketches for each facet (`sketches_for`). Throws
+    /// Interrupted.
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
                int threads, const Progress& progress = {});
-    /// The same without drawing the sketches: `kept` is the `variance()` of an earlier object with
-    /// the same model and camera.
+    /// Without drawing: `kept` is the `variance()` of an earlier object with the same model and
+    /// camera.
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
                TiltVariance kept);
 
-    /// Number of sketches that the constructor draws.
     static double sketches_for(const Solid& solid) {
         return 4.0 * static_cast<double>(solid.facets.size());
     }
 
-    /// False when the stone is not convex, is ray-traced, or its facets do not show.
+    /// False: not convex, ray-traced, or without visible facets.
     bool usable() const { return variance_.usable(); }
 
     const TiltVariance& variance() const { return variance_; }
@@ -51,7 +49,7 @@ public:
                                           const Photo* picture = nullptr) const;
 
 private:
-    /// Samples the model's picture; false when nothing can be told from it.
+    /// False when the picture shows nothing.
     bool lay_samples(const Scene& model, const DraftRenderer& renderer);
 
     /// The picture through a lens, at its full resolution.

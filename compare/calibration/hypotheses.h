@@ -11,10 +11,10 @@ namespace culet {
 
 Stone turned_stone(const Stone& stone, const glm::dmat3& turn, const Vec3& about);
 
-/// True when turning the lights changes nothing because the same light comes from everywhere.
+/// Whether the same light comes from everywhere, so that turning it changes nothing.
 bool same_light_from_everywhere(const Lights& lights);
 
-/// Adds `by` to all refractive indices, whatever their dispersion formula.
+/// Adds `by` to all refractive indices, in any dispersion formula.
 Material with_index_changed(const Material& material, double by);
 /// Uses the indices at the sodium line for all wavelengths.
 Material without_dispersion(const Material& material);

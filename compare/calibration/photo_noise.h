@@ -1,5 +1,5 @@
 #pragma once
-// Estimates a photograph's noise, as the electrons that a camera with that noise would count.
+// A photograph's noise, as the electrons that a camera with that noise counts.
 
 #include "compare/calibration/simulated_camera.h"
 #include "compare/scores/aligned_pair.h"
@@ -19,7 +19,6 @@ double photo_electrons(const MatchedPictures& pictures, double psf_px, int bits)
 /// camera.
 void set_blur_and_noise(CameraModel& camera, const MatchedPictures& pictures);
 
-/// The camera model estimated from the photograph itself.
 CameraModel camera_of(const Photo& photo, const AlignedPair& pair);
 
 }  // namespace culet

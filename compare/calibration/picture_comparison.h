@@ -1,5 +1,5 @@
 #pragma once
-// Compares a photograph with a render; pictures in, plain data out.
+// A photograph against a render; pictures in, plain data out.
 
 #include "compare/scores/compare.h"
 #include "stone/progress/progress.h"

@@ -1,6 +1,5 @@
 #pragma once
-// Improves a pose that the edges leave uncertain: finds the view whose render agrees best with the
-// photograph.
+// Improves an uncertain pose by finding the view whose render agrees best with the photograph.
 
 #include <vector>
 

@@ -15,7 +15,7 @@
 
 namespace culet {
 
-/// A pose with a 99 % uncertainty up to this, radians, is not refined.
+/// 99 % uncertainty of a pose, radians, up to which it is not refined.
 constexpr double k_sure_pose = radians(2.0);
 
 struct SceneCompareOptions {
@@ -26,7 +26,7 @@ struct SceneCompareOptions {
     /// (render/work/price.h). Limits the pictures' number and resolution. 0: no limit.
     double budget_seconds = 30;
     int draws = 8;  ///< at each facet error, at most; nulls have three times as many
-    /// Largest size of the stone in pixels, at which every draw of the calibration is made.
+    /// Largest size of the stone, pixels, in every draw of the calibration.
     double largest = 256;
     std::filesystem::path cache{};  ///< folder of calibrations; empty: no cache
     std::optional<Solid> start{};   ///< the mesh that the fit started from

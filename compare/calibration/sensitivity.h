@@ -16,7 +16,6 @@ struct ScoreKind;
 /// Levels at which facet errors are drawn, degrees; beside 0, the ceiling.
 std::vector<double> facet_errors_deg();
 
-/// One score against facet error.
 struct SensitivityCurve {
     std::string key;
     struct Level {
@@ -57,11 +56,11 @@ public:
 
     /// False when too few levels were drawn.
     bool usable() const { return curves_.size() > 0 && levels_.size() >= 3; }
-    /// `scores`: one for each key of the calibration.
+    /// One for each key of the calibration.
     EquivalentError of(const std::vector<std::optional<double>>& scores) const;
-    /// The curves with the values, equivalent errors and weights of these scores.
+    /// With the values, equivalent errors and weights of these scores.
     std::vector<SensitivityCurve> curves(const std::vector<std::optional<double>>& scores) const;
-    /// The rank of a picture that is as wrong as the scale reaches.
+    /// The rank at the end of the scale.
     double largest_rank() const { return levels_.empty() ? 0 : levels_.back(); }
 
     static constexpr double k_least_deg = 0.01;  ///< stands for an error of 0

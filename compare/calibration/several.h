@@ -1,5 +1,5 @@
 #pragma once
-// Combines several photographs of one stone, and finds what each of them contributes.
+// Combines photographs of one stone, and finds what each contributes.
 
 #include <optional>
 #include <string>
@@ -30,16 +30,14 @@ struct SeveralPhotographs {
     EquivalentError together;
     /// The same without each of the photographs, in their order.
     std::vector<EquivalentError> without;
-    /// Largest change of the combined answer when one photograph is left out, as a factor of at
-    /// least 1.
+    /// Largest change of the answer when one is left out, as a factor of at least 1.
     double largest_change = 1;
 };
 
-/// The verdict is that of most photographs, in a tie the worse one. Refused photographs count only
-/// when all are refused.
+/// The majority's verdict, in a tie the worse one. Refused photographs count only when all are.
 SeveralPhotographs together(const std::vector<PhotographRow>& rows);
 
-/// One JSON object: the combined answer, and every photograph's scores under "photographs".
+/// The combined answer, and every photograph's scores under "photographs".
 std::string several_json(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows);
 
 }  // namespace culet

@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// The camera of the photograph being assessed, at the size of the comparison.
+/// The photograph's camera, at the size of the comparison.
 struct CameraModel {
     double psf_px = 0.7;                   ///< standard deviation of the point spread
     double electrons = 10000;              ///< at the clipping level; shot noise is their root
@@ -28,7 +28,7 @@ struct CameraModel {
 /// `stone` must have coverage.
 Photo photographed(const Photo& stone, const CameraModel& camera, std::uint64_t seed);
 
-/// The factor on the gain that brings the stone's 99th percentile to that of `model`.
+/// Gain factor from the stone's 99th percentile to that of `model`.
 double exposure_like(const Photo& stone, const Photo& model);
 
 }  // namespace culet

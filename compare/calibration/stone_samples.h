@@ -17,7 +17,6 @@ constexpr double k_sample_blur = 0.008;   // share of the diameter
 constexpr double k_softer = 1.4;          // a softer lens: times the photograph's blur
 constexpr double k_inside = 0.025;        // least distance from the outline, share of the diameter
 
-/// The scene with the samples' camera.
 Scene sampled_scene(const Scene& model);
 
 /// Where a model's samples lie, and its pictures at them.
@@ -36,15 +35,15 @@ struct StoneSamples {
     /// A sketch seen by the photograph's camera, blurred by `blur` samples; black outside the
     /// stone, because the photograph's ground differs.
     cv::Mat sketched(const Photo& sketch, const CameraModel& camera, double blur) const;
-    /// The model's picture through the camera's lens of `psf_px`, blurred by `blur` samples, at its
-    /// full resolution.
+    /// The model's picture through a lens of `psf_px`, blurred by `blur` samples, at its full
+    /// resolution.
     cv::Mat fine_picture(const Photo& picture, const CameraModel& camera, double psf_px,
                          double blur) const;
     /// A fine picture at the samples.
     cv::Mat at_samples(const cv::Mat& fine) const;
 };
 
-/// A photograph aligned with the model's picture, ready to be sampled.
+/// A photograph aligned with the model's picture, for sampling.
 struct SampledPhoto {
     SampledPhoto() = default;
     SampledPhoto(const AlignedPair& pair, const StoneSamples& samples);
@@ -53,8 +52,7 @@ struct SampledPhoto {
     double diameter = 0;
     cv::Matx33d close_up_from_sample;
 
-    /// The photograph at the samples, blurred by `blur` of its diameter. `moved`: a displacement of
-    /// the samples from their registered places.
+    /// Blurred by `blur` of the diameter. `moved`: displacement of the samples.
     cv::Mat at_samples(cv::Size size, double blur,
                        const cv::Matx33d& moved = cv::Matx33d::eye()) const;
     /// Masks out samples where the photograph is not usable.
@@ -72,8 +70,7 @@ struct Nuisance {
 /// Shift in pixels of the samples for a unit of `right` and `down`, and at the stone's outline for
 /// a unit of `larger` and `turned`.
 constexpr double k_moved_by_unit = 0.6;
-/// `softer`: the fine picture through a softer lens. The last three of `k_all` are the shift to
-/// second order.
+/// `softer`: through a softer lens. The last three of `k_all` are the shift to second order.
 std::vector<cv::Mat> nuisances_of(const cv::Mat& fine, const cv::Mat& softer,
                                   const StoneSamples& samples);
 

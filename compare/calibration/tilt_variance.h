@@ -1,20 +1,18 @@
 #pragma once
-// Estimates how large many small causes are together from what they change in a picture, without
-// separating them: a variance component.
+// The common size of many small causes, from what they change in a picture: a variance component.
 
 #include <optional>
 #include <vector>
 
 namespace culet {
 
-/// What is known of a picture's samples beforehand. Each column has one value for each sample.
+/// What is known of a picture beforehand. Columns have one value for each sample.
 struct TiltModel {
     /// The change by a unit of each cause (each facet's tilts).
     std::vector<std::vector<double>> changes;
     /// Directions in which pictures differ for other reasons, by unknown amounts.
     std::vector<std::vector<double>> nuisances;
-    /// Each sample's standard deviation for all other reasons, positive, in any unit: only ratios
-    /// count.
+    /// Sigma of each sample for all other reasons, positive; only ratios count.
     std::vector<double> noise;
 };
 
@@ -39,11 +37,10 @@ public:
     /// False: every change of a cause is also a nuisance.
     bool usable() const { return !rows_.empty(); }
     std::size_t samples() const { return samples_; }
-    /// One direction each, of `samples()` values. The estimate is the root of the sum of their
-    /// squared products with a difference.
+    /// One for each direction, with `samples()` values. The estimate is the root sum of squares of
+    /// their products with a difference.
     const std::vector<float>& rows() const { return rows_; }
-    /// `difference`: a picture minus the one without causes, one value for each sample. Nothing
-    /// when not usable.
+    /// `difference`: a picture minus the one without causes. Nothing when not usable.
     std::optional<double> rms(const std::vector<double>& difference) const;
 
 private:

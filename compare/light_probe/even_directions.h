@@ -1,4 +1,5 @@
 #pragma once
+// Directions spread evenly over the sphere.
 
 #include <vector>
 

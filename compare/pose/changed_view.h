@@ -1,5 +1,5 @@
 #pragma once
-// A changing view, computed once for all the points that are projected through it.
+// A changing view, computed once for all projected points.
 
 #include <array>
 
@@ -7,7 +7,7 @@
 
 namespace culet {
 
-/// Where a point of the stone is seen, and the derivatives by the view and by the point.
+/// A point's place in the picture, with derivatives by view and point.
 struct SeenPoint {
     PicturePoint at;
     std::array<double, k_view_unknowns> x_by_change, y_by_change;

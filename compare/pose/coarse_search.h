@@ -16,7 +16,7 @@ struct CoarseView {
     double score = 0;  ///< approximate log-likelihood, higher is better
 };
 
-/// What a wireframe is compared with: one photograph, as it is or mirrored.
+/// What a wireframe is compared with: a photograph, as it is or mirrored.
 struct Target {
     const WireSolid& wire;
     const OutlineShape& shape;
@@ -25,15 +25,15 @@ struct Target {
     double facet_error = 0;
 };
 
-/// The view with the rotation of `start`; size and place come from the outline. With its score.
+/// Fits size and place to the outline for the rotation of `start`, and scores the view.
 CoarseView score_view(const Target& target, const StoneView& start);
 
 /// Up to `most` different views, best first. `angle`: how far off the start may be, radians.
 std::vector<CoarseView> search_views(const Target& target, const StoneView& start, double angle,
                                      int most, const Progress& progress);
 
-/// Tries `view` turned all round about the stone's z axis and improves the best. Returns those that
-/// differ, best first.
+/// The best different views among `view` turned all round about the stone's z axis and improved,
+/// best first.
 std::vector<CoarseView> turned_views(const Target& target, const StoneView& view, int most);
 
 }  // namespace culet

@@ -10,8 +10,7 @@
 
 namespace culet {
 
-/// `points` come from `points_along`; `stone`: CV_8U, the photograph's stone; `diameter_px`: its
-/// diameter.
+/// `points` come from `points_along`. `stone`: CV_8U, the photograph's stone, of `diameter_px`.
 CrownEvidence crown_evidence(const EdgePicture& picture, const cv::Mat& stone,
                              const std::vector<WirePoint>& points, double diameter_px);
 

@@ -6,7 +6,6 @@
 
 namespace culet {
 
-/// A wireframe edge, and where it was met along most of its length.
 struct MetLine {
     struct Place {
         int point = -1;  ///< index among the given points

@@ -1,5 +1,5 @@
 #pragma once
-// Distance maps of a photograph's edges, one for each direction, for comparison with many thousands
+// A photograph's edges as distance maps, one for each direction, for comparison with many thousands
 // of wireframes.
 
 #include <array>
@@ -12,17 +12,16 @@ namespace culet {
 
 constexpr int k_edge_directions = 12;
 
-/// Made once for a photograph that was resized to about `k_map_diameter` across the stone.
+/// For a photograph resized to about `k_map_diameter` across the stone.
 class EdgeMap {
 public:
-    /// `colour`: CV_32FC3, linear; `mask`: CV_8U, the stone. `reach`: edges nearer than this share
-    /// of the stone's diameter (`diameter_px`) count.
+    /// `colour`: CV_32FC3, linear; `mask`: CV_8U, the stone. `reach`: of an edge, as a share of the
+    /// stone's `diameter_px`.
     EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px, double reach);
 
     class Direction {
     public:
-        /// 1 on an edge of this direction, falling to 0 at `reach` from it, minus the mean over the
-        /// stone.
+        /// 1 on an edge of this direction, falling to 0 at `reach`, minus the mean over the stone.
         float agreement(const PicturePoint& at) const {
             const int x = static_cast<int>(at.x * scale_), y = static_cast<int>(at.y * scale_);
             if (x < 0 || y < 0 || x >= near_.cols || y >= near_.rows) return -chance_;
@@ -37,14 +36,14 @@ public:
         float chance_;
         double scale_;
     };
-    /// The map for lines with this unit normal.
+    /// For lines with this unit normal.
     Direction direction(double normal_x, double normal_y) const {
         const auto k = static_cast<std::size_t>(direction_of(normal_x, normal_y));
         return {near_[k], chance_[k], scale_};
     }
     /// Standard deviation of `agreement` over the stone.
     double spread() const { return spread_; }
-    /// Size of a map's pixel, in pixels of the photograph.
+    /// In pixels of the photograph.
     double pixel() const { return 1 / scale_; }
 
 private:

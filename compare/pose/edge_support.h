@@ -1,6 +1,5 @@
 #pragma once
-// How well the photograph's edges match a wireframe, compared with chance: the same wireframe
-// shifted.
+// How much better the photograph's edges match a wireframe than its shifted copies.
 
 #include "compare/pose/edge_search.h"
 

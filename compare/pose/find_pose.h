@@ -32,8 +32,7 @@ struct PoseLimits {
     double shift_px = 0;
     /// Median distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;
-    /// Probability that the pose is wrong: that its edges are met by chance, or that another view
-    /// is the right one.
+    /// Probability that the edges are met by chance, or that another view is right.
     double doubt = 0.001;
 };
 
@@ -49,8 +48,7 @@ struct PoseOptions {
     /// Relative standard uncertainty of the start's focal length (perspective cameras): this prior
     /// decides when a distant photograph cannot separate it from the distance.
     double focal_error = 0.2;
-    /// Standard uncertainty of the start's principal point, as a share of the picture's width; 0:
-    /// fixed.
+    /// Standard uncertainty of the start's principal point, share of the picture's width; 0: fixed.
     double principal_point_error = 0;
     PoseLimits limits;
     int threads = 0;  ///< 0: all processors; the result does not depend on it
@@ -65,13 +63,12 @@ struct EdgeMark {
     bool counted = false;             ///< near enough to the prediction to count
 };
 
-/// A candidate pose that was fully refined.
 struct TriedPose {
     Camera camera;
     bool mirrored = false;
     double turn = 0;  ///< angle to the chosen pose
     double lead = 0;  ///< log-likelihood of the chosen pose minus this one's
-    /// The stone looks the same from here except for small irregularities.
+    /// Looks the same except for small irregularities.
     bool symmetric = false;
     double log_odds = 0;     ///< as CrownEvidence
     double start_angle = 0;  ///< from the start's view
@@ -93,7 +90,7 @@ struct PoseSigmas {
     /// About the picture's x, y and the line of sight, radians.
     std::array<double, 3> turn{};
     double angle = 0;  ///< root sum of squares of `turn`
-    /// 99 % uncertainty. The part that mistaken edges add is measured, not derived.
+    /// 99 %; the effect of mistaken edges is measured, not derived.
     double angle_99 = 0, shift_99_px = 0;
     std::array<double, 2> shift_px{};
     double scale = 0;            ///< relative, of the stone's size in the picture
@@ -102,8 +99,7 @@ struct PoseSigmas {
 };
 
 struct FoundPose {
-    /// `render` with this camera matches the photograph; if `mirrored`, the photograph flipped left
-    /// to right.
+    /// Its render matches the photograph, flipped left to right if `mirrored`.
     Camera camera;
     bool mirrored = false;
     bool chirality_known = true;  ///< false: both were tried, and the stone looks alike in both
@@ -111,13 +107,13 @@ struct FoundPose {
     PoseSigmas sigmas;
     double start_angle = 0;  ///< from the start's view to the found one
     double start_scale = 1;  ///< found size over the start's size
-    /// Median distance to the photograph's edges, of the outline and of the crown's counted edges.
+    /// Median distances of the outline and of the crown's counted edges.
     double outline_px = 0, crown_px = 0;
     double crown_support = 0, chance_support = 0;  ///< shares of the crown's edge points met
     double support_z = 0;
     CrownEvidence evidence;
     double doubt = 1;  ///< as in PoseLimits
-    /// The view's sigma from the normal equations, and from the jackknife (`variances_by_groups`).
+    /// The view's sigma from the normal equations, and from the jackknife.
     double angle_by_edges = 0, angle_by_groups = 0;
     /// Facet errors of the model estimated from the edges, one sigma: tilt as in PoseOptions, and
     /// offset of the planes at their facets' middles, a length.
@@ -141,11 +137,10 @@ struct FoundPose {
 FoundPose find_pose(const Photo& photo, const Solid& solid, const Camera& start,
                     const PoseOptions& options = {}, const Progress& progress = {});
 
-/// A PNG file's bytes: the photograph with the pose's wireframe in colour, and the distances of the
-/// edges that were met.
+/// A PNG file: the photograph with the pose's wireframe and the distances of the met edges.
 std::string pose_overlay(const Photo& photo, const Solid& solid, const FoundPose& pose);
 
-/// One JSON object (schema 1) with everything except the marks.
+/// One JSON object (schema 1) without the marks.
 std::string pose_json(const FoundPose& pose);
 
 /// The [camera] keys of a scene file as overrides (`read_scene`): "camera.position=[1, 2, 3]", ...

@@ -18,7 +18,7 @@ struct FacetFrame {
 };
 FacetFrame frame_of(const WireSolid& wire, int facet);
 
-/// The point on both changed planes nearest to `x`, which lies on both unchanged planes.
+/// The point on both changed planes nearest to `x`, a point on both unchanged planes.
 struct MovedEdge {
     Vec3 at;
     std::array<Vec3, 6> slopes;  ///< derivatives by the left facet's changes, then the right one's

@@ -22,14 +22,13 @@ struct OutlineShape {
 /// From the convex hull of a mask's pixels (their areas, not their centres).
 OutlineShape outline_shape(const cv::Mat& mask);
 
-/// A view with the given rotation, with size and place fitted to the outline.
 struct FittedOutline {
     StoneView view;
     double rms = 0;  ///< root mean square of the tangents' residuals, pixels
 };
 
-/// Least squares over the tangents; a second round computes the perspective at the size from the
-/// first. `focal_px` 0: orthographic.
+/// Least squares over the tangents, in two rounds because the perspective depends on the size.
+/// `focal_px` 0: orthographic.
 FittedOutline fit_outline(const WireSolid& wire, const OutlineShape& shape, const StoneView& start,
                           double focal_px);
 

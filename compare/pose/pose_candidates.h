@@ -1,6 +1,6 @@
 #pragma once
-// Views worth refining: the coarse search over both sides of the photograph, without views that are
-// equal by the stone's symmetry.
+// Views worth refining: coarse search on both sides of the photograph, without views that are equal
+// by symmetry.
 
 #include <optional>
 
@@ -23,8 +23,8 @@ struct SeenView {
 
 std::vector<Candidate> coarse_candidates(const PoseTask& task);
 
-/// The equivalent views by the model's symmetry. The first is not mirrored, if possible, and
-/// nearest to the start.
+/// Views that are equivalent by the model's symmetry; first one that is not mirrored and nearest to
+/// the start.
 std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side, const StoneView& view);
 
 /// The view nearest to the start among those that differ from this one by a turn about the stone's
@@ -33,16 +33,16 @@ std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side, con
 std::optional<StoneView> meant_look_alike(const PoseTask& task, const PhotoSide& side,
                                           const StoneView& view);
 
-/// Orders unmirrored views before mirrored ones, then by the smaller angle to the start.
+/// Not mirrored first, then by the angle to the start.
 bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSide* b_side,
                      const StoneView& b);
 
-/// Whether the view shows the side of the stone (of its plane z = 0) that the start does not show.
+/// Whether it shows the side (of the stone's plane z = 0) that the start does not show.
 bool shows_other_side(const PoseTask& task, const StoneView& view);
 
 double angle_between(const StoneView& a, const StoneView& b);
 
-/// Views nearer to one another than this are the same.
+/// Nearer views are the same.
 constexpr double k_same_view_deg = 0.4;
 
 }  // namespace culet

@@ -1,6 +1,5 @@
 #pragma once
-// Fits the view and the facets' small errors to the edges that were met: least squares with a
-// robust loss (Ceres).
+// Fits the view and the facets' errors to the met edges: robust least squares (Ceres).
 
 #include <array>
 #include <vector>
@@ -9,7 +8,7 @@
 
 namespace culet {
 
-/// An edge of the photograph that corresponds to the wireframe's edge at `point`.
+/// An edge of the photograph for the wireframe's edge at `point`.
 struct MetEdge {
     WirePoint point;
     double offset = 0;  ///< along the point's normal, pixels
@@ -29,12 +28,11 @@ struct SolverSettings {
 struct SolvedView {
     StoneView view;
     std::vector<FacetChange> facets;  ///< one for each facet of the solid, zero where fixed
-    /// Of `ViewChange` at `view`, row by row; zero where fixed. Empty unless requested.
+    /// Of `ViewChange` at `view`, row by row; zero where fixed. Only on request.
     std::vector<double> covariance;
-    /// Residuals over their sigmas, one for each edge.
+    /// In sigmas, one for each edge.
     std::vector<double> residuals;
-    /// Facet errors estimated from the edges, shrunk slightly towards the prior. Set only with the
-    /// covariance.
+    /// Estimated from the edges, slightly shrunk to the prior. Only with the covariance.
     double facet_error = 0, facet_offset = 0;
     int tilts_found = 0;  ///< tilts that the edges determine: the source of `facet_error`
     bool converged = false;

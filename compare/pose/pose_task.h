@@ -35,7 +35,7 @@ struct PoseTask {
     double prior_focal_px = 0;
 };
 
-/// Throws InputError for input for which no pose can be found.
+/// Throws InputError when no pose can be found for this input.
 void require_suitable(const Photo& photo, const Solid& solid, const Camera& start);
 
 /// The start with the photograph's size. With another aspect ratio the photograph was cropped;
@@ -43,7 +43,7 @@ void require_suitable(const Photo& photo, const Solid& solid, const Camera& star
 /// is recorded in `options`.
 Camera start_for(const Camera& start, int width, int height, PoseOptions& options);
 
-/// Scales the photograph so that its bright parts are near 1. `saturation`: where it clips then.
+/// Scaled to bright parts near 1. `saturation`: where it clips then.
 cv::Mat exposed(const Photo& photo, double& saturation);
 
 void make_sides(PoseTask& task, const cv::Mat& colour, const cv::Mat& mask, double saturation);

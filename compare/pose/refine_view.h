@@ -19,7 +19,7 @@ struct RefinedView {
     SolvedView solved;
     std::vector<WirePoint> points;  ///< at the found view
     std::vector<MetEdge> met;       ///< those used last
-    /// Facet errors of the model from the edges (`settle`), one sigma: tilt and offset.
+    /// Facet errors estimated by `settle`, one sigma: tilt and offset.
     double facet_error = 0, facet_offset = 0;
     bool lost = false;  ///< too few edges were met, or the view diverged
 };
@@ -28,8 +28,8 @@ struct RefinedView {
 RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
                     const RefineSettings& settings);
 
-/// Continues from `draw_in` with all parameters free, and computes the covariance. Estimates the
-/// model's facet errors on the way.
+/// Continues from `draw_in` with all parameters free, estimates the facet errors, and computes the
+/// covariance.
 RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
                    const RefineSettings& settings);
 

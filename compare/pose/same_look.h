@@ -1,5 +1,5 @@
 #pragma once
-// Symmetry of a stone: whether two views of it look alike except for small irregularities.
+// Whether two views of a stone look alike except for small irregularities.
 
 #include "compare/pose/wireframe.h"
 

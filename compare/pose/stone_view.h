@@ -31,10 +31,10 @@ struct StoneView {
 
 StoneView stone_view(const Camera& camera, const Vec3& middle);
 
-/// Takes size, lens and optics from `like`. An orthographic camera is as far away as `like`.
+/// With size, lens and optics of `like`; for an orthographic camera also its distance.
 Camera camera_of(const StoneView& view, const Camera& like);
 
-/// In the stone's frame: the camera's position, or (orthographic) the direction to it.
+/// In the stone's frame: the camera's position or (orthographic) direction.
 struct EyePlace {
     Vec3 place{0};
     bool parallel = false;
@@ -55,7 +55,6 @@ glm::dmat3 rotation_by(const Vec3& w);
 
 double angle_of(const glm::dmat3& rotation);
 
-/// Projects points of the stone into the picture.
 class Projection {
 public:
     explicit Projection(const StoneView& view);

@@ -1,5 +1,5 @@
 #pragma once
-// The formulas of a view, for plain numbers and for automatic differentiation.
+// A view's formulas, also for automatic differentiation.
 
 #include <array>
 #include <cmath>

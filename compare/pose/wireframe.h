@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// A convex solid prepared for many projections.
+/// A convex solid, prepared for projections.
 struct WireSolid {
     explicit WireSolid(const Solid& solid_);
     Solid solid;
@@ -30,17 +30,16 @@ struct WireEdge {
 
 std::vector<WireEdge> visible_edges(const WireSolid& wire, const StoneView& view);
 
-/// A point of a visible edge.
 struct WirePoint {
     int edge = -1;
     bool outline = false;
     Vec3 on_stone{0};
     PicturePoint at;
     double normal_x = 0, normal_y = 0;  ///< unit; on the outline: away from the stone
-    /// How far facets with the expected error move the edge here: one sigma, pixels.
+    /// Sigma of the edge's place here from expected facet errors, pixels.
     double facet_sigma = 0;
-    /// Distance along the normal to the next wireframe edge, or the search's reach. Two edges this
-    /// near are seen as one.
+    /// Distance along the normal to the next wireframe edge, at most the search's reach. Edges this
+    /// near look like one.
     double gap = 0;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+// What a study recommends.
 
 #include <optional>
 #include <vector>

@@ -1,4 +1,5 @@
 #pragma once
+// The scene as a study draws it.
 
 #include <vector>
 
