@@ -12,15 +12,14 @@ namespace culet {
 struct FoundBall {
     BallCircle circle;
     double support = 0;  ///< 0..1: share of the outline where there is an edge
-    /// How likely it is a mirror ball: support * (compression - 1) * (1 - alike) of the rim
-    /// (rim_compression.h).
+    /// Of a mirror ball: support * (compression - 1) * (1 - alike) of the rim (rim_compression.h).
     double evidence = 0;
-    double sigma_px = 0;  ///< of the centre and the radius, one standard deviation
-    /// For the first ball: another circle elsewhere with nearly as much evidence.
+    double sigma_px = 0;  ///< standard uncertainty of centre and radius
+    /// For the first ball: a circle elsewhere with nearly as much evidence.
     std::optional<BallCircle> rival = {};
 };
 
-/// Evidence of a rival, as a share of the ball's.
+/// Share of the ball's evidence.
 inline constexpr double k_rival_evidence = 0.8;
 
 /// The likeliest balls, by falling evidence: circles from Hough's transform at several scales and

@@ -1,5 +1,5 @@
 #pragma once
-// Groups the photographs of a command line into views of a ball, and finds their exposures.
+// Groups a command line's photographs into views of a ball, with their exposures.
 
 #include <filesystem>
 #include <optional>
@@ -14,10 +14,10 @@ namespace culet {
 
 struct BallSeries {
     std::vector<std::filesystem::path> files;
-    /// Each view's files in order, if the user gave them; otherwise found.
+    /// Each view's files in order, if given; otherwise found.
     std::vector<std::vector<std::filesystem::path>> views;
     std::vector<double> exposures;  ///< of the files in the order given; empty: from EXIF
-    /// Its distortion is corrected; its focal length and principal point replace those of EXIF.
+    /// Corrects distortion; its focal length and principal point replace those of EXIF.
     std::optional<Lens> lens;
 };
 

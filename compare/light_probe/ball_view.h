@@ -1,5 +1,5 @@
 #pragma once
-// One picture of a mirror ball: what it shows in a direction, and with what quality.
+// What a picture of a mirror ball shows in a direction, and with what quality.
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -23,7 +23,7 @@ struct BallView {
     MirrorBall ball;
     PhotographerCone photographer;
     glm::dmat3 world_from_camera{1.0};
-    /// 1 for each pixel not to be used (the reflex of a near light); null: all are used.
+    /// 1 for each unused pixel (the reflex of a near light); null: none.
     std::shared_ptr<const std::vector<std::uint8_t>> left_out = nullptr;
 
     /// 0..1: the density of the ball's picture, ((1 + cos theta) / 2)^2 with theta from the
@@ -48,7 +48,7 @@ struct ViewMap {
     std::vector<float> quality;
     std::vector<float> over;  ///< share of the texel that is over-exposed
 };
-/// Each texel is a mean over directions dense enough to hit every pixel.
+/// Texels are means over directions dense enough to hit every pixel.
 ViewMap view_map(const BallView& view, int width);
 
 }  // namespace culet

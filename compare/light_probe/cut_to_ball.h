@@ -1,5 +1,5 @@
 #pragma once
-// Cuts a photograph to the ball, and shrinks it to the detail that a map can hold.
+// Cuts a photograph to the ball, at the resolution that a map can hold.
 
 #include <memory>
 
@@ -12,7 +12,7 @@ struct CutToBall {
     std::string name;  ///< the photograph's, for messages
     std::shared_ptr<const Photo> picture;
     ViewPrior prior;
-    double left = 0, top = 0, factor = 1;  ///< place and scale of the cut in the photograph
+    double left = 0, top = 0, factor = 1;  ///< of the cut in the photograph
 
     PixelPlace in_photograph(const PixelPlace& p) const {
         return {(p.x + 0.5) * factor - 0.5 + left, (p.y + 0.5) * factor - 0.5 + top};
@@ -26,7 +26,7 @@ struct CutToBall {
     }
 };
 
-/// For a lat-long map of `width` texels. `sigma_px`: the circle's sigma in the photograph.
+/// For a lat-long map of `width` texels. `sigma_px`: the circle's, in the photograph.
 CutToBall cut_to_ball(const ProbeView& view, const BallCircle& circle, double sigma_px,
                       const ProbeOptions& options, int width);
 

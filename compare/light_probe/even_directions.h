@@ -1,5 +1,4 @@
 #pragma once
-// Directions spread evenly over the sphere.
 
 #include <vector>
 
@@ -7,7 +6,7 @@
 
 namespace culet {
 
-/// `count` unit vectors with equal shares of the sphere, on a golden-angle spiral from +z to -z.
+/// `count` unit vectors on a golden-angle spiral from +z to -z.
 std::vector<Vec3> even_directions(int count);
 
 }  // namespace culet

@@ -11,7 +11,7 @@ namespace culet {
 
 struct MergedLight {
     EnvironmentMap map;               ///< lat-long, radiance as the ball shows it
-    std::vector<float> coverage;      ///< for each texel: 0 not seen .. 1 seen in the ball's middle
+    std::vector<float> coverage;      ///< of each texel: 0 not seen .. 1 in the ball's middle
     std::vector<float> disagreement;  ///< stops between two views; NaN where fewer than two see it
     double filled_sr = 0;             ///< solid angle that no view shows, filled in
 };

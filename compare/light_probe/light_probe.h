@@ -1,5 +1,5 @@
 #pragma once
-// From photographs of a mirror ball to the light around it.
+// The light around a mirror ball from its photographs.
 
 #include <optional>
 #include <string>
@@ -32,14 +32,13 @@ struct ProbeOptions {
     /// azimuth.
     double towards_azimuth = 0, towards_elevation = 0;
     /// The second camera's rotation about the vertical of the first picture, counter-clockwise from
-    /// above, if known; otherwise found.
+    /// above; otherwise found.
     std::optional<double> turned;
     int width = 0;    ///< of the lat-long map; 0: as fine as the ball shows it
     int passes = 20;  ///< of sharpening (light_merge.h)
-    /// The camera stood still and the ball was moved. Further views then only give the distances of
-    /// near lights.
+    /// The ball was moved, not the camera: further views give only the distances of near lights.
     bool moved = false;
-    /// Lights to remove from the map and to find as windows; lengths in the stone's unit.
+    /// Lights to take out of the map as windows; lengths in the stone's unit.
     std::vector<NearLightRequest> near_lights;
     double ball_radius = 0;  ///< in the stone's unit; required with near lights
 };
@@ -63,13 +62,13 @@ struct LightProbe {
     MergedLight light;  ///< radiance in the units of the first view
     std::vector<ProbeViewResult> views;
     std::vector<ViewAlignment> alignments;  ///< of the second and further views to the first
-    /// Stops between two views where both see: mean, median and 99 % quantile.
+    /// Mean, median and 99 % quantile where two views see, stops.
     double mean_disagreement = 0, middle_disagreement = 0, worst_disagreement = 0;
     double covered = 0;                  ///< share of all directions
-    bool moved = false;                  ///< the ball was moved, not the camera
+    bool moved = false;                  ///< the ball, not the camera
     std::vector<NearLight> near_lights;  ///< lengths in the stone's unit; radiance as in the map
     std::vector<std::string> notes;      ///< for people, one line each
-    /// Empty when the result can be trusted; otherwise why not.
+    /// Why the result cannot be trusted; otherwise empty.
     std::string doubt;
     bool usable() const { return doubt.empty(); }
 };
@@ -86,7 +85,7 @@ std::string light_toml(const LightProbe& probe, const std::string& environment);
 /// One JSON object with `schema`; angles in degrees.
 std::string light_json(const LightProbe& probe, const ProbeOptions& options);
 
-/// PNG bytes: coverage above, disagreement below, each with its scale.
+/// PNG: coverage above, disagreement below, each with its scale.
 std::string coverage_png(const LightProbe& probe);
 
 }  // namespace culet

@@ -34,11 +34,10 @@ public:
     static MirrorBall with_focal_length(const BallCircle& circle, const PixelPlace& principal,
                                         double focal_px);
 
-    /// The unit direction from which a pixel's light comes, exact for a finite camera distance.
-    /// Nothing beside the ball.
+    /// Unit direction from which a pixel's light comes, exact for any camera distance. Nothing
+    /// beside the ball.
     std::optional<Vec3> direction_of(const PixelPlace& place) const;
-    /// Also the point of reflection on the unit ball, from the ball's centre: near objects lie on
-    /// this line.
+    /// With the point of reflection on the unit ball: near objects lie on this line.
     struct Reflection {
         Vec3 at, direction;
     };
@@ -50,9 +49,9 @@ public:
     /// centre; nearness 0: the direction `at`. Nothing in the blind cone.
     std::optional<PixelPlace> place_of_point(const Vec3& at, double nearness) const;
 
-    /// From the camera to the ball's centre, in ball radii, in the camera's frame.
+    /// From the camera, in ball radii, in its frame.
     const Vec3& centre() const { return centre_; }
-    /// Unit direction from the ball to the camera.
+    /// Unit.
     const Vec3& towards_camera() const { return towards_camera_; }
     double distance() const { return distance_; }
     double focal_px() const { return focal_px_; }

@@ -13,7 +13,7 @@
 
 namespace culet {
 
-/// What the user gives of a near light: where its reflex is, or where it stands.
+/// What the user gives: where the reflex is, or where the light stands.
 struct NearLightRequest {
     std::string name;                    ///< for messages: the pixel as the user wrote it
     std::optional<PixelPlace> at;        ///< on its reflex in the first picture
@@ -41,14 +41,15 @@ struct NearLight {
     double residual = 0;              ///< of its edges, root mean square, radians
     double over = 0;                  ///< share of its reflex that is over-exposed
     std::vector<std::string> notes;
-    /// Empty when the light can be trusted; otherwise it has no window and is not in `shown`.
+    /// Why the light cannot be trusted; it then has no window and is not in `shown`. Otherwise
+    /// empty.
     std::string doubt;
     bool usable() const { return doubt.empty(); }
 };
 
 struct FoundNearLights {
     std::vector<NearLight> lights;
-    /// For each place the pixels that show any of the lights, as `BallView::left_out`.
+    /// For each place, the pixels that show a light, as `BallView::left_out`.
     std::vector<std::shared_ptr<const std::vector<std::uint8_t>>> shown;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The picture of one light in a mirror ball: its pixels and its outline.
+// The pixels and outline of one light in a mirror ball.
 
 #include <cstdint>
 #include <optional>
@@ -13,8 +13,7 @@
 namespace culet {
 
 struct Reflex {
-    std::vector<std::uint8_t> inside;  ///< for each pixel of the picture: 1 in the light, dark bars
-                                       ///< too
+    std::vector<std::uint8_t> inside;   ///< of each pixel: 1 in the light and its dark bars
     std::vector<std::uint8_t> touched;  ///< 1 also where the picture's blur carries its light
     /// Where the luminance between two neighbouring pixels passes half way between the light and
     /// its surroundings. Accurate to 0.1 pixels for a box-filtered straight edge.
@@ -25,7 +24,6 @@ struct Reflex {
     int pixels = 0;
 };
 
-/// Why there is no separate light at a pixel.
 enum class NoReflex : std::uint8_t { beside_the_ball, not_brighter, at_the_rim, too_small };
 
 struct ReflexSearch {

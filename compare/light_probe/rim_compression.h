@@ -1,5 +1,5 @@
 #pragma once
-// Tells whether a circle in a photograph is a mirror ball.
+// Whether a circle in a photograph is a mirror ball.
 
 #include <opencv2/core.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace culet {
 
-/// What a ring just inside a circle's rim shows.
+/// What a ring inside a circle's rim shows.
 struct RimLook {
     /// Ratio of the light's change along the radius to that across it. A mirror ball compresses its
     /// picture at the share rho of its radius by 1 / (1 - rho^2): 7 to 50 times in this ring, less
@@ -18,7 +18,7 @@ struct RimLook {
     double alike = 0;
 };
 
-/// `light`: CV_32F, one channel, 0 to 1. Zeros where the ring is outside the picture.
+/// `light`: CV_32F, one channel, 0 to 1. Zeros if the ring is outside the picture.
 RimLook rim_look(const cv::Mat& light, const BallCircle& circle);
 
 }  // namespace culet

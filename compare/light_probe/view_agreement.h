@@ -10,12 +10,12 @@ namespace culet {
 /// Luminance below which stops are meaningless: 1 / 500 of the picture's mean.
 double floor_of(const Photo& picture);
 
-/// Log2 of luminance over the picture's floor, CV_32F. Linear light is blurred, not stops.
+/// Log2 of luminance over the floor, CV_32F; blurs linear light, not stops.
 cv::Mat stops_of(const Photo& picture, double sigma_px);
 /// Bilinear.
 double stops_at(const cv::Mat& stops, const PixelPlace& place);
 
-/// Correlation of stops where both views show well.
+/// Of stops, where both views show well.
 double correlation_of(const ViewPair& pair, const ViewParameters& p);
 
 /// Gain, first over second: the median over blocks of directions of the ratios of their summed

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the camera's rotation around the ball between two pictures from what both show.
+// Finds the camera's rotation around the ball between two pictures.
 
 #include <string>
 
@@ -27,17 +27,16 @@ struct ViewAlignment {
     double residual = 0;                ///< median disagreement, stops
     double sigma = 0;                   ///< of the rotation, radians
     MirrorBall first, second;           ///< with refined outlines and distance
-    /// No rotation stands out: the light has too little structure, or the views show different
-    /// rooms.
+    /// No rotation stands out: the light has little structure, or the rooms differ.
     bool ambiguous = false;
 };
 
-/// A rotation right to a fraction of a degree, from what two pictures show.
+/// A rotation right to a fraction of a degree.
 struct RoughTurn {
     glm::dmat3 first_from_second{1.0};
     double correlation = 1;  ///< of low-passed log-luminance
     double rival = -1;       ///< of the best clearly different rotation
-    /// The best rotation must correlate well, and clearly better than any different one.
+    /// The best must be good, and clearly better than a different one.
     bool ambiguous() const { return correlation < 0.5 || rival > correlation - 0.05; }
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-// Finds where the views of a ball were taken: cameras around one ball, or one camera and a moved
-// ball.
+// Where the views of a ball were taken: cameras around one ball, or one camera and a moved ball.
 
 #include <vector>
 
@@ -16,15 +15,15 @@ struct PlacedViews {
     std::vector<BallView> seen;
     std::vector<double> gains;      ///< to the first view's units
     std::vector<BallPlace> places;  ///< centre and turned_sigma; `view` as of the last call
-    /// Of the second and further views, each to the view that it was aligned with.
+    /// Of every further view to the one that it was aligned with.
     std::vector<ViewAlignment> alignments;
 };
 
-/// Columns: right, up and backwards of a camera that looks to this azimuth and elevation.
+/// Columns: right, up, backwards of a camera that looks there.
 glm::dmat3 world_from_camera(double azimuth, double elevation);
 
-/// Aligns every view with an already placed one, the surest pair first. Searches all rotations, or
-/// starts from the known one.
+/// Aligns every view with a placed one, the surest pair first, from all rotations or from the known
+/// one.
 void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress);
 
 /// Refines the rotations to the first view without left-out pixels, from the outlines as found

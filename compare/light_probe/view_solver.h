@@ -1,5 +1,5 @@
 #pragma once
-// Least squares for the rotation between two views of a ball, and its uncertainty.
+// The rotation between two views of a ball by least squares, with its uncertainty.
 
 #include <Eigen/Core>
 #include <functional>
@@ -24,14 +24,12 @@ struct ViewPair {
     MirrorBall ball(const ViewParameters& p, bool is_second) const;
 };
 
-/// What the two views show in one direction or pixel.
 struct ViewCorrespondence {
     double weight = 0;  ///< positive
     Vec3 direction{0};  ///< in the first camera's frame; neighbours have correlated errors
 };
 
-/// Differences in stops, one for each correspondence: second plus gain minus first; k_unseen where
-/// a side sees nothing.
+/// Second plus gain minus first for each correspondence, stops; k_unseen where a side sees nothing.
 using ViewResiduals = std::function<std::vector<double>(const ViewParameters&)>;
 constexpr double k_unseen = 1e9;
 

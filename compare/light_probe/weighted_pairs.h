@@ -17,7 +17,7 @@ struct WeightedPairs {
         sum_bb_ += w * b * b;
         sum_ab_ += w * a * b;
     }
-    /// 0 where one of the two hardly varies. The weight must not be 0.
+    /// 0 if one of them hardly varies. The weight must not be 0.
     double correlation() const {
         const double a = sum_aa_ - sum_a_ * sum_a_ / weight, b = sum_bb_ - sum_b_ * sum_b_ / weight;
         if (std::min(a, b) <= 1e-9 * weight) return 0;

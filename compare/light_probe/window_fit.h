@@ -1,5 +1,5 @@
 #pragma once
-// Fits a rectangle whose edges lie on the outlines seen from several places.
+// Fits a rectangle to outlines seen from several places.
 
 #include <array>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// A line of sight from a place near the origin to the light's edge.
+/// A line of sight to the light's edge from a place near the origin.
 struct EdgeSight {
     Vec3 from, direction;  ///< unit direction
 };
@@ -46,7 +46,7 @@ struct WindowFit {
 std::optional<WindowFit> fit_window(const std::vector<SeenOutline>& outlines,
                                     const std::optional<double>& nearness);
 
-/// Root mean square angle by which the sights miss the edges of a window measured in another way.
+/// Root mean square angle by which the sights miss the edges of a measured window.
 double missed_angle(const Window& window, const std::vector<SeenOutline>& outlines);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Merges several exposures of one motionless scene into one picture in linear light.
+// Merges exposures of one motionless scene into linear light.
 
 #include <array>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace culet {
 
-/// A shot of a series, read on demand, because a long series does not fit into memory.
+/// Read on demand, because a long series does not fit into memory.
 struct BracketShot {
     std::string name;
     double exposure = 1;          ///< relative; larger is brighter
@@ -30,8 +30,7 @@ struct BracketOptions {
     bool align = true;
 };
 
-/// Linear light of each of an 8-bit camera's 256 values, for each channel; increasing, 1 at 255 of
-/// green.
+/// Linear light of an 8-bit camera's 256 values, for each channel; increasing, 1 at 255 of green.
 using ResponseCurve = std::array<std::array<float, 256>, 3>;
 
 struct FrameShift {
@@ -40,8 +39,7 @@ struct FrameShift {
 };
 
 struct Bracket {
-    /// In units of the first shot: its unsaturated values stay the same. With `variance` and
-    /// `saturated`.
+    /// In units of the first shot, whose unsaturated values stay. With `variance` and `saturated`.
     Photo photo;
     Response response = Response::as_read;
     std::optional<ResponseCurve> curve;  ///< if calibrated

@@ -17,7 +17,7 @@ struct BoardShape {
     double square_mm = 25;
 };
 
-/// The board as an SVG in true size, black on white, with a line of description.
+/// An SVG in true size, black on white, with a line of description.
 std::string board_svg(const BoardShape& shape);
 
 struct BoardPicture {

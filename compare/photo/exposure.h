@@ -1,5 +1,5 @@
 #pragma once
-// What a camera records about a shot, and the exposure that follows from it.
+// What a camera records about a shot, and its exposure.
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +16,8 @@ struct ShotData {
     double focal_mm = 0;
     double focal_35mm = 0;  ///< equivalent on 36 x 24 mm, for the same diagonal view
     std::string camera;     ///< make and model
-    /// Why the values are not linear light, if the file says so ("HDR by the phone", ...);
-    /// otherwise empty.
+    /// Why the values are not linear light, from the file ("HDR by the phone", ...); otherwise
+    /// empty.
     std::string processed;
     bool known() const { return seconds > 0 || iso > 0 || !camera.empty(); }
 };
@@ -36,8 +36,7 @@ double focal_px_of(const ShotData& shot, double diagonal_px);
 /// "1/125 s, f/8, ISO 100"
 std::string text_of(const ShotData& shot);
 
-/// Parses an exposure as people write it: `1/125`, `0.008`, `0.008s`, `1/125 s`, `-2EV` (relative).
-/// Throws InputError.
+/// From `1/125`, `0.008`, `0.008s`, `1/125 s`, `-2EV` (relative). Throws InputError.
 double parse_exposure(const std::string& text);
 
 }  // namespace culet

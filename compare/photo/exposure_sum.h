@@ -1,5 +1,5 @@
 #pragma once
-// Sums up the shots of a series, one after the other. Private to the folder.
+// Sums up the shots of a series. Private to the folder.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// 1 where a pixel is well below the clipping level, falling smoothly to 0 just below it.
+/// 1 well below the clipping level, falling smoothly to 0 near it.
 inline float unclipped(const Photo& photo, std::size_t pixel) {
     constexpr float k_fade_from = 0.85f, k_fade_to = 0.97f;  // of saturation
     if (!photo.saturated.empty() && photo.saturated[pixel] > 0) return 0;
@@ -21,13 +21,12 @@ inline float unclipped(const Photo& photo, std::size_t pixel) {
     return u * u * (3 - 2 * u);
 }
 
-/// Variance of a shot's value: shot noise and read noise of a small camera, and the rounding of
-/// 8-bit files.
+/// Variance of a shot's value: shot noise and read noise of a small camera, and 8-bit rounding.
 class ShotNoise {
 public:
     /// `saturation` as in Photo.
     ShotNoise(double saturation, bool eight_bits);
-    /// Variance of a value read as about `value`.
+    /// Of a value read as about `value`.
     float variance(float value) const {
         const float level = std::max(value / full_, 0.0f);
         float variance =
@@ -48,7 +47,7 @@ private:
     std::vector<float> rounding_;  // at even steps of value / full; empty: no rounding
 };
 
-/// Mean of the shots' values over their exposures, with inverse-variance weights.
+/// Inverse-variance-weighted mean of the shots' values over their exposures.
 class ExposureSum {
 public:
     explicit ExposureSum(std::size_t pixels);

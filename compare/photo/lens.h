@@ -30,8 +30,8 @@ std::string lens_toml(const Lens& lens, const std::string& camera);
 /// naming `file` when the shape differs, because such a picture was cropped.
 Lens lens_for(const Lens& lens, int width, int height, const std::filesystem::path& file);
 
-/// Removes the distortion; focal lengths and principal point stay. Variance and over-exposure are
-/// resampled too.
+/// Removes distortion; focal lengths and principal point stay. Also resamples variance and
+/// over-exposure.
 void undistort(Photo& photo, const Lens& lens);
 
 }  // namespace culet

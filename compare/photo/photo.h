@@ -15,22 +15,20 @@ struct Photo {
     std::vector<float> rgb;  ///< linear light; finite, not negative
     /// The stone's share of each pixel, 0..1; empty when the file has no alpha.
     std::vector<float> coverage;
-    /// Hand-painted (`read_mask`), one value for each pixel: over 0.5 is stone. Empty: the stone is
-    /// found in the picture.
+    /// Hand-painted (`read_mask`): over 0.5 is stone. Empty: find the stone in the picture.
     std::vector<float> mask;
-    /// Likewise: over 0.5 is left out of every comparison (dust, inclusions, a holder). Empty:
-    /// nothing is.
+    /// Likewise: over 0.5 is never compared (dust, inclusions, a holder). Empty: nothing.
     std::vector<float> ignored;
-    /// Linear value at which the camera clips: 1 for integer files; 0: it does not clip (EXR, HDR).
+    /// Linear value at which the camera clips: 1 for integer files; 0 (EXR, HDR): none.
     double saturation = 0;
     /// Variance of each sample (linear), from a merged series; empty: unknown.
     std::vector<float> variance;
-    /// 0..1 for each pixel: over-exposed in every exposure. Empty: see `saturation`.
+    /// 0..1: over-exposed in every exposure. Empty: see `saturation`.
     std::vector<float> saturated;
-    /// For a render with its stone's uncertainty (render/image/picture.h, k_band_channels): four
-    /// luminance levels for each pixel. Empty: unknown.
+    /// Of a render with its stone's uncertainty (render/image/picture.h, k_band_channels): four
+    /// luminance levels for each pixel.
     std::vector<float> bands;
-    /// False: the values are not linear light (a tone-mapped JPEG); only shapes and places count.
+    /// False: not linear light (a tone-mapped JPEG); only shapes and places count.
     bool photometric = true;
     std::string not_photometric;  ///< the reason in a few words; empty when `photometric`
     ShotData shot;                ///< what the camera recorded (EXIF)
@@ -48,8 +46,7 @@ struct Photo {
 Photo read_photo(const std::filesystem::path& file, const std::filesystem::path& mask = {},
                  const std::vector<std::string>& ignored = {});
 
-/// What the camera recorded, without the picture. Throws InputError for a missing file or a broken
-/// raw file.
+/// Without the picture. Throws InputError for a missing file or a broken raw file.
 ShotData read_shot_data(const std::filesystem::path& file);
 
 constexpr double k_max_photo_pixels = 2e8;

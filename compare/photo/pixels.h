@@ -21,15 +21,12 @@ cv::Mat encoded(const cv::Mat& linear);
 /// PNG file bytes; CV_8U with 1 channel, or 3 in the order R, G, B.
 std::string png_bytes(const cv::Mat& pixels);
 
-/// Bilinear interpolation of CV_32F (x to the right, y down); beyond the border, the border's
-/// value.
+/// Bilinear, of CV_32F (x to the right, y down); the border's value beyond it.
 double between_pixels(const cv::Mat& plane, double x, double y);
 
-/// The largest of the three colours.
 cv::Mat brightest_channel(const cv::Mat& colour);
 
-/// The `share` quantile (0..1) of the pixels under the mask; 0 for an empty mask. Without a mask:
-/// of all pixels.
+/// The `share` quantile (0..1) under the mask, 0 if that is empty; without a mask of all pixels.
 double quantile(const cv::Mat& plane, const cv::Mat& mask, double share);
 
 }  // namespace culet

@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// By the file's extension, because a raw file often starts like a TIFF.
+/// By extension, because raw files often start like TIFFs.
 bool has_raw_extension(const std::filesystem::path& file);
 
 /// Linear light in sRGB primaries: black level subtracted, the camera's white balance (a grey card
@@ -18,7 +18,7 @@ bool has_raw_extension(const std::filesystem::path& file);
 /// samples reach the white level. Throws InputError.
 Photo read_raw(const std::filesystem::path& file);
 
-/// What the camera recorded, without the picture. Throws InputError.
+/// Without the picture. Throws InputError.
 ShotData read_raw_shot_data(const std::filesystem::path& file);
 
 }  // namespace culet

@@ -6,7 +6,7 @@
 
 namespace culet {
 
-/// The render as a perfect camera would have taken it: linear, with its coverage.
+/// As a perfect camera would have taken it: linear, with its coverage.
 Photo photo_of(const Picture& picture);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// Resamples a picture onto the pixels of another. OpenCV's warpAffine is not used because it rounds
-// positions to 1/32 pixel.
+// Resamples a picture onto another's pixels. OpenCV's warpAffine would round positions to 1/32
+// pixel.
 
 #include <opencv2/core/mat.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the response of a camera that writes 8-bit files from a series of exposures.
+// Finds an 8-bit camera's response from a series of exposures.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace culet {
 /// pixels are enough. Throws InputError when they do not determine the curve.
 ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures);
 
-/// Replaces the photo's sRGB-decoded values by the curve's.
+/// Replaces sRGB-decoded values by the curve's.
 void apply_response(const ResponseCurve& curve, Photo& photo);
 
 }  // namespace culet

@@ -1,17 +1,16 @@
 #pragma once
-// Finds how far the camera moved between two shots, and the ratio of their light. Private to the
-// folder.
+// The camera's shift between two shots, and the ratio of their light. Private to the folder.
 
 #include "compare/photo/bracket.h"
 #include "compare/photo/photo.h"
 
 namespace culet {
 
-/// Means of `factor` x `factor` pixels, for the alignment; a mean that contains an over-exposed
-/// pixel is `saturated`.
+/// Means of `factor` x `factor` pixels for the alignment, `saturated` if one of them is
+/// over-exposed.
 Photo reduced(const Photo& photo, int factor);
 
-/// Every `step`-th pixel of every `step`-th row, and the photo's other data.
+/// Every `step`-th pixel and row, with the photo's other data.
 Photo thinned(const Photo& photo, int step);
 
 /// The factor that leaves at most about `pixels`; 1 for a small photo.
@@ -24,8 +23,7 @@ FrameShift shift_between(const Photo& a, double exposure_a, const Photo& b, doub
 /// Moves the shot's content back by `shift`; over-exposure spreads in resampling.
 void move_back(Photo& photo, const FrameShift& shift);
 
-/// Ratio of the light in `a` to that in `b`: the median where both are well exposed. 0: too few
-/// pixels.
+/// Light of `a` over that of `b`: the median where both are well exposed. 0: too few pixels.
 double light_ratio(const Photo& a, const Photo& b);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Measures what is grey in a photograph, from a card or a colour chart.
+// What is grey in a photograph, by a card or a colour chart.
 
 #include <array>
 #include <optional>
@@ -19,8 +19,8 @@ struct PixelRectangle {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// Medians of the rectangle's pixels. Throws InputError for a rectangle outside the picture,
-/// smaller than 4 x 4, over-exposed or black.
+/// Medians of the rectangle's pixels. Throws InputError when it is outside the picture, smaller
+/// than 4 x 4, over-exposed or black.
 GreyCard measure_grey(const Photo& photo, const PixelRectangle& card);
 
 struct ChartBalance {
@@ -34,7 +34,7 @@ struct ChartBalance {
 /// Finds a ColorChecker Classic (24 patches) by OpenCV's mcc. Nothing when there is none.
 std::optional<ChartBalance> find_colour_chart(const Photo& photo);
 
-/// Multiplies the values by the gain and the variances by its square; `saturation` stays as it is.
+/// Variances are multiplied by the square; `saturation` stays.
 void balance(Photo& photo, const std::array<double, 3>& gain);
 void apply_colour_matrix(Photo& photo, const std::array<double, 9>& matrix);
 

@@ -40,8 +40,8 @@ struct EvidenceFit {
     std::vector<Contradiction> contradictions;  ///< strongest first
 };
 
-/// Keeps the photograph's estimated set-up, which improves with the stone: exposure, place, and
-/// small rotations of light and camera (set_up.h).
+/// Keeps the photograph's set-up, which improves with the stone: exposure, place, and small
+/// rotations of light and camera (set_up.h).
 class PhotographEvidence {
 public:
     /// `scene`: with the photograph's camera and the initial stone, which must be convex. Throws
@@ -58,10 +58,10 @@ public:
     PlaneEvidence measure(const Solid& solid, const std::vector<double>& spread, double blur,
                           bool sketch_anew, const Progress& progress = {});
 
-    /// Call after `measure`: takes the set-up that fits this stone best, near the measured one.
+    /// Call after `measure`: takes the set-up near the measured one that fits this stone best.
     void settle(const Solid& solid);
 
-    /// How well the stone explains the photograph in the current set-up.
+    /// In the current set-up.
     EvidenceFit fit_of(const Solid& solid) const;
 
 private:

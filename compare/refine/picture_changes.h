@@ -1,6 +1,5 @@
 #pragma once
-// Derivatives of the stone's picture by its planes' moves and the set-up's angles, from differences
-// of sketches.
+// Derivatives of the stone's picture by its planes' moves and the set-up's angles, from sketches.
 
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -12,11 +11,10 @@
 
 namespace culet {
 
-/// Step of the differences, radians. Changes are linear up to about here; smaller ones drown in
-/// what a sketch leaves out.
+/// Step of the differences, radians. Changes are linear up to about here; smaller ones drown in a
+/// sketch's omissions.
 constexpr double k_move_step = radians(0.15);
 
-/// The input of a sketch.
 struct SketchedStone {
     const DraftRenderer& renderer;
     const StoneSamples& samples;

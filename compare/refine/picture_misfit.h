@@ -1,5 +1,5 @@
 #pragma once
-// Finds where two pictures differ by more than usual.
+// Where two pictures differ by more than usual.
 
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// `difference`: CV_32F, photograph minus picture; places are in its samples. Usual is the median
+/// `difference`: CV_32F, photograph minus picture, whose samples are the places. Usual: the median
 /// absolute difference.
 EvidenceFit picture_misfit(const cv::Mat& difference, const cv::Mat& mask);
 

@@ -34,8 +34,7 @@ std::vector<double> moves_between(const Solid& from, const Solid& to);
 /// the middle), and of scale, of the whole stone.
 std::vector<std::vector<double>> moves_of_the_whole(const Solid& solid);
 
-/// Derivatives by a facet's plane instead of its moves: the number changes by normal . dn + offset
-/// * dd.
+/// The number changes by normal . dn + offset * dd.
 struct PlaneSlopes {
     Vec3 normal{0};
     double offset = 0;

@@ -9,7 +9,7 @@ namespace culet {
 
 /// Angles in radians. The stone's place in the picture is not included.
 struct SetUp {
-    /// Rotation of stone and camera together in the light, about the scene's axes.
+    /// Rotation of stone and camera together, about the scene's axes.
     std::array<double, 3> light{};
     /// Rotation of the camera around the stone, about its picture's x (right) and y (down).
     std::array<double, 2> camera{};

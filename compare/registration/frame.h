@@ -10,8 +10,7 @@
 
 namespace culet {
 
-/// Where a picture shows its stone: from the painted mask, otherwise the coverage, otherwise the
-/// background.
+/// Where a picture shows its stone: by its mask, otherwise its coverage, otherwise the background.
 struct StoneSource {
     cv::Mat colour;             ///< CV_32FC3, linear: the photo's own pixels
     cv::Mat coverage;           ///< CV_32F; empty: use the background

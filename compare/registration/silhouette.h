@@ -29,8 +29,8 @@ Silhouette silhouette_from_coverage(const cv::Mat& coverage, const std::string& 
 /// must not touch the border.
 Silhouette silhouette_from_background(const cv::Mat& colour);
 
-/// Signed distance to the mask's outline in pixels, positive outside (CV_32F), with a Gaussian of
-/// one pixel against the mask's staircase.
+/// Signed distance to the mask's outline, pixels, positive outside (CV_32F), smoothed by one pixel
+/// against the mask's staircase.
 cv::Mat signed_distance(const cv::Mat& mask);
 
 }  // namespace culet

@@ -39,11 +39,11 @@ struct Report {
     double renders_white =
         0;  ///< linear value shown as white; 0: chosen so that the stone is well exposed
 
-    /// PNG bytes: the photograph with the stone's edges as the pose places them; empty: none.
+    /// PNG bytes: the photograph with the pose's edges; empty: none.
     std::string pose_overlay_png;
     bool pose_used = false;
 
-    /// A viewer page with the stone, opened by a click on the picture; empty: none.
+    /// A viewer page with the stone, opened from the picture; empty: none.
     std::string viewer_html;
 
     std::string stats_json;  ///< of the renderer: plan, error bounds, times

@@ -1,5 +1,5 @@
 #pragma once
-// The sections of the report page. Each returns HTML, or nothing when its data is not there.
+// The report page's sections: HTML, or nothing without their data.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -15,7 +15,7 @@ namespace culet {
 /// The linear value that exposes the stone well. `brightest`: each pixel's largest channel. Nothing
 /// without light.
 std::optional<double> white_for_stone(std::vector<float> brightest);
-/// The white level for both pictures of a comparison, at most the photograph's own.
+/// For both pictures, at most the photograph's own.
 double white_shown(const Comparison& comparison);
 
 /// PNG data URI of a linear picture, with `white` shown as white.
@@ -34,7 +34,6 @@ std::string changes_section(const Report& report);
 std::string plan_section(const nlohmann::json& stats);
 std::string provenance_section(const Report& report);
 
-/// A verdict in words, with its colour and symbol.
 struct VerdictShown {
     const char *word, *style, *symbol;
 };
@@ -43,7 +42,6 @@ VerdictShown verdict_shown(Verdict verdict);
 /// "ZNCC, 2 %": a score's name for people.
 std::string score_name(const std::string& key);
 
-/// "photograph" or "simulated photograph".
 std::string photo_word(const Report& report);
 
 }  // namespace culet

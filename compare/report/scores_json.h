@@ -9,7 +9,7 @@
 
 namespace culet {
 
-/// Where the compared data came from.
+/// Origin of the compared data.
 struct CompareSources {
     std::string photo_file, render_file, mask_file;
     std::string pose{};  ///< JSON of the found pose; empty: none was searched

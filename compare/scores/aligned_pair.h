@@ -18,7 +18,7 @@ struct AlignedPair {
     int compared_pixels = 0;
 
     bool enough() const { return compared_pixels >= k_least_pixels; }
-    /// The outlines fit, and there are enough pixels to compare.
+    /// The outlines fit, and enough pixels are left.
     bool comparable() const { return frame.match.usable && enough(); }
     /// Fewer pixels hold no pattern: a stone of 32 pixels has some 700.
     static constexpr int k_least_pixels = 400;
@@ -34,17 +34,15 @@ AlignedPair aligned(const Photo& photo, const Photo& render, double largest = 64
 /// Keeps the registration and solves the gain anew.
 AlignedPair with_render(AlignedPair pair, const Photo& render);
 
-/// The part of the frame that the scores need: the mask's box plus the margin that they look beyond
-/// it.
+/// The mask's box plus the scores' margin.
 cv::Rect part_to_score(const MatchedPictures& pictures);
 
 MatchedPictures part_of(const MatchedPictures& pictures, const cv::Rect& part);
 
-/// White level of a stone's picture: where its camera clips, otherwise its 99.5 % quantile (`mask`
-/// as for `quantile`).
+/// Where the stone's camera clips, otherwise the 99.5 % quantile (`mask` as for `quantile`).
 double white_level(const cv::Mat& colour, const cv::Mat& mask, double saturation);
 
-/// 255 where the picture is not clipped, under the mask.
+/// 255 where not clipped, under the mask.
 cv::Mat not_clipped(const cv::Mat& colour, double saturation, const cv::Mat& mask);
 
 void multiply_channels(cv::Mat& colour, const std::array<double, 3>& gain);

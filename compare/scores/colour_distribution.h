@@ -1,6 +1,6 @@
 #pragma once
-// Compares which colours a stone shows, wherever they are. This depends on material and white
-// balance, not on geometry.
+// Which colours a stone shows, wherever they are: a matter of material and white balance, not
+// geometry.
 
 #include "compare/scores/metrics.h"
 

@@ -49,7 +49,7 @@ struct ComparedPictures {
 struct ReflexCount {
     int in_photo = 0, in_render = 0, matched = 0;
     std::optional<double> displacement;  ///< median, in diameters
-    /// Matched reflexes that are coloured in the photo, and those of them with the same hue.
+    /// Matched and coloured in the photo; and with the same hue in the render.
     int coloured = 0, same_hue = 0;
     /// All of them, the photo's first, for the report's picture.
     struct Mark {
@@ -96,7 +96,7 @@ struct Comparison {
     std::optional<WithinReadings> within;  ///< for a render with bands (Photo::bands)
     ComparedPictures pictures;
 
-    /// False when the registration was refused, so the answer should not be trusted.
+    /// False: the registration was refused.
     bool usable() const { return verdict != Verdict::refused; }
 };
 

@@ -23,7 +23,7 @@ struct MatchedPictures {
 std::array<double, 3> solve_gain(const cv::Mat& photo, const cv::Mat& render,
                                  const cv::Mat& usable);
 
-/// Both pictures, encoded (sRGB, clipped at white) once for all scores that need it.
+/// Encoded (sRGB, clipped at white) once for all scores.
 struct ShownPictures {
     cv::Mat photo, render;            ///< CV_32FC3, 0..1
     cv::Mat photo_luma, render_luma;  ///< CV_32F, 0..1: encoded luminance
@@ -45,7 +45,7 @@ struct ScoreMap {
 };
 ScoreMap ssim(const ShownPictures& pictures, const cv::Mat& mask);
 
-/// Peak signal-to-noise ratio of the encoded colours, decibel, peak 1. Nothing for equal pictures.
+/// Peak signal-to-noise ratio of encoded colours, decibel, peak 1. Nothing for equal pictures.
 std::optional<double> psnr(const ShownPictures& pictures, const cv::Mat& mask);
 
 struct ColourScore {

@@ -20,7 +20,7 @@ struct ReflexMatch {
     int in_photo = 0, in_render = 0, matched = 0;
     double f1 = 0;       ///< 2 matched / (in_photo + in_render)
     double area_f1 = 0;  ///< the same, weighted by the reflexes' areas
-    /// Median distance between the middles of matched reflexes, in diameters.
+    /// Median, in diameters.
     std::optional<double> displacement;
     /// `coloured`: matched reflexes with a CIELAB chroma over 10 in the photo. `same_hue`: those
     /// with a hue within 30 degrees in the render and a chroma of at least 10. `hue_agreement`:

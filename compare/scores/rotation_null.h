@@ -24,7 +24,7 @@ std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::
 
 constexpr double k_same_render = 0.9;
 
-/// The pictures with the render rotated; the mask is the overlap of both outlines.
+/// The mask is the overlap of both outlines.
 MatchedPictures rotated(const MatchedPictures& pictures, const Rotation& draw);
 
 }  // namespace culet

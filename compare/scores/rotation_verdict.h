@@ -1,5 +1,5 @@
 #pragma once
-// The verdict of an uncalibrated comparison: its deciding score against the rotated render.
+// The verdict of an uncalibrated comparison: the deciding score against the rotated render.
 
 #include "compare/scores/compare.h"
 

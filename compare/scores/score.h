@@ -24,9 +24,9 @@ struct Score {
     bool is_correlation = false;  ///< z is then computed from atanh (Fisher 1915)
     std::vector<double> null;     ///< one value for each draw, in order
     double null_mean = 0, null_sd = 0;
-    /// (value - null_mean) / null_sd, with the sign that is positive when the value is better.
+    /// (value - null_mean) / null_sd; positive: better than the null.
     std::optional<double> z;
-    /// (count + 1) / (draws + 1) for the count of draws at least as good as the value.
+    /// (count + 1) / (draws + 1), counting draws at least as good as the value.
     std::optional<double> p;
     std::string note;
 };

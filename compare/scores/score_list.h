@@ -14,7 +14,7 @@
 
 namespace culet {
 
-/// The input of the scores: the pictures, and what several scores share or the report draws.
+/// The pictures, and what several scores share or the report draws.
 struct Measures {
     MatchedPictures pictures;
     ShownPictures shown;
@@ -24,7 +24,7 @@ struct Measures {
     ScoreMap structure, visible;  ///< SSIM, FLIP
     ColourScore colour;
     ColourDistributions colours;
-    /// Estimated from the facets' tilts (calibration/facet_tilts.h); nothing: unknown.
+    /// From the facets' tilts (calibration/facet_tilts.h); nothing: unknown.
     std::optional<double> facet_error_deg;
     bool calibrating = false;  ///< also compute scores that need a model of the stone
 };
@@ -40,8 +40,7 @@ enum class ScoreScale {
     decibel
 };
 
-/// Whether a score needs linear light, or only shapes and places. Tone curves, even local ones, do
-/// the latter little harm.
+/// Whether a score needs linear light, or only shapes and places, which tone curves hardly harm.
 enum class Needs { photometry, geometry };
 
 /// Whether the equivalent facet error uses a score: never, for photometric photographs only, when
@@ -73,11 +72,10 @@ const ScoreKind* score_kind(const std::string& key);
 /// The scores without their nulls.
 std::vector<Score> scores_of(const Measures& measures);
 
-/// Removes the scores that need linear light, for photographs that cannot serve for photometry;
-/// `why` gives the reason.
+/// Removes the scores that need linear light; `why` says why the photograph has none.
 void keep_geometry_only(std::vector<Score>& scores, const std::string& why);
 
-/// The variance-stabilising transform: nearly linear in the logarithm of the facet error.
+/// Nearly linear in the logarithm of the facet error.
 double stabilised(double score, ScoreScale scale);
 
 /// Sets mean, spread, z and p from the null's values. A correlation's z uses atanh (Fisher 1915),

@@ -16,7 +16,7 @@ struct CalibratedScoring {
     std::optional<double> facet_error_deg;  ///< estimated from the facets' tilts
 };
 
-/// The measures of the part of a pair that the scores see.
+/// The measures of the part of a pair that scores see.
 struct MeasuredPair {
     /// `calibrated`: null, or the calibration's input.
     MeasuredPair(const AlignedPair& pair, const CalibratedScoring* calibrated);

@@ -1,6 +1,6 @@
 #pragma once
-// The error of a render against a finer one of the same view, pixel by pixel, without registration
-// or gain.
+// The error of a render against a finer one of the same view, by pixels, without registration or
+// gain.
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -11,7 +11,6 @@
 
 namespace culet {
 
-/// Measures pictures against a reference.
 class PictureMetric {
 public:
     /// The stone's pixels are those with coverage in the reference; without coverage, all. White,
@@ -19,8 +18,7 @@ public:
     explicit PictureMetric(Picture truth);
 
     PictureError error_of(const Picture& picture) const;
-    /// Luminance of `picture` minus that of the reference, relative to the mean; NaN beside the
-    /// stone.
+    /// Luminance of `picture` minus the reference's, relative to the mean; NaN beside the stone.
     PixelMap difference(const Picture& picture) const;
 
     const Picture& truth() const { return truth_; }

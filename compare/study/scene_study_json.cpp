@@ -1,3 +1,4 @@
+// A study of a scene as JSON and as comma-separated values.
 
 #include <fmt/format.h>
 

@@ -24,7 +24,7 @@ struct SceneStudyOptions {
 
 /// Errors of one picture over the stone's pixels.
 struct PictureError {
-    /// Mean absolute difference of R, G and B over their mean: the error that `tolerance` limits
+    /// Mean absolute difference of R, G and B over their mean: what `tolerance` limits
     /// (render/engine/scene_plan.h).
     double mean = 0;
     double rmse = 0;  ///< root mean square difference, likewise
@@ -39,7 +39,6 @@ struct StudyTime {
     double median = 0, least = 0, most = 0;
 };
 
-/// One way of drawing the scene, with its results.
 struct StudiedRender {
     int id = 0;
     std::string sweep;    ///< what is varied: "tolerance", "depth", "search", ...
@@ -78,7 +77,7 @@ struct StudyReference {
     double mean_radiance = 0, white = 0;
 };
 
-/// The cheapest way found to meet a tolerance, compared with the automatic settings.
+/// The cheapest way found to meet a tolerance, beside the automatic settings.
 struct StudyAdvice {
     double tolerance = 0;
     std::optional<int> cheapest, automatic;  ///< ids; automatic: drawn, whether it met it or not
@@ -101,8 +100,8 @@ struct SceneStudy {
     SceneStudyOptions options;
     RenderSettings asked;  ///< by the scene
 
-    /// The reference is accurate enough for the scene's own tolerance, and the automatic settings
-    /// were drawn.
+    /// The reference is accurate enough for the scene's tolerance, and the automatic settings were
+    /// drawn.
     bool usable() const;
     const StudiedRender& render(int id) const { return renders[static_cast<std::size_t>(id)]; }
 };

@@ -1,5 +1,4 @@
 #pragma once
-// What a study recommends.
 
 #include <optional>
 #include <vector>
@@ -8,11 +7,10 @@
 
 namespace culet {
 
-/// Ids of the renders, fastest first; each has an error at least 2 % smaller than any faster one.
+/// Ids, fastest first; each has an error at least 2 % smaller than any faster one.
 std::vector<int> front_of(const SceneStudy& study);
 
-/// The id of the fastest render with a claimed error within `tolerance`; nothing when there is
-/// none.
+/// The fastest render with a claimed error within `tolerance`.
 std::optional<int> cheapest_within(const SceneStudy& study, double tolerance);
 
 /// For each tolerance of the study.

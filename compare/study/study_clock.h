@@ -1,5 +1,5 @@
 #pragma once
-// Processor time of a study: stops work that exceeds its share, or when the user interrupts.
+// A study's processor time: stops work that exceeds its share, or on the user's wish.
 
 #include <algorithm>
 #include <ctime>
@@ -23,8 +23,8 @@ public:
         return limited() ? of_budget * budget_ : std::numeric_limits<double>::infinity();
     }
 
-    /// Runs `work(Progress)`; returns false if it was stopped after `seconds`. Throws Interrupted
-    /// when the user stops it.
+    /// Runs `work(Progress)`; false: stopped after `seconds`. Throws Interrupted when the user
+    /// stops it.
     template <class Work>
     bool within(double seconds, Work&& work) {
         const double end = spent() + seconds;

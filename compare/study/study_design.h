@@ -24,7 +24,7 @@ RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes);
 /// scene's tolerance; most informative first.
 std::vector<StudyCandidate> study_design(const StudyGround& ground);
 
-/// Settings that are cheaper in one respect: shallower, fewer wavelengths, one effect less, ...
+/// Cheaper in one respect each: shallower, fewer wavelengths, one effect less, ...
 std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
                                                const RenderSettings& settings,
                                                const RenderStats& drawn);

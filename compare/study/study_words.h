@@ -8,14 +8,13 @@
 
 namespace culet {
 
-/// Equal for settings that draw the same picture: effects that the scene does not need do not
-/// count.
+/// Equal for settings that draw the same picture: unneeded effects do not count.
 std::string key_of(const StudyGround& ground, const RenderSettings& settings);
 
 /// "beams, 15 wavelengths, depth 8, tolerance 0.01, without dispersion"
 std::string words_of(const StudyGround& ground, const RenderSettings& settings);
 
-/// Names of the effects that these settings switch off and the reference has on.
+/// Effects that these settings switch off and the reference has on.
 std::vector<std::string> effects_left_out(const StudyGround& ground,
                                           const RenderSettings& settings);
 

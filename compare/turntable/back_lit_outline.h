@@ -10,7 +10,7 @@
 namespace culet {
 
 struct BackLitOutline {
-    /// In order around the stone: x to the right, y up, pixels from the picture's middle.
+    /// In order; x to the right, y up, pixels from the picture's middle.
     std::vector<glm::dvec2> points;
     std::vector<glm::dvec2> corners;  ///< of its convex hull, sharpened (sharp_corners.h)
     bool at_left = false, at_right = false, at_top = false, at_bottom = false;  ///< cut off

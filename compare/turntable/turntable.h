@@ -1,5 +1,5 @@
 #pragma once
-// Finds a turntable's pose relative to the camera from outlines of what turned on it.
+// A turntable's pose before the camera, from outlines of what turned on it.
 
 #include <string>
 #include <vector>
@@ -15,12 +15,12 @@ struct Turntable {
     double axis_px = 0;    ///< where the axis crosses the picture's middle row, from its middle
     double roll = 0;       ///< of the axis in the picture, radians, clockwise
     double elevation = 0;  ///< of the camera above the table's plane, radians
-    /// Root mean square disagreement of outlines at their common tangent planes, pixels.
+    /// Root mean square disagreement of outlines at common tangent planes, pixels.
     double residual_px = 0;
     int tangents = 0;  ///< number of such planes
     /// Standard uncertainties from the residuals.
     double sigma_axis_px = 0, sigma_roll = 0, sigma_elevation = 0;
-    /// Why the outlines cannot be used, and what to do about it, for people. Empty when they can.
+    /// Why the outlines cannot be used, and what to do, for people; empty: they can.
     std::string trouble, remedy;
 };
 
@@ -31,8 +31,7 @@ struct Turntable {
 /// place is not identifiable.
 Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step);
 
-/// Order of file names by the numbers in them: turn-2 comes before turn-10, which a shell lists
-/// first.
+/// By the numbers in the names: turn-2 comes before turn-10, which a shell lists first.
 std::vector<std::size_t> order_of_numbers(const std::vector<std::string>& names);
 
 /// One outline in the stone's frame, `scale` lengths per pixel.
@@ -43,7 +42,7 @@ struct PlacedOutline {
 std::vector<PlacedOutline> placed(const std::vector<BackLitOutline>& outlines, double step,
                                   const Turntable& table, double scale);
 
-/// Largest and smallest width of the outlines across the axis, pixels, as calipers would measure.
+/// Across the axis, pixels, as calipers would measure.
 struct OutlineWidths {
     double least = 0, largest = 0;
 };
