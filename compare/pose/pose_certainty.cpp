@@ -20,7 +20,7 @@ constexpr double k_surely = 4.4, k_surely_by_groups = 2.6, k_place_by_groups = 3
 
 // Share of the stone's diameter.
 constexpr double k_place = 0.03;
-// A less certain view cannot be accepted even by an option.
+// Above this uncertainty the advice does not suggest --within-deg.
 constexpr double k_farthest_deg = 45;
 // Correction for trying many views: wrong proportions and pictures of other things reached evidence
 // of up to 11 (bench_pose --fault all).
