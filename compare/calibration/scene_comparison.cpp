@@ -46,7 +46,6 @@ double fixed_ns(const Photo& photo) {
     return k_fixed_ns + k_fixed_ns_per_pixel * static_cast<double>(photo.width) * photo.height;
 }
 
-// The ignored pixels in the frame of the model's picture.
 std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     if (frame.photo.ignored.empty()) return {};
     std::vector<float> result(

@@ -81,7 +81,7 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
         for (double& v : better) v *= sign;
         curve.fitted = falling(better);
         for (double& v : curve.fitted) v *= sign;
-        // The scatter of this score's own answers about the truth.
+        // The scatter of this score's answers.
         std::size_t level = 0;
         for (const auto& [deg, draws] : by_level) {
             double squares = 0, count = 0;

@@ -29,7 +29,6 @@ cv::Mat moved_levels(const AlignedPair& pair, const Photo& render, double psf_px
     return moved_as_render(pair.frame, softened(picture, psf_px));
 }
 
-// A sample's variance: shot noise, read noise and quantisation.
 double variance_of(double light, double white, const CameraModel& camera) {
     const double level = std::max(0.0, light / white);
     double variance = level / camera.electrons + std::pow(camera.read_noise / camera.electrons, 2);

@@ -23,7 +23,7 @@ constexpr double k_rounding = 0.01;
 // of 1000 radii.
 constexpr double k_farthest_moved = 1000;
 
-// Rotation of all the ball shows by the outline's error, which a reflection doubles.
+// The outline's error as a rotation of all that the ball shows: a reflection doubles it.
 double turned_by_outline(const ViewPrior& prior) {
     return 2 * prior.circle_sigma_px / prior.circle.radius;
 }
@@ -57,7 +57,6 @@ double usual_gain(double found) {
     return std::abs(found - 1) < k_rounding ? 1.0 : found;
 }
 
-// Keeps what was refined with one view for the next.
 void keep_refined(ViewPrior& prior, const MirrorBall& ball) {
     prior.circle = ball.circle();
     prior.circle_sigma_px = 0.02;

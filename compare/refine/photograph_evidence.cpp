@@ -93,7 +93,6 @@ PhotographEvidence::PhotographEvidence(const Photo& photo, const Scene& scene, i
 PhotographEvidence::~PhotographEvidence() = default;
 PhotographEvidence::PhotographEvidence(PhotographEvidence&&) noexcept = default;
 
-// Sets the equations around `solid`, with the changes from the last sketches.
 void PhotographEvidence::Parts::set_equations(const Solid& solid,
                                               const std::vector<double>& spread) {
     PictureEquations& e = equations;

@@ -124,7 +124,6 @@ cv::Matx23d whole_pixels(const cv::Matx23d& map, cv::Size size) {
     return whole;
 }
 
-// Converts the map between close-ups to the pictures as given.
 Similarity in_given_pixels(const Similarity& s, const CloseUp& photo, const CloseUp& render) {
     Similarity result;
     result.scale = s.scale * photo.scale / render.scale;

@@ -68,7 +68,6 @@ Similarity similarity_of(const Unknowns& u, const cv::Point2d& about) {
     return {std::hypot(u[0], u[1]), std::atan2(u[1], u[0]), about, {u[2], u[3]}};
 }
 
-/// Distance of a point of the photo's outline from the render's outline.
 class OutlineResidual : public ceres::SizedCostFunction<1, 4> {
 public:
     OutlineResidual(const cv::Mat& field, const cv::Point2d& point, const cv::Point2d& about)

@@ -64,7 +64,6 @@ void multiply_channels(cv::Mat& colour, const std::array<double, 3>& gain) {
 
 namespace {
 
-// Sets mask, white level and gain of registered pictures.
 void match_exposure(AlignedPair& pair) {
     const Frame& frame = pair.frame;
     if (frame.render.empty()) return;

@@ -49,7 +49,6 @@ RenderResult drawn(const Scene& scene, const Progress& progress) {
     return frames.draw(false);
 }
 
-// The settings with which a picture was finally drawn.
 RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats) {
     if (!stats.plan) return asked;
     RenderSettings settled = stats.plan->settings;
