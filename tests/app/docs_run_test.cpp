@@ -105,9 +105,9 @@ protected:
             fs::copy(sample / "simulated-photo.png", folder() / name);
         std::stringstream scene;
         scene << std::ifstream(sample / "scene.toml").rdbuf();
-        const std::string shown = std::regex_replace(
-            scene.str(), std::regex("stone = \"stone.toml\""),
-            "mesh = \"fitted.obj\"\nmaterial = \"tourmaline_dravite\"");
+        const std::string shown =
+            std::regex_replace(scene.str(), std::regex("stone = \"stone.toml\""),
+                               "mesh = \"fitted.obj\"\nmaterial = \"tourmaline_dravite\"");
         ASSERT_NE(shown, scene.str());
         for (const char* name : {"scene.toml", "posed.toml", "other-lights.toml"})
             std::ofstream(folder() / name)
