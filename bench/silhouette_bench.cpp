@@ -105,7 +105,8 @@ void measure(const std::filesystem::path& folder, const std::string& cut) {
     const SilhouetteFinding& finding = *result.readings.back().silhouette;
     const SilhouetteMisfit theirs = silhouette_misfit(scan, contours, held_out, {});
     // The scanner's place to the stone's: as the contours lie to both.
-    const FacetErrors facets = facet_errors(result, input.readings.back().told->motions[0], scan);
+    const FacetErrors facets =
+        facet_errors(result, input.readings.back().outline_observations->motions[0], scan);
     fmt::print("{}: {} contours, {} held out\n", folder.filename().string(), contours.size(),
                held_out.size());
     fmt::print(

@@ -75,7 +75,7 @@ void decide_meets(const Problem& problem, FitOptions& options, std::optional<Fit
     Candidate candidate = best;
     if (evidence->exact) {
         other = options;
-        other.meets_shown = true;
+        other.exact_meets_supported = true;
         changed.emplace(problem.stone, problem.readings, other);
         candidate = finish_from(*changed, best.finished.shape, options.iterations);
         candidate.start = best.start;
@@ -119,7 +119,7 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     fill_in_search(model, multistart, result);
     tell(progress, 0.7);
     if (model.meets().has_estimated_groups() && problem.options.meets != MeetTreatment::exact) {
-        result.statistics.meets.ends =
+        result.statistics.meets.local_maxima =
             estimate_meet_sigmas(model, best.finished, options, progress);
     }
     tell(progress, 0.95);

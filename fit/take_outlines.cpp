@@ -33,12 +33,13 @@ void refuse_corners(const Stone& mesh, const std::vector<WrittenReading>& writte
     }
 }
 
-std::string sigma_note(const Reading& reading, const OutlineKnowledge& told, const Stone& stone) {
+std::string sigma_note(const Reading& reading, const OutlineObservations& observed,
+                       const Stone& stone) {
     const auto set = std::size_t(reading.outline_set);
     return fmt::format(
         "{}: no sigma was given; {:.2g} {} was estimated from how the outlines "
         "scatter about the stone",
-        reading.id, told.sigmas[set], name_of(stone.unit));
+        reading.id, observed.sigmas[set], name_of(stone.unit));
 }
 
 std::string words_of(const std::string& id, const SilhouetteFinding& finding,
@@ -58,14 +59,14 @@ std::string words_of(const std::string& id, const SilhouetteFinding& finding,
     return words;
 }
 
-void judge_outlines(const OutlineKnowledge& told, FitResult& result) {
-    if (!(told.dof > 0)) return;
-    const double limit = chi2_quantile(result.log.options.significance, told.dof);
-    if (told.chi2 <= limit) return;
+void judge_outlines(const OutlineObservations& observed, FitResult& result) {
+    if (!(observed.dof > 0)) return;
+    const double limit = chi2_quantile(result.log.options.significance, observed.dof);
+    if (observed.chi2 <= limit) return;
     const std::string what = fmt::format(
         "the outlines lie {:.1f} times as far from any stone with these facets as their sigma says "
         "(leave sigma out to have it estimated)",
-        std::sqrt(told.chi2 / told.dof));
+        std::sqrt(observed.chi2 / observed.dof));
     if (result.status == FitStatus::converged || result.status == FitStatus::undetermined) {
         result.status = FitStatus::contradictory;
         result.message = what + "; " + result.message;
@@ -121,11 +122,11 @@ TakenOutlines take_outlines(const Stone& mesh, const std::vector<WrittenReading>
     }();
     taken.notes = std::move(fit.notes);
     for (Reading& reading : taken.readings) {
-        reading.told = fit.knowledge;
+        reading.outline_observations = fit.observations;
         const auto set = std::size_t(reading.outline_set);
-        reading.sigma = fit.knowledge->sigmas[set];
-        if (fit.knowledge->estimated[set]) {
-            taken.notes.push_back(sigma_note(reading, *fit.knowledge, mesh));
+        reading.sigma = fit.observations->sigmas[set];
+        if (fit.observations->estimated[set]) {
+            taken.notes.push_back(sigma_note(reading, *fit.observations, mesh));
         }
         if (reading.outlines->parts_left_out > 0) {
             taken.notes.push_back(
@@ -153,7 +154,7 @@ void add_outlines(TakenOutlines taken, std::vector<Reading>& readings,
 
 bool has_outlines(const std::vector<Reading>& readings) {
     return std::any_of(readings.begin(), readings.end(),
-                       [](const Reading& r) { return r.told != nullptr; });
+                       [](const Reading& r) { return r.outline_observations != nullptr; });
 }
 
 bool has_photographs(const std::vector<Reading>& readings) {
@@ -178,10 +179,10 @@ void prepare_for_outlines(const Stone& stone, FitOptions& options) {
 }
 
 void describe_outlines(const std::vector<Reading>& readings, FitResult& result) {
-    const OutlineKnowledge* told = nullptr;
+    const OutlineObservations* observed = nullptr;
     for (const Reading& reading : readings) {
-        if (!reading.told) continue;
-        told = reading.told.get();
+        if (!reading.outline_observations) continue;
+        observed = reading.outline_observations.get();
         const auto set = std::size_t(reading.outline_set);
         const auto fitted =
             std::find_if(result.readings.begin(), result.readings.end(),
@@ -190,17 +191,17 @@ void describe_outlines(const std::vector<Reading>& readings, FitResult& result) 
         const SilhouetteSet& outlines = *reading.outlines;
         SilhouetteFinding finding;
         finding.misfit = silhouette_misfit(result.solid, outlines.contours, outlines.contours,
-                                           told->motions[set]);
-        finding.sigma = told->sigmas[set];
-        finding.estimated = told->estimated[set];
+                                           observed->motions[set]);
+        finding.sigma = observed->sigmas[set];
+        finding.estimated = observed->estimated[set];
         if (!outlines.held_out.empty()) {
             finding.held_out = silhouette_misfit(result.solid, outlines.contours, outlines.held_out,
-                                                 told->motions[set]);
+                                                 observed->motions[set]);
         }
         result.log.notes.push_back(words_of(reading.id, finding, name_of(result.unit)));
         fitted->silhouette = finding;
     }
-    if (told != nullptr) judge_outlines(*told, result);
+    if (observed != nullptr) judge_outlines(*observed, result);
 }
 
 }  // namespace culet

@@ -74,24 +74,24 @@ std::vector<double> spreads(const FitResult& fit) {
 }
 
 // From the fitted solid's facets to the fit's list, with sigmas larger by `inflation`.
-PlaneObservations knowledge_of(const PlaneEvidence& evidence, const FitResult& fit,
-                               double inflation) {
-    PlaneObservations knowledge;
+PlaneObservations plane_observations(const PlaneEvidence& evidence, const FitResult& fit,
+                                     double inflation) {
+    PlaneObservations observations;
     std::vector<int> there;
     for (const FittedFacet& facet : fit.facets) {
-        knowledge.planes.push_back(facet.plane);
+        observations.planes.push_back(facet.plane);
         there.push_back(find_facet(fit.solid, facet.name));
     }
     for (const PlaneEvidence::Row& row : evidence.rows) {
-        PlaneObservations::Row& told = knowledge.rows.emplace_back();
-        told.value = row.value / inflation;
+        PlaneObservations::Row& scaled = observations.rows.emplace_back();
+        scaled.value = row.value / inflation;
         for (const int f : there) {
             const PlaneSlopes slopes = f < 0 ? PlaneSlopes{} : row.facets[std::size_t(f)];
-            told.normal.push_back(slopes.normal / inflation);
-            told.offset.push_back(slopes.offset / inflation);
+            scaled.normal.push_back(slopes.normal / inflation);
+            scaled.offset.push_back(slopes.offset / inflation);
         }
     }
-    return knowledge;
+    return observations;
 }
 
 // Squared distances of the observations from the fitted planes, and redundancy.
@@ -139,25 +139,26 @@ double root_mean_square(const std::vector<double>& values) {
     return std::sqrt(squares / double(std::max<std::size_t>(1, values.size())));
 }
 
-struct Witness {
+struct PhotographCase {
     const RefinePhotograph* given = nullptr;
     PhotographEvidence evidence;
     PhotographFinding finding;
     Reading reading;
 };
 
-Witness witness_of(const RefinePhotograph& given, const Scene& scene, const RefineOptions& options,
-                   const Progress& progress) {
+PhotographCase photograph_case(const RefinePhotograph& given, const Scene& scene,
+                               const RefineOptions& options, const Progress& progress) {
     return of_photograph(given.name, [&] {
         Scene own = scene;
         if (given.camera) own.camera = *given.camera;
         const Scene posed = photograph_scene(given.photo, own, options.find_pose && !given.camera,
                                              options.threads, progress);
-        Witness witness{&given, PhotographEvidence(given.photo, posed, options.threads), {}, {}};
-        witness.finding.rms_before = witness.evidence.fit_of(scene.stone.solid).rms;
-        witness.reading.id = given.name;
-        witness.reading.kind = ReadingKind::photograph;
-        return witness;
+        PhotographCase photograph{
+            &given, PhotographEvidence(given.photo, posed, options.threads), {}, {}};
+        photograph.finding.rms_before = photograph.evidence.fit_of(scene.stone.solid).rms;
+        photograph.reading.id = given.name;
+        photograph.reading.kind = ReadingKind::photograph;
+        return photograph;
     });
 }
 
@@ -169,15 +170,15 @@ void take_misfit(const EvidenceFit& fit, PhotographFinding& finding) {
     }
 }
 
-void describe(const std::vector<Witness>& witnesses, FitResult& result) {
-    for (const Witness& witness : witnesses) {
-        const std::string& name = witness.given->name;
-        for (std::string& line : photograph_words(name, witness.finding)) {
+void describe(const std::vector<PhotographCase>& cases, FitResult& result) {
+    for (const PhotographCase& photograph : cases) {
+        const std::string& name = photograph.given->name;
+        for (std::string& line : photograph_words(name, photograph.finding)) {
             result.log.notes.push_back(std::move(line));
         }
         const auto reading = std::find_if(result.readings.begin(), result.readings.end(),
                                           [&](const FittedReading& r) { return r.id == name; });
-        if (reading != result.readings.end()) reading->photograph = witness.finding;
+        if (reading != result.readings.end()) reading->photograph = photograph.finding;
     }
 }
 
@@ -188,7 +189,7 @@ std::vector<std::string> photograph_words(const std::string& name,
     std::vector<std::string> lines{fmt::format(
         "{}: differs from the stone's picture by {:.3f} (root mean square of the root of light), "
         "by {:.3f} before; it tells {:.0f} of the planes' moves",
-        name, finding.rms, finding.rms_before, finding.moves_told)};
+        name, finding.rms, finding.rms_before, finding.parameters_determined)};
     for (const PhotographFinding::Place& place : finding.contradictions) {
         lines.push_back(fmt::format(
             "{}: at {:.0f}, {:.0f} (facet {}) {}, {:.0f} times what is usual: dust, an inclusion, "
@@ -207,34 +208,34 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
     result.before = fit_stone(input, options.fit);
     Scene scene = given;
     scene.stone.solid = result.before.solid;
-    std::vector<Witness> witnesses;
+    std::vector<PhotographCase> cases;
     const double each = k_poses / double(photographs.size());
     for (std::size_t i = 0; i < photographs.size(); ++i) {
-        witnesses.push_back(witness_of(photographs[i], scene, options,
-                                       part_of(progress, each * double(i), each * double(i + 1))));
+        cases.push_back(photograph_case(photographs[i], scene, options,
+                                        part_of(progress, each * double(i), each * double(i + 1))));
     }
 
     result.after = result.before;
     const auto sketched = std::count_if(k_rounds.begin(), k_rounds.end(),
                                         [](const Round& round) { return round.sketch_anew; });
-    const double share = (1 - k_poses) / double(std::size_t(sketched) * witnesses.size());
+    const double share = (1 - k_poses) / double(std::size_t(sketched) * cases.size());
     double done = k_poses, inflation = 1, step = 0;
     for (const Round& round : k_rounds) {
         std::vector<double> spread = spreads(result.after);
         // As much as the last step may remain, since reflexes do not move linearly.
         for (double& s : spread) s = std::max(s, step);
         FitInput all = input;
-        for (Witness& witness : witnesses) {
-            const PlaneEvidence evidence = of_photograph(witness.given->name, [&] {
-                return witness.evidence.measure(result.after.solid, spread, round.blur,
-                                                round.sketch_anew,
-                                                part_of(progress, done, done + share));
+        for (PhotographCase& photograph : cases) {
+            const PlaneEvidence evidence = of_photograph(photograph.given->name, [&] {
+                return photograph.evidence.measure(result.after.solid, spread, round.blur,
+                                                   round.sketch_anew,
+                                                   part_of(progress, done, done + share));
             });
             if (round.sketch_anew) done += share;
-            witness.finding.moves_told = evidence.moves_told;
-            witness.reading.photograph = std::make_shared<const PlaneObservations>(
-                knowledge_of(evidence, result.after, inflation));
-            all.readings.push_back(witness.reading);
+            photograph.finding.parameters_determined = evidence.moves_told;
+            photograph.reading.photograph = std::make_shared<const PlaneObservations>(
+                plane_observations(evidence, result.after, inflation));
+            all.readings.push_back(photograph.reading);
         }
         FitOptions fit = options.fit;
         fit.start = result.after.solid;
@@ -242,9 +243,9 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
         result.after = fit_stone(all, fit);
         step = root_mean_square(moves_between(before, result.after.solid));
         Misfit misfit;
-        for (Witness& witness : witnesses) {
-            witness.evidence.settle(result.after.solid);
-            const Misfit own = misfit_of(*witness.reading.photograph, result.after);
+        for (PhotographCase& photograph : cases) {
+            photograph.evidence.settle(result.after.solid);
+            const Misfit own = misfit_of(*photograph.reading.photograph, result.after);
             misfit.squares += own.squares;
             misfit.redundancy += own.redundancy;
         }
@@ -252,10 +253,10 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
         if (misfit.redundancy > 0)
             inflation = std::max(1.0, inflation * std::sqrt(misfit.squares / misfit.redundancy));
     }
-    for (Witness& witness : witnesses) {
-        take_misfit(witness.evidence.fit_of(result.after.solid), witness.finding);
+    for (PhotographCase& photograph : cases) {
+        take_misfit(photograph.evidence.fit_of(result.after.solid), photograph.finding);
     }
-    describe(witnesses, result.after);
+    describe(cases, result.after);
     return result;
 }
 

@@ -47,8 +47,8 @@ FittedReading as_taken(const Reading& reading) {
     return fitted;
 }
 
-void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
-                  FitResult& result) {
+void mark_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
+                   FitResult& result) {
     std::string ids;
     for (const std::size_t i : left_out) {
         const Reading& r = readings[i];

@@ -17,8 +17,8 @@ Proposal proposal_for(const Reading& reading, double estimate, double sigma,
 FittedReading as_taken(const Reading& reading);
 
 /// Restores azimuths of level facets, marked as left out, to the result of a fit without them.
-void put_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
-                  FitResult& result);
+void mark_left_out(const std::vector<Reading>& readings, const std::vector<std::size_t>& left_out,
+                   FitResult& result);
 
 FittedReading left_out(const Reading& reading, const Proposal& proposal, const char* why);
 

@@ -119,8 +119,8 @@ std::vector<Equation> conditions_of(const FitModel& model, const Shape& shape,
 }
 
 // One sentence for each tier and kind of parameter.
-std::vector<std::string> open_freedoms(const FitModel& model, const Shape& shape,
-                                       const std::vector<Undetermined>& undetermined) {
+std::vector<std::string> undetermined_words(const FitModel& model, const Shape& shape,
+                                            const std::vector<Undetermined>& undetermined) {
     if (undetermined.empty()) return {};
     const Solid& mesh = model.stone().solid;
     // From the mesh's form, because facet numbers do not tell tiers.
@@ -171,7 +171,7 @@ void describe_whole(const FitModel& model, const Finished& finished, const Diagn
             {q.name, q.unit, q.quantity.value,
              std::sqrt(covariance.total_variance(writer.function(q.quantity)))});
     }
-    findings.undetermined_words = open_freedoms(model, finished.shape, diagnosis.undetermined);
+    findings.undetermined_words = undetermined_words(model, finished.shape, diagnosis.undetermined);
     findings.help = next_readings(model, finished.shape, finished.outline, covariance);
 }
 

@@ -10,7 +10,7 @@
 #include "fit/findings/describe.h"
 #include "fit/findings/shape_findings.h"
 #include "fit/findings/words.h"
-#include "fit/mesh/degenerate_facets.h"
+#include "fit/mesh/degenerate_parts.h"
 #include "stone/solid/checks.h"
 
 namespace culet {
@@ -45,7 +45,7 @@ std::string told_all(const Fit& fit, const std::vector<std::string>& ids) {
 }
 
 // Names the readings that are probably wrong.
-std::string who_is_to_blame(const Fit& fit) {
+std::string suspect_words(const Fit& fit) {
     if (fit.result.findings.suspects.empty()) {
         if (fit.result.findings.disagreeing.empty()) return {};
         return "; readings that cannot hold together: " +
@@ -78,17 +78,17 @@ MaybeVerdict exact_contradiction(const Fit& fit) {
 
 // Names degenerate facets and edges.
 std::string in_the_way(const Solid& solid) {
-    const ComeToNothing come = degenerate_facets(solid);
+    const DegenerateParts degenerate = degenerate_parts(solid);
     std::string text;
-    if (!come.facets.empty()) {
+    if (!degenerate.facets.empty()) {
         text = fmt::format(
             ": nothing is left of {}; read how large they are, leave them out of the mesh, or "
             "allow the topology to change",
-            name_list(come.facets));
+            name_list(degenerate.facets));
     }
-    if (!come.edges.empty()) {
+    if (!degenerate.edges.empty()) {
         text += fmt::format("{} {} lie in one plane; draw each two as one facet",
-                            text.empty() ? ":" : ";", name_list(come.edges));
+                            text.empty() ? ":" : ";", name_list(degenerate.edges));
     }
     return text;
 }
@@ -160,11 +160,11 @@ MaybeVerdict disagreement(const Fit& fit) {
             fmt::format("the readings do not agree within their uncertainties (chi-square "
                         "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
                         statistics.chi2, statistics.dof, statistics.chi2_limit, fit.level,
-                        who_is_to_blame(fit))};
+                        suspect_words(fit))};
     }
     if (fit.result.findings.suspects.empty()) return {};
     return Verdict{FitStatus::contradictory,
-                   "readings that cannot belong to the others" + who_is_to_blame(fit)};
+                   "readings that cannot belong to the others" + suspect_words(fit)};
 }
 
 MaybeVerdict undetermined(const Fit& fit) {

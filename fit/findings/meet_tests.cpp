@@ -133,7 +133,7 @@ void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& alo
 }
 
 // Conditions the other multipliers on the release of one meet.
-void let_go(Multipliers& exact, const Meet& meet) {
+void release_meet(Multipliers& exact, const Meet& meet) {
     const Eigen::Index first = meet.first, count = meet.apart.cols();
     Eigen::MatrixXd& v = exact.covariance;
     const Eigen::MatrixXd rows = v.middleRows(first, count);
@@ -178,7 +178,7 @@ void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double 
         }
         findings[*worst] = now[*worst];
         findings[*worst].contradicted = true;
-        let_go(exact, meets[*worst]);
+        release_meet(exact, meets[*worst]);
         held.erase(worst);
     }
 }

@@ -48,8 +48,8 @@ struct SilhouetteFinding {
 /// How a photograph of the stone in known light agrees with the fitted stone (compare/refine).
 struct PhotographFinding {
     double rms_before = 0,
-           rms = 0;         ///< difference of the pictures, in the root of light (white is 1)
-    double moves_told = 0;  ///< how many of the planes' parameters, three a facet, it determines
+           rms = 0;  ///< difference of the pictures, in the root of light (white is 1)
+    double parameters_determined = 0;  ///< of the planes, three a facet
     /// A place where it contradicts the fitted stone, in its pixels.
     struct Place {
         double x = 0, y = 0;
@@ -79,10 +79,10 @@ struct FittedReading {
 /// How the meets of more than three facets were treated, and how far they miss.
 struct MeetReport {
     int exact = 0, soft = 0, released = 0;
-    double sigma = 0;         ///< of soft meets
-    double girdle_sigma = 0;  ///< of girdle facets in soft meets
-    bool estimated = false;   ///< sigma comes from the data
-    int ends = 0;             ///< local maxima of the likelihood found; the highest is taken
+    double sigma = 0;                   ///< of soft meets
+    double girdle_sigma = 0;            ///< of girdle facets in soft meets
+    bool estimated = false;             ///< sigma comes from the data
+    int local_maxima = 0;               ///< of the likelihood; the highest is taken
     double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
 };
 

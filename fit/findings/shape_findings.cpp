@@ -54,7 +54,7 @@ public:
     OpenShape(const FitModel& model, const Finished& finished, FitResult& result)
         : model_(model), shape_(finished.shape), outline_(*finished.outline), result_(result) {}
 
-    void add_vanishing_edges(const std::vector<ActiveCorner>& held, const Covariance& let_go);
+    void add_vanishing_edges(const std::vector<ActiveCorner>& held, const Covariance& released);
     void add_facets(const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis);
     void add_open_edges(const Covariance& holding);
     std::vector<std::string> vanishing_edges() const;
@@ -107,7 +107,7 @@ void OpenShape::add(Shapes kind, std::vector<std::string> facets, double unit, d
 // Corners held below the facet at an edge's other end keep the edge from reversing. Released, it
 // would get the length that the readings ask for.
 void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
-                                    const Covariance& let_go) {
+                                    const Covariance& released) {
     // An edge held at both ends has one condition twice: both are released together. A corner of an
     // edge of length l is l times the slope below the far facet.
     std::vector<std::pair<const Edge*, Eigen::VectorXd>> edges;
@@ -129,7 +129,7 @@ void OpenShape::add_vanishing_edges(const std::vector<ActiveCorner>& held,
     for (const auto& [facet, point] : held) heights.push_back(height(facet, Corner{point})(shape_));
     // They hold, so their residuals are zero.
     const Multipliers multipliers =
-        multipliers_of(let_go, let_go.linear().writer.functions(heights),
+        multipliers_of(released, released.linear().writer.functions(heights),
                        Eigen::VectorXd::Zero(Eigen::Index(held.size())));
     for (const auto& [edge, slopes] : edges) {
         const double pull = slopes.dot(multipliers.values);

@@ -19,7 +19,7 @@ struct TrialConstants {
     /// chi-square.
     double chi2_left_without = 0.01;
     /// Chi-square that the mirror image of the mesh must gain: five sigmas.
-    double price_of_mirror = 25;
+    double least_gain_of_mirror = 25;
     /// Azimuths that count from another mark are off by a multiple of `mark_deg`, within
     /// `near_deg`: errors of the mesh turn it by less.
     double mark_deg = 15, near_deg = 4;

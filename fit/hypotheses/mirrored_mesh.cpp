@@ -22,7 +22,7 @@ std::optional<Problem> mesh_mirrored(const Problem& given, const Attempt& first)
 Verdict judge_mirrored_mesh(const Problem& given, const Attempt& first, const Problem&,
                             FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.statistics.chi2 + k_trials.price_of_mirror < first.result.statistics.chi2)) {
+        !(again.statistics.chi2 + k_trials.least_gain_of_mirror < first.result.statistics.chi2)) {
         return {};
     }
     const std::string note =

@@ -11,21 +11,21 @@ namespace culet {
 
 namespace {
 
-using PutBack = std::function<void(FitResult&)>;
+using RestoreResult = std::function<void(FitResult&)>;
 // Changes the problem if it applies, and returns what undoes this in the result.
-using Preparation = std::optional<PutBack> (*)(Problem&);
+using Preparation = std::optional<RestoreResult> (*)(Problem&);
 
-std::optional<PutBack> leave_level_azimuths_out(Problem& problem) {
+std::optional<RestoreResult> leave_level_azimuths_out(Problem& problem) {
     std::vector<std::size_t> left_out = meaningless_azimuths(problem.readings);
     if (left_out.empty()) return std::nullopt;
     std::vector<Reading> all = problem.readings;
     problem.readings = without(all, left_out);
     return [all = std::move(all), left_out = std::move(left_out)](FitResult& result) {
-        put_left_out(all, left_out, result);
+        mark_left_out(all, left_out, result);
     };
 }
 
-std::optional<PutBack> take_size_of_mesh(Problem& problem) {
+std::optional<RestoreResult> take_size_of_mesh(Problem& problem) {
     if (says_size(problem.readings)) return std::nullopt;
     problem.readings.push_back(size_of_mesh(problem.stone));
     return [size = problem.readings.back()](FitResult& result) { take_back_size(size, result); };

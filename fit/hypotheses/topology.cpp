@@ -141,8 +141,8 @@ std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
     return shortest;
 }
 
-bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
-            std::vector<std::string>& changes) {
+bool release_edge(TopologyStage& stage, const std::pair<int, int>& edge, int number,
+                  std::vector<std::string>& changes) {
     std::vector<std::string> names, sides;
     const HalfEdges edges = half_edges(stage.stone.solid);
     for (const int end : {edge.first, edge.second}) {
@@ -167,8 +167,8 @@ bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
     return true;
 }
 
-void put_readings_back(const std::vector<Reading>& first, const TopologyStage& stage,
-                       FitResult& result) {
+void restore_readings(const std::vector<Reading>& first, const TopologyStage& stage,
+                      FitResult& result) {
     std::vector<FittedReading> all(first.size());
     std::vector<bool> there(first.size(), false);
     for (std::size_t i = 0; i < stage.origin.size() && i < result.readings.size(); ++i) {
@@ -225,7 +225,7 @@ FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readi
             for (const auto& edge : doubtful_edges(stage, last)) {
                 TopologyStage other = stage;
                 std::vector<std::string> said = changes;
-                if (!let_go(other, edge, released + 1, said)) continue;
+                if (!release_edge(other, edge, released + 1, said)) continue;
                 FitResult tried = fit(other.stone, other.readings);
                 if (!(tried.statistics.chi2_p > options.significance) ||
                     tried.status == FitStatus::not_converged ||
@@ -254,7 +254,7 @@ FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readi
     best.log.options = options;
     if (best.log.changes.empty()) return best;
     list_edges(stone.solid, best.solid, best.log.changes);
-    put_readings_back(readings, best_stage, best);
+    restore_readings(readings, best_stage, best);
     best.message += fmt::format("; the topology was changed ({} change{})", best.log.changes.size(),
                                 best.log.changes.size() == 1 ? "" : "s");
     return best;

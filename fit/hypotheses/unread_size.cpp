@@ -9,7 +9,7 @@ namespace culet {
 
 bool says_size(const std::vector<Reading>& readings) {
     return std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
-        return r.told || (!is_angle(r.kind) && !is_relation(r.kind));
+        return r.outline_observations || (!is_angle(r.kind) && !is_relation(r.kind));
     });
 }
 

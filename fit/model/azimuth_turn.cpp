@@ -7,7 +7,7 @@
 namespace culet {
 
 double azimuth_turn(const std::vector<Reading>& readings,
-                    const std::function<Vec3(int facet)>& normal_of, bool zero_is_meshs) {
+                    const std::function<Vec3(int facet)>& normal_of, bool counted_from_mesh) {
     double east = 0, north = 0, doubled_east = 0, doubled_north = 0;
     int count = 0;
     for (const Reading& r : readings) {
@@ -22,7 +22,7 @@ double azimuth_turn(const std::vector<Reading>& readings,
     }
     if (east == 0 && north == 0) return 0;
     const double turn = std::atan2(north, east);
-    if (!zero_is_meshs) return turn;
+    if (!counted_from_mesh) return turn;
     const double length = std::hypot(east, north);
     const double along = doubled_east * std::cos(2 * turn) + doubled_north * std::sin(2 * turn);
     const double sigma = std::sqrt(std::max(0.0, (count - along) / 2)) / length;

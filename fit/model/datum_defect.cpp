@@ -37,8 +37,8 @@ Eigen::MatrixXd datum_defect(const Linearised& linear) {
     return motions.leftCols(count);
 }
 
-Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd& information,
-                        const Eigen::VectorXd& metric) {
+Eigen::Index count_unobservable(const Eigen::MatrixXd& directions,
+                                const Eigen::VectorXd& information, const Eigen::VectorXd& metric) {
     // Remaining variance of each unknown, relative to the mesh's.
     Eigen::VectorXd left = Eigen::VectorXd::Zero(metric.size());
     Eigen::Index open = directions.cols();

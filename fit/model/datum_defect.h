@@ -18,7 +18,7 @@ Eigen::MatrixXd datum_defect(const Linearised& linear);
 /// the others together leave each unknown less than half as uncertain as the mesh does.
 /// `directions`: all, orthonormal in the metric, one a column. `information`: of the readings on
 /// each, increasing.
-Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd& information,
-                        const Eigen::VectorXd& metric);
+Eigen::Index count_unobservable(const Eigen::MatrixXd& directions,
+                                const Eigen::VectorXd& information, const Eigen::VectorXd& metric);
 
 }  // namespace culet

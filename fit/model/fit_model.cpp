@@ -43,14 +43,15 @@ FitModel::FitModel(const Stone& stone, const std::vector<Reading>& readings,
       meets_(list_meets(frame_, edges_, readings, options, mesh_shape_)),
       known_planes_(list_known_planes(frame_, readings, !stone.azimuth_from_mesh)),
       symmetries_(stone, frame_, readings, meets_.splits, mesh_shape_),
-      has_outlines_(std::any_of(readings.begin(), readings.end(),
-                                [](const Reading& r) { return r.told != nullptr; })) {
+      has_outlines_(std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
+          return r.outline_observations != nullptr;
+      })) {
     const Solid& solid = frame_.solid();
     if (options.prior.source != Prior::Source::none) {
         prior_ =
             make_prior(options.prior, solid, frame_.up_facet(), frame_.half_width(), mesh_shape_);
         estimate_angle_sigmas(solid, readings_, prior_);
-        const bool exact = options.meets == MeetTreatment::exact && !options.meets_shown;
+        const bool exact = options.meets == MeetTreatment::exact && !options.exact_meets_supported;
         count_beside_prior(
             mesh_shape_, solid, exact ? k_prior.meet_miss * 2 * frame_.half_width() : 0,
             [&](const Reading& r) { return frame_.unit_of(r); }, readings_);

@@ -39,7 +39,7 @@ Frame::Frame(const Stone& stone, const std::vector<Reading>& readings)
 double Frame::scale_of_readings(const std::vector<Reading>& readings, const Vec3& up) const {
     // Outlines have already scaled the mesh.
     if (std::any_of(readings.begin(), readings.end(),
-                    [](const Reading& r) { return r.told != nullptr; })) {
+                    [](const Reading& r) { return r.outline_observations != nullptr; })) {
         return 1;
     }
     // Logarithms of read over drawn lengths: first of overall lengths, later of single edges too.

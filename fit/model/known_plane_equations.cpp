@@ -85,16 +85,16 @@ Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
 }
 
 std::shared_ptr<const KnownPlanes> inside(const Frame& frame, Frame::From from,
-                                          const PlaneObservations& told, bool turns) {
-    check(told.planes.size() == frame.solid().facets.size(), "planes of another mesh");
+                                          const PlaneObservations& observed, bool turns) {
+    check(observed.planes.size() == frame.solid().facets.size(), "planes of another mesh");
     const glm::dmat3 turn = frame.turn_inside(from);
     const Vec3& middle = frame.middle();
     auto known = std::make_shared<KnownPlanes>();
-    for (const Plane& plane : told.planes) {
+    for (const Plane& plane : observed.planes) {
         known->planes.push_back(
             {turn * plane.normal, (plane.offset - glm::dot(plane.normal, middle)) / frame.scale()});
     }
-    for (const PlaneObservations::Row& row : told.rows) {
+    for (const PlaneObservations::Row& row : observed.rows) {
         PlaneObservations::Row& in = known->rows.emplace_back();
         in.value = row.value;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
@@ -112,9 +112,9 @@ std::shared_ptr<const KnownPlanes> inside(const Frame& frame, Frame::From from,
 std::vector<std::shared_ptr<const KnownPlanes>> list_known_planes(
     const Frame& frame, const std::vector<Reading>& readings, bool turns) {
     std::vector<std::shared_ptr<const KnownPlanes>> all;
-    const OutlineKnowledge* outlines = nullptr;  // of all sets together
+    const OutlineObservations* outlines = nullptr;  // of all sets together
     for (const Reading& r : readings) {
-        if (r.told) outlines = r.told.get();
+        if (r.outline_observations) outlines = r.outline_observations.get();
         if (r.photograph) {
             all.push_back(inside(frame, Frame::From::fitted, *r.photograph, turns));
         }

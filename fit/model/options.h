@@ -41,7 +41,7 @@ struct FitOptions {
     /// are exact or soft (meet_evidence.h).
     bool meets_named = false;
     /// Exact meets that the readings support: no allowance for what real meets miss.
-    bool meets_shown = false;
+    bool exact_meets_supported = false;
     /// The stone is what its planes enclose, whatever its corners; used with outlines.
     bool free_corners = false;
     /// Sigma of soft meets, in the stone's unit. Nothing: estimated from the data as a variance

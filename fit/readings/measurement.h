@@ -35,7 +35,7 @@ enum class ReadingKind {
 };
 
 struct SilhouetteSet;
-struct OutlineKnowledge;
+struct OutlineObservations;
 struct PlaneObservations;
 
 const char* name_of(ReadingKind kind);
@@ -122,7 +122,7 @@ struct Reading {
     /// (silhouettes/silhouette_fit.h).
     std::shared_ptr<const SilhouetteSet> outlines;
     int outline_set = 0;
-    std::shared_ptr<const OutlineKnowledge> told;
+    std::shared_ptr<const OutlineObservations> outline_observations;
     /// Photograph: its plane observations (planes/plane_observations.h).
     std::shared_ptr<const PlaneObservations> photograph;
 };

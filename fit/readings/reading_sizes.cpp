@@ -74,7 +74,7 @@ void refuse_other_unit(const Reading& reading, const Stone& stone) {
 }
 
 // Logarithms of reading / mesh in the readings' order, and the first reading.
-struct Asked {
+struct SizeRatios {
     std::vector<double> logs;
     const Reading* first = nullptr;
 
@@ -86,13 +86,14 @@ struct Asked {
     double middle() const { return upper_median(logs); }
 };
 
-Asked asked_by_overall_lengths(const std::vector<Reading>& readings, const Stone& stone) {
-    Asked asked;
+SizeRatios size_ratios_of_overall_lengths(const std::vector<Reading>& readings,
+                                          const Stone& stone) {
+    SizeRatios ratios;
     for (const Reading& r : readings) {
-        if (r.kind == ReadingKind::depth) asked.add(r, width_along(stone.solid, stone.up));
-        if (r.kind == ReadingKind::width) asked.add(r, diameter(stone.solid));
+        if (r.kind == ReadingKind::depth) ratios.add(r, width_along(stone.solid, stone.up));
+        if (r.kind == ReadingKind::width) ratios.add(r, diameter(stone.solid));
     }
-    return asked;
+    return ratios;
 }
 
 // Fewer overall lengths cannot outvote the mesh.
@@ -104,7 +105,7 @@ constexpr double k_one_size = 8;
 
 // True if overall lengths agree on another size: the mesh has another unit, which does not matter,
 // since only its shape counts.
-bool mesh_is_in_another_unit(const Asked& overall) {
+bool mesh_is_in_another_unit(const SizeRatios& overall) {
     if (overall.logs.size() < k_enough_lengths) return false;
     const auto [least, most] = std::minmax_element(overall.logs.begin(), overall.logs.end());
     return std::abs(overall.middle()) > std::log(k_other_size) &&
@@ -113,7 +114,7 @@ bool mesh_is_in_another_unit(const Asked& overall) {
 
 // True if most overall lengths agree with each other and the mesh. Another one is a slip that the
 // first check names (first_check.h), no matter of units.
-bool most_lengths_agree(const Asked& overall) {
+bool most_lengths_agree(const SizeRatios& overall) {
     if (overall.logs.size() < k_enough_lengths) return false;
     const double middle = overall.middle();
     const auto near = std::count_if(overall.logs.begin(), overall.logs.end(),
@@ -122,8 +123,8 @@ bool most_lengths_agree(const Asked& overall) {
            2 * near > std::ptrdiff_t(overall.logs.size());
 }
 
-Asked asked_by_edges(const std::vector<Reading>& readings, const Stone& stone) {
-    Asked asked;
+SizeRatios size_ratios_of_edges(const std::vector<Reading>& readings, const Stone& stone) {
+    SizeRatios ratios;
     std::map<std::pair<int, int>, double> lengths;
     for (const Edge& e : half_edges(stone.solid).edges) {
         lengths[std::minmax(e.left, e.right)] =
@@ -132,16 +133,17 @@ Asked asked_by_edges(const std::vector<Reading>& readings, const Stone& stone) {
     for (const Reading& r : readings) {
         if (r.kind != ReadingKind::edge || r.facets.size() != 2) continue;
         const auto found = lengths.find(std::minmax(r.facets[0], r.facets[1]));
-        if (found != lengths.end()) asked.add(r, found->second);
+        if (found != lengths.end()) ratios.add(r, found->second);
     }
-    return asked;
+    return ratios;
 }
 
 // Even a rough mesh's edges are not wrong by this factor against its widths.
 constexpr double k_two_units = 8;
 constexpr std::size_t k_enough_edges = 5;
 
-void refuse_lengths_of_two_units(const Asked& overall, const Asked& edges, const Stone& stone) {
+void refuse_lengths_of_two_units(const SizeRatios& overall, const SizeRatios& edges,
+                                 const Stone& stone) {
     if (overall.logs.empty() || edges.logs.size() < k_enough_edges) return;
     const double apart = overall.middle() - edges.middle();
     if (std::abs(apart) < std::log(k_two_units)) return;
@@ -181,15 +183,15 @@ void refuse_impossible_volume(const Reading& reading, const Stone& stone, double
 }  // namespace
 
 void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone) {
-    const Asked overall = asked_by_overall_lengths(readings, stone),
-                edges = asked_by_edges(readings, stone);
+    const SizeRatios overall = size_ratios_of_overall_lengths(readings, stone),
+                     edges = size_ratios_of_edges(readings, stone);
     const bool agree = most_lengths_agree(overall);
     if (!agree && !mesh_is_in_another_unit(overall)) {
         for (const Reading& reading : readings) refuse_other_unit(reading, stone);
     }
     refuse_lengths_of_two_units(overall, edges, stone);
     if (agree) return;
-    const Asked& lengths = overall.logs.empty() ? edges : overall;
+    const SizeRatios& lengths = overall.logs.empty() ? edges : overall;
     const double larger = lengths.logs.empty() ? 0 : lengths.middle();
     for (const Reading& r : readings) {
         if (r.kind == ReadingKind::volume || r.kind == ReadingKind::weight) {

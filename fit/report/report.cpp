@@ -81,7 +81,7 @@ void add_silhouette(const SilhouetteFinding& finding, Json& reading) {
 void add_photograph(const PhotographFinding& finding, Json& reading) {
     reading["rms_before"] = json_number(finding.rms_before);
     reading["rms"] = json_number(finding.rms);
-    reading["moves_told"] = json_number(finding.moves_told);
+    reading["moves_told"] = json_number(finding.parameters_determined);
     reading["contradictions"] =
         json_list(finding.contradictions, [](const PhotographFinding::Place& place) -> Json {
             return {{"x", json_number(place.x)},
@@ -126,7 +126,7 @@ Json meets_json(const MeetReport& meets) {
             {"sigma", meets.sigma},
             {"girdle_sigma", meets.girdle_sigma},
             {"sigma_estimated", meets.estimated},
-            {"sigma_ends", meets.ends},
+            {"sigma_ends", meets.local_maxima},
             {"miss_rms", meets.miss_rms},
             {"miss_max", meets.miss_max}};
 }

@@ -67,7 +67,7 @@ std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& pro
 
 // Restarts a mesh facet that slid off the body where the outlines end; the up facet where it cuts
 // off a little, if they extend beyond the body (a holder).
-void bring_back(const Stone& mesh, PlaneFitProblem& problem, FoundPlanes& found) {
+void restart_lost_facets(const Stone& mesh, PlaneFitProblem& problem, FoundPlanes& found) {
     constexpr double k_little = 0.02;  // of the width
     PlaneFit& fit = found.fit;
     for (std::size_t p = 0; p < fit.planes.size(); ++p) {
@@ -140,7 +140,7 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
     problem.reach = k_reach * problem.width;
     run_on(problem, k_first_steps, found);
     for (int round = 0; round < k_rounds; ++round) {
-        bring_back(mesh, problem, found);
+        restart_lost_facets(mesh, problem, found);
         const std::size_t room = k_most_planes - std::min(k_most_planes, problem.start.size());
         const std::vector<Plane> more = missing_planes(problem, found.fit, room);
         if (more.empty()) break;
@@ -155,7 +155,7 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
         keep(kept_planes(found.fit, mesh_planes(found), false), problem, found);
     }
     problem.reach = 0;
-    bring_back(mesh, problem, found);
+    restart_lost_facets(mesh, problem, found);
     // Every pass but the last drops planes.
     for (;;) {
         run_on(problem, k_last_steps, found);

@@ -72,18 +72,18 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
 
 // Sum of weighted squares, in variances, that a plane must save: log(points) for each of its three
 // parameters (Schwarz 1978). A cut saves mean^2 * weight in the outline that shows it best.
-double price_of_plane(const PlaneFitProblem& problem) {
+double least_gain_of_plane(const PlaneFitProblem& problem) {
     std::size_t points = 0;
     for (const FlatContour& contour : problem.contours) points += contour.points.size();
     return 3 * std::log(double(points));
 }
 
-bool stands_out(const Place& place, double scale, double price) {
+bool stands_out(const Place& place, double scale, double least_gain) {
     return -place.mean() > k_depth * scale &&
-           std::pow(place.mean() / scale, 2) * place.weight > price;
+           std::pow(place.mean() / scale, 2) * place.weight > least_gain;
 }
 
-void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c, double price,
+void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c, double least_gain,
               std::vector<Cut>& cuts) {
     const FlatContour& contour = problem.contours[c];
     const ProjectedOutline& outline = fit.distances.outlines[c];
@@ -97,14 +97,14 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
     for (std::size_t k = 0; k < count; ++k) {
         const ProjectedOutline::Edge &e = outline.edges[k], &next = outline.edges[(k + 1) % count];
         const Vec3 n = normal(e);
-        if (stands_out(places[k].whole, scale, price)) {
+        if (stands_out(places[k].whole, scale, least_gain)) {
             cuts.push_back({{n, e.offset + places[k].whole.mean()}, -places[k].whole.mean()});
         }
         Place corner = places[k].end;
         const Place& other = places[(k + 1) % count].begin;
         corner.weight += other.weight;
         corner.sum += other.sum;
-        if (!stands_out(corner, scale, price)) continue;
+        if (!stands_out(corner, scale, least_gain)) continue;
         const Vec3 between = glm::normalize(n + normal(next));
         const Vec3& tip = fit.body.corners[std::size_t(e.to)];
         cuts.push_back({{between, glm::dot(between, tip) + corner.mean()}, -corner.mean()});
@@ -116,9 +116,9 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
 std::vector<Plane> missing_planes(const PlaneFitProblem& problem, const PlaneFit& fit,
                                   std::size_t most) {
     std::vector<Cut> cuts;
-    const double price = price_of_plane(problem);
+    const double least_gain = least_gain_of_plane(problem);
     for (std::size_t c = 0; c < problem.contours.size(); ++c) {
-        add_cuts(problem, fit, c, price, cuts);
+        add_cuts(problem, fit, c, least_gain, cuts);
     }
     std::stable_sort(cuts.begin(), cuts.end(),
                      [](const Cut& a, const Cut& b) { return a.depth > b.depth; });

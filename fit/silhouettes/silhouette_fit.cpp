@@ -8,7 +8,7 @@
 #include <set>
 
 #include "fit/silhouettes/find_planes.h"
-#include "fit/silhouettes/outline_knowledge.h"
+#include "fit/silhouettes/outline_rows.h"
 #include "fit/silhouettes/plane_fit.h"
 #include "fit/silhouettes/registration.h"
 #include "fit/silhouettes/silhouette_start.h"
@@ -165,20 +165,21 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets) {
     holds.tilts = start.in_mesh_frame && mesh.up_facet.empty();
     holds.turn = start.in_mesh_frame && mesh.azimuth_from_mesh;
     const PlaneInformation information = plane_information(start.problem, found.fit);
-    ToldPlanes told = told_planes(found.fit.planes, information.matrix, start.problem.start_tilts,
-                                  start.problem.width, back, holds);
-    auto knowledge = std::make_shared<OutlineKnowledge>();
-    for (const Facet& facet : result.stone.solid.facets) knowledge->planes.push_back(facet.plane);
-    knowledge->rows = std::move(told.rows);
-    knowledge->chi2 = information.chi2;
-    knowledge->dof = information.chi2_dof;
+    OutlineRows rows = outline_rows(found.fit.planes, information.matrix, start.problem.start_tilts,
+                                    start.problem.width, back, holds);
+    auto observations = std::make_shared<OutlineObservations>();
+    for (const Facet& facet : result.stone.solid.facets)
+        observations->planes.push_back(facet.plane);
+    observations->rows = std::move(rows.rows);
+    observations->chi2 = information.chi2;
+    observations->dof = information.chi2_dof;
     for (std::size_t s = 0; s < sets.size(); ++s) {
-        knowledge->motions.push_back(product(back, found.fit.motions[s]));
-        knowledge->sigmas.push_back(information.sigmas[s]);
-        knowledge->estimated.push_back(!(start.problem.stated_sigmas[s] > 0));
+        observations->motions.push_back(product(back, found.fit.motions[s]));
+        observations->sigmas.push_back(information.sigmas[s]);
+        observations->estimated.push_back(!(start.problem.stated_sigmas[s] > 0));
     }
-    result.knowledge = std::move(knowledge);
-    result.notes = notes_of(mesh, found, result.stone.solid, told.unseen);
+    result.observations = std::move(observations);
+    result.notes = notes_of(mesh, found, result.stone.solid, rows.unseen);
     return result;
 }
 

@@ -14,7 +14,7 @@ namespace culet {
 /// Plane observations from outlines; the rows' values are zero. Left out are motions that outlines
 /// do not determine or that the fit's frame fixes. Planes that no outline shows are held near the
 /// mesh's, within degrees and per cent.
-struct OutlineKnowledge : PlaneObservations {
+struct OutlineObservations : PlaneObservations {
     std::vector<FrameMotion> motions;  ///< of the sets, to the stone's frame
     std::vector<double> sigmas;        ///< of the sets, across the outline
     std::vector<bool> estimated;       ///< of the sets: sigma comes from the residuals
@@ -26,7 +26,7 @@ struct SilhouetteFit {
     /// show come last, named after the nearest of the mesh. Corners are those that the planes
     /// enclose.
     Stone stone;
-    std::shared_ptr<const OutlineKnowledge> knowledge;
+    std::shared_ptr<const OutlineObservations> observations;
     std::vector<std::string> notes;
 };
 

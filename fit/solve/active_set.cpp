@@ -20,11 +20,11 @@ LocalOptimum with_best_signs(Relaxation& relaxation, KktSolver& solver,
             constrained_newton(relaxation, solver, another, {},
                                {.iterations = options.iterations / k_signs.steps_divisor});
         other.iterations += optimum.iterations;
-        if (!(other.chi2 < optimum.chi2 - k_signs.same_end)) return false;
+        if (!(other.chi2 < optimum.chi2 - k_signs.same_minimum)) return false;
         optimum = std::move(other);
         return true;
     };
-    for (int round = 0; round < k_signs.most_rounds && !(optimum.chi2 < options.agreeable) &&
+    for (int round = 0; round < k_signs.most_rounds && !(optimum.chi2 < options.good_chi2) &&
                         solver.work() < k_signs.most_work;
          ++round) {
         relaxation.forget_contacts(optimum.shared_contacts);
@@ -94,7 +94,7 @@ void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOpti
         }
         LocalOptimum next =
             constrained_newton(relaxation, solver, optimum.shape, result.held,
-                               {.iterations = left, .near_local_minimum = options.agreeable > 0});
+                               {.iterations = left, .near_local_minimum = options.good_chi2 > 0});
         bring_to_meet(relaxation, result.held, next);
         left -= next.iterations;
         next.iterations += optimum.iterations;
@@ -112,7 +112,7 @@ ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
                             const ActiveSetOptions& options) {
     ActiveSetFit result;
     KktSolver solver;
-    const bool goes_on = options.agreeable > 0;
+    const bool goes_on = options.good_chi2 > 0;
     LocalOptimum optimum = constrained_newton(relaxation, solver, start, {},
                                               {.iterations = options.iterations,
                                                .near_local_minimum = goes_on,

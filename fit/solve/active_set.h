@@ -24,7 +24,7 @@ struct ActiveSetOptions {
     double hopeless = 1e300;
     /// When continuing an earlier fit: below this chi-square the readings' active branches are
     /// taken to be unchanged, and no other signs are tried.
-    double agreeable = 0;
+    double good_chi2 = 0;
 };
 
 ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,

@@ -30,12 +30,12 @@ Shape onto_constraints(Relaxation& relaxation, Shape shape, const std::vector<Ac
 
 }  // namespace
 
-void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
-                 LocalOptimum& optimum, std::shared_ptr<const Outline> outline) {
+void evaluate_minimum(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
+                      LocalOptimum& optimum, std::shared_ptr<const Outline> outline) {
     PenaltyScale penalty;
     penalty.with_priors = false;
     relaxation.forget_contacts();
-    relaxation.choose(optimum.shape, true, std::move(outline));
+    relaxation.select_branches(optimum.shape, true, std::move(outline));
     optimum.chi2 = relaxation.linearisation(optimum.shape, penalty, held).chi2;
     optimum.worst_hard = relaxation.worst_hard(optimum.shape);
 }
@@ -48,7 +48,7 @@ void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held
         Shape met = onto_constraints(relaxation, optimum.shape, held, k_held.sigma_beside_meets);
         if (relaxation.is_convex(met)) optimum.shape = std::move(met);
     }
-    look_at_end(relaxation, held, optimum, optimum.outline);
+    evaluate_minimum(relaxation, held, optimum, optimum.outline);
 }
 
 }  // namespace culet

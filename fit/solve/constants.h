@@ -111,7 +111,7 @@ struct JawConstants {
     double was_level = 1e-7;
     /// A shared contact with a smaller Lagrange multiplier holds nothing: its corners are level by
     /// symmetry or on a level facet. In units of a reading that is off by its sigma.
-    double no_force = 1e-3;
+    double least_multiplier = 1e-3;
     /// A result may be turned by `turn_range_deg` from where it was fitted. Corners that lie
     /// `out_of_reach` below the outermost are not touched within that; corners that differ by less
     /// than `level` are level.
@@ -132,9 +132,9 @@ struct SignConstants {
     /// A choice may take the steps of a fit divided by this. bench_fit, `times`, 1000 facets:
     /// better choices took 16 to 28 of 100 steps, hopeless ones took all.
     int steps_divisor = 2;
-    /// Minima whose chi-squares differ by less than `same_end` are one. A choice whose predicted
-    /// gain is less than `least_gain` is not tried.
-    double same_end = 1e-3, least_gain = 0.01;
+    /// Minima whose chi-squares differ by less than `same_minimum` are one. A choice whose
+    /// predicted gain is less than `least_gain` is not tried.
+    double same_minimum = 1e-3, least_gain = 0.01;
     double damping = 1e-6;
     /// Relative precision of what turning one facet does to the others.
     double precision = 1e-4;

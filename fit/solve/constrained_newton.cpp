@@ -40,7 +40,7 @@ public:
           outline_(options.outline) {
         penalty_.with_priors = false;
         penalty_.with_hinges = !outline_;
-        choose(shape_, outline_);
+        select_branches(shape_, outline_);
         if (options.contacts_shared) relaxation.share_level_corners(shape_);
         here_ = linearised(shape_);
         damping_ = options.near_local_minimum ? k_newton.least_damping : k_newton.first_damping;
@@ -55,15 +55,15 @@ private:
         double length = 0;
     };
 
-    void choose(const Shape& shape, const std::shared_ptr<const Outline>& outline) {
+    void select_branches(const Shape& shape, const std::shared_ptr<const Outline>& outline) {
         relaxation_.forget_contacts();
-        relaxation_.choose(shape, true, outline);
+        relaxation_.select_branches(shape, true, outline);
     }
     StepLinearisation linearised(const Shape& shape) {
         return relaxation_.linearisation(shape, penalty_, held_);
     }
-    void take_curvature_of_the_end();
-    bool meaning_changes();
+    void take_multipliers_at_start();
+    bool branch_changes();
     bool ends(bool by_itself);
     Step step();
     bool factor();
@@ -86,24 +86,24 @@ private:
     Eigen::VectorXd multipliers_;  ///< of the equations, for the Lagrangian Hessian
     double length_before_ = 0;     ///< of the previous step in this branch, or 0
     /// The branches were chosen at this shape. At a kink (a caliper's jaw that touches two corners
-    /// at once) they would alternate for ever; `choose` then lets the jaw rest on both.
+    /// at once) they would alternate for ever; `select_branches` then lets the jaw rest on both.
     bool asked_ = false;
     double least_ = k_kkt.least_variance;
     bool may_be_close_ = true;
     LocalOptimum result_;
 };
 
-void Newton::take_curvature_of_the_end() {
+void Newton::take_multipliers_at_start() {
     if (!solver_.factor(here_.rows, damping_ * metric_)) return;
     const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
     second_order_ = s.good;
     multipliers_ = s.multipliers;
 }
 
-bool Newton::meaning_changes() {
+bool Newton::branch_changes() {
     if (outline_ || choices_ > k_newton.most_branches) return false;  // chosen at each shape
     asked_ = true;
-    relaxation_.choose(shape_, true);
+    relaxation_.select_branches(shape_, true);
     StepLinearisation fresh = linearised(shape_);
     if (std::abs(fresh.merit - here_.merit) < k_newton.same_branch * (1 + here_.merit))
         return false;
@@ -118,7 +118,7 @@ bool Newton::meaning_changes() {
 }
 
 bool Newton::ends(bool by_itself) {
-    if (meaning_changes()) return false;
+    if (branch_changes()) return false;
     result_.converged = by_itself;
     return true;
 }
@@ -126,8 +126,9 @@ bool Newton::ends(bool by_itself) {
 // Includes the second-order terms for Newton steps, unless they make the matrix indefinite.
 bool Newton::factor() {
     if (second_order_) {
-        const std::vector<SymmetricEntry> bends = relaxation_.curvature(shape_, multipliers_);
-        if (solver_.factor(here_.rows, damping_ * metric_, bends, least_)) return true;
+        const std::vector<SymmetricEntry> second_order =
+            relaxation_.curvature(shape_, multipliers_);
+        if (solver_.factor(here_.rows, damping_ * metric_, second_order, least_)) return true;
     }
     second_order_ = false;
     if (solver_.factor(here_.rows, damping_ * metric_, {}, least_)) return true;
@@ -159,7 +160,7 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
     damping_ = std::max(k_newton.least_damping, damping_ / 5);
     // Choose the branches once, when little is left to gain in this one.
     if (!asked_ && next_gain < k_newton.little && here_.hard_sum < k_newton.all_but_met)
-        meaning_changes();
+        branch_changes();
 }
 
 Newton::Step Newton::step() {
@@ -183,7 +184,7 @@ Newton::Step Newton::step() {
     if (outline_) {
         outline = outline_of(relaxation_.model(), next);
         if (!outline) return made;
-        choose(next, outline);
+        select_branches(next, outline);
     }
     StepLinearisation there = linearised(next);
     // Hard equations dominate the merit. Residuals below `nearly_met` do not count: they are
@@ -196,7 +197,7 @@ Newton::Step Newton::step() {
         accept(std::move(next), std::move(there), solution, before, before - after, made.length);
         return made;
     }
-    if (outline_) choose(shape_, outline_);
+    if (outline_) select_branches(shape_, outline_);
     // A Newton step whose change is within the rounding of the sums.
     made.idle = there.finite && second_order_ && made.length < k_newton.short_step &&
                 after - before < k_newton.no_gain * (1 + before);
@@ -214,7 +215,7 @@ bool Newton::gives_up(const Step& made) {
 }
 
 LocalOptimum Newton::run() {
-    if (options_.near_local_minimum) take_curvature_of_the_end();
+    if (options_.near_local_minimum) take_multipliers_at_start();
     for (int i = 0; i < options_.iterations; ++i) {
         result_.iterations = i + 1;
         const Step made = step();
@@ -245,7 +246,7 @@ LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const
         return freed;
     }
     result.shared_contacts = relaxation.shared_contacts();
-    look_at_end(relaxation, held, result, result.outline);
+    evaluate_minimum(relaxation, held, result, result.outline);
     return result;
 }
 

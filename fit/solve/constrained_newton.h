@@ -36,9 +36,9 @@ std::shared_ptr<const Outline> outline_of(const FitModel& model, const Shape& sh
 LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                                 const std::vector<ActiveCorner>& held,
                                 const NewtonOptions& options);
-/// Sets chi-square and the largest hard residual. `outline`: as in `Relaxation::choose`.
-void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
-                 LocalOptimum& optimum, std::shared_ptr<const Outline> outline = nullptr);
+/// Sets chi-square and the largest hard residual. `outline`: as in `Relaxation::select_branches`.
+void evaluate_minimum(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
+                      LocalOptimum& optimum, std::shared_ptr<const Outline> outline = nullptr);
 /// Moves the optimum onto the hard equations by minimum-norm steps, to rounding error.
 void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                    LocalOptimum& optimum);

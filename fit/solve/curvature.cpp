@@ -16,8 +16,8 @@ namespace {
 // k is d_i . e_k + d_k . e_i - l d_i . d_k, where d_i and e_i are the derivatives of d and of to -
 // from.
 template <typename Add>
-void bend_edge(const Quantity& length, const Shape& shape,
-               const Parameters::TangentBasis& tangent_basis, double multiplier, Add add) {
+void add_edge_hessian(const Quantity& length, const Shape& shape,
+                      const Parameters::TangentBasis& tangent_basis, double multiplier, Add add) {
     if (length.slopes.size() != 4 || length.slopes[3].by != Quantity::By::normal) return;
     const int to = length.slopes[0].index, from = length.slopes[1].index,
               left = length.slopes[2].index, right = length.slopes[3].index;
@@ -59,8 +59,8 @@ void bend_edge(const Quantity& length, const Shape& shape,
 
 // The second derivative of a distance l between corners is e_i . e_k / l, for steps across it.
 template <typename Add>
-void bend_distance(const Quantity& length, const Parameters::TangentBasis& tangent_basis,
-                   double multiplier, Add add) {
+void add_distance_hessian(const Quantity& length, const Parameters::TangentBasis& tangent_basis,
+                          double multiplier, Add add) {
     if (length.slopes.size() != 2 || !(length.value > 0)) return;
     struct Freedom {
         int column;
@@ -141,8 +141,8 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
             }
         } else if (reading.kind == ReadingKind::edge) {
             const Quantity length = e.formula(shape);
-            bend_edge(length, shape, tangent_basis, multiplier, add);
-            bend_distance(length, tangent_basis, multiplier, add);
+            add_edge_hessian(length, shape, tangent_basis, multiplier, add);
+            add_distance_hessian(length, tangent_basis, multiplier, add);
         }
     }
     return entries;

@@ -22,7 +22,7 @@ Finished finish(const FitModel& model, const Shape& start, int iterations) {
     std::shared_ptr<const Outline> outline = outline_of(model, end.shape);
     end.enclosed = outline != nullptr;
     if (outline) end.outline = std::move(outline);
-    look_at_end(relaxation, {}, end, end.outline);
+    evaluate_minimum(relaxation, {}, end, end.outline);
     end.work = solver.work();
     return end;
 }

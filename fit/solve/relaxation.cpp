@@ -63,14 +63,14 @@ Relaxation::Relaxation(const FitModel& model, const Parameters& parameters)
     }
     points_.resize(points);
     std::iota(points_.begin(), points_.end(), 0);
-    choose(model.mesh_shape(), false);
+    select_branches(model.mesh_shape(), false);
     for (const auto& [f, p] : hinges_of(model)) {
         if (const int images = hinged.take(f, p)) hinges_.push_back({f, p, double(images), -1});
     }
 }
 
-void Relaxation::choose(const Shape& shape, bool meets_hold,
-                        std::shared_ptr<const Outline> outline) {
+void Relaxation::select_branches(const Shape& shape, bool meets_hold,
+                                 std::shared_ptr<const Outline> outline) {
     std::vector<Equation> before = std::move(equations_);
     equations_ = reading_equations(model_, shape, outline ? outline : model_.mesh_outline(), true,
                                    meets_hold);
@@ -123,7 +123,7 @@ bool Relaxation::contacts_hold(const Shape& shape) const {
         const double pull = (e.formula(shape).value - e.value) / (e.sigma * e.sigma);
         const double multiplier =
             off_level(shape, contact) / (k_jaws.contact_sigma * k_jaws.contact_sigma);
-        if (std::abs(multiplier) * e.sigma < k_jaws.no_force) continue;
+        if (std::abs(multiplier) * e.sigma < k_jaws.least_multiplier) continue;
         const int touched = e.touched[std::size_t(contact.jaw)].point;
         const double share =
             (contact.jaw == 0) == (touched == contact.one) ? -multiplier / pull : multiplier / pull;

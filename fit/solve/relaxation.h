@@ -68,8 +68,8 @@ public:
     /// they share the contact and are held level. `meets_hold`: as in `reading_equations`.
     /// `outline`: the corners that the planes of a stone with split meets give; by default the
     /// mesh's.
-    void choose(const Shape& shape, bool meets_hold,
-                std::shared_ptr<const Outline> outline = nullptr);
+    void select_branches(const Shape& shape, bool meets_hold,
+                         std::shared_ptr<const Outline> outline = nullptr);
     const std::vector<SharedContact>& shared_contacts() const { return shared_contacts_; }
     /// For the minimum of an earlier fit: lets each touched corner share its jaw with those that
     /// are level with it.

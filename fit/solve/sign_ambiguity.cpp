@@ -163,7 +163,7 @@ std::vector<Eigen::VectorXd> better_sign_choices(
 std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                 const PenaltyScale& penalty, double within, std::size_t most,
                                 const std::vector<int>& sides) {
-    relaxation.choose(shape, penalty.incidence == 0);
+    relaxation.select_branches(shape, penalty.incidence == 0);
     std::vector<Relaxation::SignAmbiguity> ambiguous = relaxation.ambiguous(shape, within);
     std::erase_if(ambiguous, [&](const Relaxation::SignAmbiguity& f) {
         return !sides.empty() && sides[std::size_t(f.facet)] != 0;

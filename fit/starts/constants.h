@@ -30,7 +30,7 @@ struct SearchPolicy {
     int least_starts_in_vain = 2;
     /// A stone that did not converge is preferred to another if it agrees better by more than this
     /// part of chi-square and two sigmas of one reading.
-    double creeping_part = 1.05, creeping_noise = 4;
+    double unconverged_part = 1.05, unconverged_noise = 4;
 
     // The stages: penalty continuation.
 
@@ -104,12 +104,12 @@ struct DrawnConstants {
 inline constexpr DrawnConstants k_drawn;
 
 /// Local minima that starts lead to (multistart.h).
-struct EndConstants {
+struct MinimumConstants {
     /// p-value above which the readings agree well.
     double agrees_well = 0.2;
     /// Minima whose chi-squares differ by less are one stone: a third of a sigma of one reading.
     double same_chi2 = 0.1;
 };
-inline constexpr EndConstants k_ends;
+inline constexpr MinimumConstants k_minima;
 
 }  // namespace culet

@@ -34,9 +34,10 @@ bool agrees(const FitModel& model, const Candidate& candidate, int free, int cou
 // chi-square. Degenerate edges cause such stalls.
 auto rank(const Candidate& c, double handicap = 0) {
     const double chi2 = c.finished.chi2 + handicap;
-    return std::make_tuple(
-        !c.sound, !(c.finished.worst_hard < k_hard_limit),
-        c.finished.converged ? chi2 : k_search.creeping_part * chi2 + k_search.creeping_noise);
+    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
+                           c.finished.converged
+                               ? chi2
+                               : k_search.unconverged_part * chi2 + k_search.unconverged_noise);
 }
 
 // The starts after the first stages.
@@ -100,7 +101,7 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
 
     Multistart result;
     Screening approaches(model, relaxation);
-    std::vector<double> ends;
+    std::vector<double> minima;
     int fruitless = 0, without_stone = 0;
     double& work = result.work;
     // One start of a large stone costs as much as all starts of a small one.
@@ -137,21 +138,22 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
         const double chi2 = candidate.finished.chi2;
         // A minimum that agrees poorly or has degenerate edges may not be the global one: try
         // others.
-        const bool accept =
-            candidate.agrees && candidate.cost_of_holding < k_search.cheap_holding &&
-            (model.meets().has_estimated_groups() ||
-             chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_ends.agrees_well);
+        const bool accept = candidate.agrees &&
+                            candidate.cost_of_holding < k_search.cheap_holding &&
+                            (model.meets().has_estimated_groups() ||
+                             chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) >
+                                 k_minima.agrees_well);
         // Starts built from the topology are alike: with a bad mesh the first ones may all fail in
         // the same way.
         const bool again = good && (candidate.agrees || approaches.mesh_is_good()) &&
-                           std::any_of(ends.begin(), ends.end(), [&](double other) {
-                               return std::abs(other - chi2) < k_ends.same_chi2;
+                           std::any_of(minima.begin(), minima.end(), [&](double other) {
+                               return std::abs(other - chi2) < k_minima.same_chi2;
                            });
-        if (good) ends.push_back(chi2);
+        if (good) minima.push_back(chi2);
         ++fruitless;
         // Undetermined directions stay as the earlier start has them: the mesh comes before the
         // others.
-        if (result.starts++ == 0 || rank(candidate, k_ends.same_chi2) < rank(result.best)) {
+        if (result.starts++ == 0 || rank(candidate, k_minima.same_chi2) < rank(result.best)) {
             result.best = std::move(candidate);
             fruitless = 0;
         }
@@ -163,7 +165,7 @@ Multistart fit_from_starts(const FitModel& model, const FitOptions& options,
         if (without_stone == result.starts && without_stone >= k_search.patience_without_stone)
             break;
         // The same minimum twice is no accident, unless a better one was seen.
-        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_ends.same_chi2))
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_minima.same_chi2))
             break;
     }
     return result;

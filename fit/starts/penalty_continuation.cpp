@@ -32,7 +32,7 @@ struct StageRunner {
         int most_steps = k_search.most_steps;
     };
     void once(Shape& shape, const Stage& stage, Kind kind, double fraction) {
-        relaxation.choose(shape, false);
+        relaxation.select_branches(shape, false);
         const int before = steps;
         shape = relax(relaxation, shape, penalty_of(stage, kind.with_readings),
                       {.keep_normals = kind.keep, .most_steps = kind.most_steps}, progress,

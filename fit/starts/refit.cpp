@@ -44,11 +44,11 @@ Candidate refit_from(const FitModel& model, const Shape& shape, int iterations) 
     Relaxation relaxation(model, parameters);
     // Lower bound of the redundancy, by counting.
     const Relaxation::Counts counts = relaxation.counts();
-    const double agreeable =
-        chi2_quantile(k_ends.agrees_well, std::max(1, counts.soft - counts.free));
+    const double good_chi2 =
+        chi2_quantile(k_minima.agrees_well, std::max(1, counts.soft - counts.free));
     Candidate candidate = finish_candidate(
         model, relaxation, turned_to_calipers(relaxation, parameters.symmetrised(shape)),
-        {.iterations = iterations, .agreeable = agreeable});
+        {.iterations = iterations, .good_chi2 = good_chi2});
     candidate.start = "earlier result";
     return candidate;
 }

@@ -89,8 +89,8 @@ struct MeetSizeConstants {
     /// Difference in log likelihood by which a second maximum is one, and not rounding.
     double another = 1;
     /// Solutions whose sigmas differ by less, in the logarithm, are one.
-    double same_end = 0.05;
-    int most_ends = 4;
+    double same_solution = 0.05;
+    int most_solutions = 4;
 };
 inline constexpr MeetSizeConstants k_meet_size;
 

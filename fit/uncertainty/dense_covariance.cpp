@@ -136,7 +136,7 @@ bool Covariance::find_poorly_determined(const FreePart& free) {
     if (!linear_.has_prior && !Cholesky(shifted).good()) {
         const SymmetricEigen eigen = symmetric_eigen(normal);
         const DenseRows directions = unwhitened(eigen.vectors);
-        const Eigen::Index open = open_among(directions, eigen.values, linear_.metric);
+        const Eigen::Index open = count_unobservable(directions, eigen.values, linear_.metric);
         open_ = directions.leftCols(open);
         rank_defect_ = static_cast<int>(open);
         held_basis = eigen.vectors.rightCols(size - open);

@@ -48,7 +48,7 @@ void agree_with_residuals(FitModel& model, Finished& finished, const FitOptions&
     finished.iterations += steps;
 }
 
-struct End {
+struct Solution {
     Sigmas sigmas;
     Finished finished;
     double likelihood = 0;  // -2 log likelihood
@@ -82,8 +82,8 @@ bool has_all_facets(const FitModel& model, const Finished& finished) {
 }
 
 bool is_same(const Sigmas& a, const Sigmas& b) {
-    return std::abs(std::log(a[0] / b[0])) < k_meet_size.same_end &&
-           std::abs(std::log(a[1] / b[1])) < k_meet_size.same_end;
+    return std::abs(std::log(a[0] / b[0])) < k_meet_size.same_solution &&
+           std::abs(std::log(a[1] / b[1])) < k_meet_size.same_solution;
 }
 
 }  // namespace
@@ -91,33 +91,36 @@ bool is_same(const Sigmas& a, const Sigmas& b) {
 int estimate_meet_sigmas(FitModel& model, Finished& finished, const FitOptions& options,
                          const Progress& progress) {
     agree_with_residuals(model, finished, options, progress);
-    std::vector<End> ends;
-    ends.push_back({model.meets().group_sigmas, finished, 0});
+    std::vector<Solution> solutions;
+    solutions.push_back({model.meets().group_sigmas, finished, 0});
     std::size_t best = 0;
     int steps = finished.iterations;
-    for (std::size_t at = 0; at < ends.size() && int(ends.size()) < k_meet_size.most_ends; ++at) {
-        if (!ends[at].finished.outline) break;
-        model.set_group_sigmas(ends[at].sigmas);
-        MeetLikelihood likelihood(model, ends[at].finished);
-        ends[at].likelihood = likelihood(ends[at].sigmas);
-        if (ends[at].likelihood < ends[best].likelihood) best = at;
-        double least = ends[at].likelihood - 2 * k_meet_size.another;
-        const Sigmas there = best_of_scan(likelihood, ends[at].sigmas, least);
-        if (is_same(there, ends[at].sigmas)) continue;
+    for (std::size_t at = 0;
+         at < solutions.size() && int(solutions.size()) < k_meet_size.most_solutions; ++at) {
+        if (!solutions[at].finished.outline) break;
+        model.set_group_sigmas(solutions[at].sigmas);
+        MeetLikelihood likelihood(model, solutions[at].finished);
+        solutions[at].likelihood = likelihood(solutions[at].sigmas);
+        if (solutions[at].likelihood < solutions[best].likelihood) best = at;
+        double least = solutions[at].likelihood - 2 * k_meet_size.another;
+        const Sigmas there = best_of_scan(likelihood, solutions[at].sigmas, least);
+        if (is_same(there, solutions[at].sigmas)) continue;
         model.set_group_sigmas(there);
-        End end{there, finish(model, ends[at].finished.shape, options.iterations), 0};
-        agree_with_residuals(model, end.finished, options, progress);
-        steps += end.finished.iterations;
+        Solution solution{there, finish(model, solutions[at].finished.shape, options.iterations),
+                          0};
+        agree_with_residuals(model, solution.finished, options, progress);
+        steps += solution.finished.iterations;
         end.sigmas = model.meets().group_sigmas;
-        const bool known = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
-            return is_same(other.sigmas, end.sigmas);
-        });
-        if (!known && has_all_facets(model, end.finished)) ends.push_back(std::move(end));
+        const bool known = std::any_of(
+            solutions.begin(), solutions.end(),
+            [&](const Solution& other) { return is_same(other.sigmas, solution.sigmas); });
+        if (!known && has_all_facets(model, solution.finished))
+            solutions.push_back(std::move(solution));
     }
-    model.set_group_sigmas(ends[best].sigmas);
-    finished = std::move(ends[best].finished);
+    model.set_group_sigmas(solutions[best].sigmas);
+    finished = std::move(solutions[best].finished);
     finished.iterations = steps;
-    return static_cast<int>(ends.size());
+    return static_cast<int>(solutions.size());
 }
 
 }  // namespace culet

@@ -13,7 +13,7 @@ bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
                        FitOptions options) {
     options.prior.source = Prior::Source::none;
     for (const Reading& r : readings) {
-        if (r.told) return true;
+        if (r.outline_observations) return true;
     }
     const FitModel model(stone, readings, options);
     // A symmetry within a sigma makes more equations than it adds information.

@@ -16,9 +16,9 @@ namespace {
 struct Azimuths {
     std::vector<Reading> readings;
     std::vector<Vec3> drawn;
-    double turn(bool zero_is_meshs) const {
+    double turn(bool counted_from_mesh) const {
         return degrees(azimuth_turn(
-            readings, [&](int facet) { return drawn[std::size_t(facet)]; }, zero_is_meshs));
+            readings, [&](int facet) { return drawn[std::size_t(facet)]; }, counted_from_mesh));
     }
 };
 

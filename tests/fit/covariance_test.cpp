@@ -153,9 +153,9 @@ TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
     const Eigen::MatrixXd alone = Eigen::MatrixXd::Identity(100, 100);
     Eigen::VectorXd information = Eigen::VectorXd::Constant(100, 4.1);
     const Eigen::VectorXd even = Eigen::VectorXd::Ones(100);
-    EXPECT_EQ(open_among(alone, information, even), 0);
+    EXPECT_EQ(count_unobservable(alone, information, even), 0);
     information.head(2) << 0, 3.9;
-    EXPECT_EQ(open_among(alone, information, even), 2);
+    EXPECT_EQ(count_unobservable(alone, information, even), 2);
     // Each moves all of 64 unknowns alike (Sylvester's Hadamard matrix), none by more than 1/64.
     Eigen::MatrixXd hadamard = Eigen::MatrixXd::Ones(1, 1);
     while (hadamard.rows() < 64) {
@@ -166,10 +166,10 @@ TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
     const Eigen::VectorXd unknowns = Eigen::VectorXd::Ones(64);
     Eigen::VectorXd told = Eigen::VectorXd::Constant(64, 1e6);
     told(0) = 0.1;  // 1 / 64 / 0.1 = 0.16: a smooth motion that no unknown feels
-    EXPECT_EQ(open_among(hadamard / 8, told, unknowns), 0);
+    EXPECT_EQ(count_unobservable(hadamard / 8, told, unknowns), 0);
     // As little of every direction is too little of the unknowns: 15 of them leave 15 / 64.
     told.setOnes();
-    EXPECT_EQ(open_among(hadamard / 8, told, unknowns), 64 - 15);
+    EXPECT_EQ(count_unobservable(hadamard / 8, told, unknowns), 64 - 15);
 }
 
 // Parameters by Steinitz: edges + 6, less what is held by the frame and by independent readings.

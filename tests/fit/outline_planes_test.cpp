@@ -102,7 +102,7 @@ TEST(FindPlanes, WhatIsNumberedByPlanesIsOfThoseThatAreLeft) {
     }
     const SilhouetteFit fit = fit_silhouettes(stone_of(design), {set});
     ASSERT_EQ(fit.stone.solid.facets.size(), planes);
-    for (const auto& row : fit.knowledge->rows) EXPECT_EQ(row.normal.size(), planes);
+    for (const auto& row : fit.observations->rows) EXPECT_EQ(row.normal.size(), planes);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(Refit, JawsRestWhereTheyRested) {
         Relaxation relaxation(model, parameters);
         const Shape laid = turned_to_calipers(relaxation, *shape_of(model, f.result.solid));
         relaxation.forget_contacts();
-        relaxation.choose(laid, true);
+        relaxation.select_branches(laid, true);
         relaxation.share_level_corners(laid);
         for (const SharedContact& tie : relaxation.shared_contacts())
             shared_contacts += tie.direction.z == 0;

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "fit/mesh/degenerate_facets.h"
+#include "fit/mesh/degenerate_parts.h"
 #include "stone/solid/checks.h"
 #include "tests/fit/test_stones.h"
 
@@ -224,18 +224,18 @@ TEST(Topology, FacetsThatComeDownToNothingAreNamedWhereTheStoneCannotBeBroughtTo
 }
 
 TEST(Topology, FacetsWithoutWidthAndEdgesBetweenFacetsOfOnePlaneAreFoundByName) {
-    EXPECT_TRUE(degenerate_facets(prism()).facets.empty());
-    EXPECT_TRUE(degenerate_facets(prism()).edges.empty());
+    EXPECT_TRUE(degenerate_parts(prism()).facets.empty());
+    EXPECT_TRUE(degenerate_parts(prism()).edges.empty());
     Solid flat = prism();
     flat.facets[std::size_t(find_facet(flat, "S1"))].plane.normal =
         direction(90, 2 - 0.0005);  // S2 stands at 2
-    const std::vector<std::string> edges = degenerate_facets(flat).edges;
+    const std::vector<std::string> edges = degenerate_parts(flat).edges;
     ASSERT_EQ(edges.size(), 1u);
     EXPECT_THAT(edges[0], ::testing::AnyOf("S1|S2", "S2|S1"));
     // A cube whose top is pressed down to a hair above its bottom: its four sides are the hair.
     Solid thin = cube();
     for (Vec3& v : thin.vertices) v.z *= 1e-6;
-    EXPECT_THAT(degenerate_facets(thin).facets,
+    EXPECT_THAT(degenerate_parts(thin).facets,
                 ::testing::UnorderedElementsAre("X+", "X-", "Y+", "Y-"));
 }
 

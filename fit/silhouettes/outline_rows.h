@@ -15,15 +15,15 @@ struct FrameHolds {
     bool turn = false;   ///< about up
 };
 
-struct ToldPlanes {
-    std::vector<OutlineKnowledge::Row> rows;
+struct OutlineRows {
+    std::vector<OutlineObservations::Row> rows;
     std::vector<int> unseen;  ///< planes whose tilt comes from the start, not the outlines
 };
 
 /// Makes rows from the `information` on planes in the outlines' frame, which includes their start's
 /// (sigmas `tilts`). `back` is the motion from that frame to the stone's.
-ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
-                       const std::vector<double>& tilts, double width, const FrameMotion& back,
-                       const FrameHolds& holds);
+OutlineRows outline_rows(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
+                         const std::vector<double>& tilts, double width, const FrameMotion& back,
+                         const FrameHolds& holds);
 
 }  // namespace culet

@@ -1,4 +1,4 @@
-#include "fit/mesh/degenerate_facets.h"
+#include "fit/mesh/degenerate_parts.h"
 
 #include "stone/numbers/units.h"
 #include "stone/solid/half_edges.h"
@@ -12,8 +12,8 @@ constexpr double k_no_width = 1e-5, k_one_plane_deg = 1e-3;
 
 }  // namespace
 
-ComeToNothing degenerate_facets(const Solid& solid) {
-    ComeToNothing result;
+DegenerateParts degenerate_parts(const Solid& solid) {
+    DegenerateParts result;
     const double least = k_no_width * diameter(solid);
     for (const Facet& facet : solid.facets) {
         if (narrow_width(solid, facet) < least) result.facets.push_back(facet.name);

@@ -1,4 +1,4 @@
-#include "fit/silhouettes/outline_knowledge.h"
+#include "fit/silhouettes/outline_rows.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -59,16 +59,16 @@ std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix, const std::vector<
 
 }  // namespace
 
-ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
-                       const std::vector<double>& tilts, double width, const FrameMotion& back,
-                       const FrameHolds& holds) {
+OutlineRows outline_rows(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
+                         const std::vector<double>& tilts, double width, const FrameMotion& back,
+                         const FrameHolds& holds) {
     Eigen::MatrixXd matrix = information;
     for (Eigen::Index i = 2; i < matrix.rows(); i += 3) {
         matrix.row(i) *= width;
         matrix.col(i) *= width;
     }
-    ToldPlanes told;
-    told.unseen = unseen_planes(matrix, tilts);
+    OutlineRows result;
+    result.unseen = unseen_planes(matrix, tilts);
     const Vec3 up = inverse(back).turned(holds.up);
     const Eigen::MatrixXd motions = undetermined_motions(planes, width, up, holds);
     const Eigen::MatrixXd seen = product(matrix, motions);
@@ -85,7 +85,7 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
     for (Eigen::Index k = 0; k < d.size(); ++k) {
         if (!(d(k) > least)) continue;
         const double root = std::sqrt(d(k));
-        OutlineKnowledge::Row& row = told.rows.emplace_back();
+        OutlineObservations::Row& row = result.rows.emplace_back();
         for (std::size_t p = 0; p < planes.size(); ++p) {
             const auto [t, u] = tilts_of(planes[p].normal);
             const auto at = 3 * Eigen::Index(p);
@@ -96,7 +96,7 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
             row.offset.push_back(offset);
         }
     }
-    return told;
+    return result;
 }
 
 }  // namespace culet

@@ -10,11 +10,11 @@
 namespace culet {
 
 /// Names, in the solid's order.
-struct ComeToNothing {
+struct DegenerateParts {
     std::vector<std::string> facets;  ///< narrower than 1e-5 of the diameter
     /// `A|B`: neighbours within 0.001 degrees of one plane, whose edge is undefined.
     std::vector<std::string> edges;
 };
-ComeToNothing degenerate_facets(const Solid& solid);
+DegenerateParts degenerate_parts(const Solid& solid);
 
 }  // namespace culet
