@@ -10,6 +10,16 @@
 
 namespace culet {
 
+namespace {
+
+// Azimuths read: fewer tell too little. Not tuned.
+constexpr int k_least_azimuths = 3;
+// Mean resultant lengths (1: all agree on one turn): the mirrored mesh's is at least this, and the
+// drawn one's at most this part of it. Not tuned.
+constexpr double k_agree = 0.5, k_disagree = 0.7;
+
+}  // namespace
+
 std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
                                           const std::vector<Reading>& readings) {
     // The azimuths read minus (or, if mirrored, plus) those drawn share one turn: compare the mean
@@ -32,7 +42,8 @@ std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
     }
     const double straight = std::hypot(ways[0][0], ways[0][1]),
                  turned = std::hypot(ways[1][0], ways[1][1]);
-    if (count < 3 || turned < 0.5 * count || straight > 0.7 * turned) return std::nullopt;
+    if (count < k_least_azimuths || turned < k_agree * count || straight > k_disagree * turned)
+        return std::nullopt;
     Stone result = stone;
     for (Vec3& v : result.solid.vertices) v -= 2 * glm::dot(v, frame.y) * frame.y;
     turn_round(result.solid);

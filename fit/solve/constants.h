@@ -32,8 +32,18 @@ struct NewtonConstants {
     /// the mesh does moves by all but this part of its way; one that no reading holds does not
     /// move.
     double first_damping = 1e-2, least_damping = 1e-6;
+    /// Factors of the damping after a step that gains, and after one that does not. A search whose
+    /// damping exceeds `most_damping` gives up. After a change of branches the damping is at least
+    /// `branch_damping`; above `stuck_damping` it is `first_damping` again. Not tuned.
+    double damping_falls = 5, damping_rises = 10, most_damping = 1e8;
+    double branch_damping = 1e-4, stuck_damping = 1;
     /// Longest step in any parameter. No linearisation holds over half the stone's radius (0.5).
     double longest = 0.2;
+    /// After a step shorter than this in every parameter the next one is Newton's. Not tuned.
+    double newton_length = 1e-2;
+    /// Precision of a step, relative to the largest residual: `part_of_sigma` of the sharpest
+    /// reading's sigma, between these bounds. Not tuned.
+    double part_of_sigma = 0.01, finest = 1e-13, coarsest = 1e-7;
     /// Corrections of a step end when exact equations miss by less than `met` (rounding, of sums of
     /// four products of numbers up to one), or than `far_from_met` after a step longer than `near`,
     /// which is not the last.
@@ -41,6 +51,11 @@ struct NewtonConstants {
     /// Sums of residuals. Below `nearly_met` they do not count against a step; meets that miss by
     /// more than `all_but_met` do not meet; `rounding` is what may be left in the end.
     double nearly_met = 1e-10, all_but_met = 1e-6, rounding = 1e-14;
+    /// What a sum of one above `nearly_met` adds to the merit: a step may not pay for readings with
+    /// meets. Not tuned.
+    double hard_weight = 1e6;
+    /// A merit larger by less than `merit_part` of it and `merit_rise` is larger by rounding.
+    double merit_part = 1e-12, merit_rise = 1e-9;
     /// Corrections of a step, and the relative precision of each: after a long step the first ones
     /// gain little, and what one leaves the next one takes.
     int most_corrections = 12;
@@ -52,6 +67,9 @@ struct NewtonConstants {
     /// of chi-square.
     int quiet_steps = 2;
     double no_gain = 1e-8;
+    /// A step shorter than `no_step` in every parameter counts as one without gain. The search ends
+    /// at one shorter than `lost_step` that does not gain: its gain is below rounding.
+    double no_step = 1e-12, lost_step = 1e-9;
     /// The step after a Newton step this short would be lost in rounding.
     double short_step = 1e-7;
     /// The branches of non-smooth readings are chosen again when a step gains less than `little`,

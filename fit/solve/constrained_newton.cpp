@@ -23,7 +23,9 @@ double step_precision(const JacobianRows& rows) {
         if (rows.variance[i] > 0) sharpest = std::min(sharpest, rows.variance[i]);
         largest = std::max(largest, std::abs(rows.residual[i]));
     }
-    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
+    if (!(largest > 0)) return k_newton.coarsest;
+    return std::clamp(k_newton.part_of_sigma * std::sqrt(sharpest) / largest, k_newton.finest,
+                      k_newton.coarsest);
 }
 
 class Newton {
@@ -112,8 +114,8 @@ bool Newton::branch_changes() {
     quiet_ = 0;
     length_before_ = 0;
     asked_ = false;
-    damping_ = std::max(damping_, 1e-4);
-    if (damping_ > 1) damping_ = 1e-2;
+    damping_ = std::max(damping_, k_newton.branch_damping);
+    if (damping_ > k_newton.stuck_damping) damping_ = k_newton.first_damping;
     return true;
 }
 
@@ -140,7 +142,7 @@ bool Newton::factor() {
 
 void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Solution& solution,
                     double before, double gain, double length) {
-    quiet_ = gain < k_newton.no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
+    quiet_ = gain < k_newton.no_gain * (1 + before) || length < k_newton.no_step ? quiet_ + 1 : 0;
     // Newton steps converge quadratically: predict the next step's length and gain.
     const double shrinks =
         second_order_ && length_before_ > 0 ? std::min(1.0, length / length_before_) : 1;
@@ -152,12 +154,12 @@ void Newton::accept(Shape next, StepLinearisation there, const KktSolver::Soluti
         quiet_ = k_newton.quiet_steps;
     shape_ = std::move(next);
     // Near the minimum use the exact Hessian: weak parameters would otherwise converge slowly.
-    if (length < 1e-2) {
+    if (length < k_newton.newton_length) {
         multipliers_ = solution.multipliers;
         second_order_ = true;
     }
     here_ = std::move(there);
-    damping_ = std::max(k_newton.least_damping, damping_ / 5);
+    damping_ = std::max(k_newton.least_damping, damping_ / k_newton.damping_falls);
     // Choose the branches once, when little is left to gain in this one.
     if (!asked_ && next_gain < k_newton.little && here_.hard_sum < k_newton.all_but_met)
         branch_changes();
@@ -189,9 +191,11 @@ Newton::Step Newton::step() {
     StepLinearisation there = linearised(next);
     // Hard equations dominate the merit. Residuals below `nearly_met` do not count: they are
     // brought to rounding at the end.
-    const double before = here_.merit + 1e6 * std::max(0.0, here_.hard_sum - k_newton.nearly_met),
-                 after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_newton.nearly_met);
-    made.better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
+    const auto merit = [](const StepLinearisation& at) {
+        return at.merit + k_newton.hard_weight * std::max(0.0, at.hard_sum - k_newton.nearly_met);
+    };
+    const double before = merit(here_), after = merit(there);
+    made.better = there.finite && after <= before * (1 + k_newton.merit_part) + k_newton.merit_rise;
     if (made.better) {
         outline_ = std::move(outline);
         accept(std::move(next), std::move(there), solution, before, before - after, made.length);
@@ -208,9 +212,10 @@ Newton::Step Newton::step() {
 bool Newton::gives_up(const Step& made) {
     second_order_ = false;
     length_before_ = 0;
-    damping_ *= 10;
+    damping_ *= k_newton.damping_rises;
     // The gain is below rounding, or no damping leads to a better step.
-    const bool nothing_left = (made.factored && made.length < 1e-9) || made.idle || damping_ > 1e8;
+    const bool nothing_left = (made.factored && made.length < k_newton.lost_step) || made.idle ||
+                              damping_ > k_newton.most_damping;
     return nothing_left && ends(made.factored);
 }
 

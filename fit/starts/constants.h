@@ -4,6 +4,7 @@
 // costs. Private to the room.
 
 #include <array>
+#include <cstddef>
 
 namespace culet {
 
@@ -41,6 +42,9 @@ struct SearchPolicy {
     /// previous one. Trials: 20 of 20 rough meshes led to their stone.
     std::array<Stage, 6> stages{
         {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}, {0.0003, 0.0}}};
+    /// Before them: without the readings, for starts that are not convex; with them, where normals
+    /// are kept. Not tuned: soft as the second stage.
+    Stage convex{0.03, 0.0}, kept_normals{0.03, 0.02};
     /// Hinges are this many times stiffer than incidences: corners rise above a facet last.
     double hinge_stiffness = 5;
     /// Steps of a stage, and of the first one, where a good start needs few.
@@ -48,11 +52,18 @@ struct SearchPolicy {
     /// While incidences are softer than `leaning_until`, facets within the sine `may_lean` of
     /// upright may still turn to the other side.
     double leaning_until = 0.005, may_lean = 0.6;
+    /// Rounds of that after a stage, and sets of facets tried in each. Not tuned.
+    int most_lean_rounds = 3;
+    std::size_t sign_choices = 1;
     /// The misfit of a stage trades against nearness to the mesh: of a rough mesh, by about this
     /// part of what the priors leave. It only orders the starts.
     double traded = 0.2;
     /// Work of a step of a stage for each varied number, in multiplications (measured).
     double work_of_a_row = 7000;
+    /// Progress shown during a start: in the steps above, in the first stage, while its facets turn
+    /// over, and more with each later stage.
+    double shown_convex = 0.05, shown_kept = 0.1, shown_first = 0.2, shown_signs = 0.25,
+           shown_stage = 0.1;
 };
 
 inline constexpr SearchPolicy k_search;
@@ -100,6 +111,14 @@ struct DrawnConstants {
     /// above neighbour facets by less than `nearly_convex` (root mean square over all corners and
     /// neighbours).
     double drawn_with_care = 0.02, nearly_convex = 0.005;
+    /// The mesh tells a facet's side if its tilt there is nearer to one of the reading's two values
+    /// by more than this many of its errors. Not tuned.
+    double known_side = 6;
+    /// A side that was read counts unless the facet may be upright within this many sigmas.
+    double upright_sigmas = 3;
+    /// The mesh tells length and width if its least stretch is above this part of the largest: a
+    /// crushed one does not. Not tuned.
+    double least_stretch = 0.15;
 };
 inline constexpr DrawnConstants k_drawn;
 

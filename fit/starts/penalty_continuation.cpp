@@ -45,9 +45,10 @@ struct StageRunner {
     }
     void resolve_signs(Shape& shape, const Stage& stage, double fraction) {
         if (stage.incidence <= k_search.leaning_until) return;
-        for (int round = 0; round < 3; ++round) {
-            const std::vector<Shape> others = better_signs(
-                relaxation, solver, shape, penalty_of(stage, true), k_search.may_lean, 1, sides);
+        for (int round = 0; round < k_search.most_lean_rounds; ++round) {
+            const std::vector<Shape> others =
+                better_signs(relaxation, solver, shape, penalty_of(stage, true), k_search.may_lean,
+                             k_search.sign_choices, sides);
             if (others.empty()) break;
             shape = relaxation.parameters().symmetrised(others.front());
             once(shape, stage, {.with_readings = true}, fraction);
@@ -67,10 +68,13 @@ Screened screen(Relaxation& relaxation, const Start& start, const Progress& prog
     // First fit a convex stone with planar facets, without the readings: lengths of edges that are
     // inside out in a rough mesh would keep them so.
     const bool keep = start.keep_normals_at_first;
-    if (!start.is_convex) run.once(result.shape, {0.03, 0.0}, {.keep = keep}, 0.05);
+    if (!start.is_convex)
+        run.once(result.shape, k_search.convex, {.keep = keep}, k_search.shown_convex);
     result.shape = relaxation.parameters().symmetrised(
         looking_as(relaxation.model(), std::move(result.shape), start.sides));
-    if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
+    if (keep)
+        run.once(result.shape, k_search.kept_normals, {.with_readings = true, .keep = true},
+                 k_search.shown_kept);
     const auto judge = [&] {
         const PenaltyScale penalty = penalty_of(k_search.stages[result.stages], true);
         const StepLinearisation linearisation = relaxation.linearisation(result.shape, penalty);
@@ -79,12 +83,12 @@ Screened screen(Relaxation& relaxation, const Start& start, const Progress& prog
                                                    k_search.traded * linearisation.prior;
     };
     run.once(result.shape, k_search.stages[0],
-             {.with_readings = true, .most_steps = k_search.first_steps}, 0.2);
+             {.with_readings = true, .most_steps = k_search.first_steps}, k_search.shown_first);
     judge();
     if (result.is_plausible) {
-        run.resolve_signs(result.shape, k_search.stages[0], 0.25);
+        run.resolve_signs(result.shape, k_search.stages[0], k_search.shown_signs);
         ++result.stages;
-        run.stage(result.shape, k_search.stages[1], 0.3);
+        run.stage(result.shape, k_search.stages[1], k_search.shown_first + k_search.shown_stage);
         judge();
         ++result.stages;
     }
@@ -100,7 +104,8 @@ Continued continue_penalties(Relaxation& relaxation, const Screened& rough,
     relaxation.forget_contacts();
     StageRunner run{relaxation, progress, rough.sides};
     for (std::size_t i = rough.stages; i < k_search.stages.size(); ++i) {
-        run.stage(result.shape, k_search.stages[i], 0.2 + 0.1 * double(i));
+        run.stage(result.shape, k_search.stages[i],
+                  k_search.shown_first + k_search.shown_stage * double(i));
     }
     result.steps = rough.steps + run.steps;
     result.work = (run.work + run.solver.work());

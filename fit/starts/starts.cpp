@@ -136,14 +136,14 @@ std::optional<Start> Starts::next() {
     }
 }
 
-// The mesh decides a facet's side when it separates the two values of the reading by six times the
+// The mesh decides a facet's side when it separates the two values of the reading by more than the
 // tilt error that its corners cause.
 void Starts::find_sides() {
     const Shape& mesh = model_.mesh_shape();
     sides_.assign(mesh.normals.size(), 0);
     for (const Reading& r : model_.readings()) {
-        // Unless the facet may be upright within 3 sigma.
-        if (r.side != 0 && std::numbers::pi / 2 - r.value > 3 * r.sigma) {
+        // Unless the facet may be upright.
+        if (r.side != 0 && std::numbers::pi / 2 - r.value > k_drawn.upright_sigmas * r.sigma) {
             for (const int f : r.facets) sides_[std::size_t(f)] = r.side;
         }
     }
@@ -159,7 +159,8 @@ void Starts::find_sides() {
         const double drawn = std::acos(z);
         const double as_up = std::abs(drawn - r.value),
                      as_down = std::abs(drawn - (std::numbers::pi - r.value));
-        if (std::abs(as_up - as_down) > 6 * rough->tilt(f)) sides_[f] = as_up < as_down ? 1 : -1;
+        if (std::abs(as_up - as_down) > k_drawn.known_side * rough->tilt(f))
+            sides_[f] = as_up < as_down ? 1 : -1;
     }
     // Scanned girdles need this: without it 3 of 10 rough meshes with such girdles were lost, and
     // the others took four times as long (bench/corpus_bench.cpp). Not under exact symmetry, where
@@ -234,7 +235,7 @@ std::optional<Start> Starts::affine() {
     const Eigen::Matrix3d map = m.cross * inverse3(m.own);
     const Eigen::VectorXd stretches = singular_values(map).values;
     // A mesh that is inside out or crushed flat does not tell proportions.
-    if (!(determinant3(map) > 0) || !(stretches(2) > 0.15 * stretches(0))) {
+    if (!(determinant3(map) > 0) || !(stretches(2) > k_drawn.least_stretch * stretches(0))) {
         return std::nullopt;
     }
     return over_mesh("canonical, as long and wide as the mesh",
