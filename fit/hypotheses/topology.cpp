@@ -1,6 +1,7 @@
 #include "fit/hypotheses/topology.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +37,8 @@ void list_edges(const Solid& before, const Solid& after, std::vector<std::string
     for (const auto& e : new_edges) {
         if (old_edges.count(e) == 0) came.push_back(e.first + "|" + e.second);
     }
-    if (!gone.empty()) changes.push_back("edges gone: " + list_of(gone));
-    if (!came.empty()) changes.push_back("edges new: " + list_of(came));
+    if (!gone.empty()) changes.push_back(fmt::format("edges gone: {}", fmt::join(gone, ", ")));
+    if (!came.empty()) changes.push_back(fmt::format("edges new: {}", fmt::join(came, ", ")));
 }
 
 // Makes one round of the changes that `result` asks for. False if none can be made.

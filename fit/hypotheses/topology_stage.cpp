@@ -1,25 +1,18 @@
 #include "fit/hypotheses/topology_stage.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "fit/readings/binder.h"
 #include "stone/solid/checks.h"
 #include "stone/solid/half_edges.h"
 
 namespace culet {
 
 namespace {
-
-bool share_edge(const Solid& solid, int a, int b) {
-    const std::vector<int>& other = solid.facets[std::size_t(b)].corners;
-    int shared = 0;
-    for (int c : solid.facets[std::size_t(a)].corners) {
-        shared += std::find(other.begin(), other.end(), c) != other.end() ? 1 : 0;
-    }
-    return shared >= 2;
-}
 
 // The same reading on the changed solid; nothing if its facets are gone.
 std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
@@ -63,12 +56,6 @@ std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
 
 }  // namespace
 
-std::string list_of(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 bool change_solid(TopologyStage& stage, Solid solid, std::vector<std::string>& changes) {
     if (solid.facets.empty()) return false;
     TopologyStage next;
@@ -104,10 +91,12 @@ bool change_solid(TopologyStage& stage, Solid solid, std::vector<std::string>& c
         if (find_facet(next.stone.solid, facet.name) < 0) gone.push_back(facet.name);
     }
     if (!gone.empty()) {
-        changes.push_back("facets gone, the readings leave no room for them: " + list_of(gone));
+        changes.push_back(fmt::format("facets gone, the readings leave no room for them: {}",
+                                      fmt::join(gone, ", ")));
     }
     if (!dropped.empty()) {
-        changes.push_back("readings that no longer apply: " + list_of(dropped));
+        changes.push_back(
+            fmt::format("readings that no longer apply: {}", fmt::join(dropped, ", ")));
     }
     stage = std::move(next);
     return true;

@@ -26,6 +26,4 @@ Reading released_meet(const TopologyStage& stage, const std::vector<std::string>
 /// All facets round the corner that these facets share.
 std::vector<std::string> corner_of(const Solid& solid, const std::vector<std::string>& names);
 
-std::string list_of(const std::vector<std::string>& names);
-
 }  // namespace culet

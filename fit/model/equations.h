@@ -27,7 +27,6 @@ struct Equation {
     int group = -1;  ///< group whose sigma is estimated, or -1
     bool exact = false;
     double value = 0, sigma = 1;
-    double size = 1;  ///< scale of the quantity, by which early stages soften it
     /// The value on the other branch: an inclination does not say whether a nearly upright facet
     /// leans in or out.
     std::optional<double> other_value;

@@ -19,6 +19,9 @@ inline constexpr double k_over_upright_deg = 2;
 /// The whole text as a finite number, or nothing.
 std::optional<double> plain_number(std::string_view text);
 
+/// Whether two facets have two corners in common.
+bool share_edge(const Solid& solid, int a, int b);
+
 /// For one stone. Throws InputError with the place of the reading that is being bound.
 class Binder {
 public:
@@ -53,7 +56,6 @@ private:
     NamedFacets facets(const std::string& name) const;
     void add_facets(const std::string& name, NamedFacets& to) const;
     Place place(const std::string& name) const;
-    bool share_edge(int a, int b) const;
     void need_edge(int a, int b) const;
     void need_names(std::size_t count, const char* what) const;
     std::string facet_name(int facet) const { return stone_.solid.facets[facet].name; }

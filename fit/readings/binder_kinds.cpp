@@ -84,7 +84,7 @@ std::vector<Reading> Binder::of_two_facets(const Reading& base) const {
         for (int b : second.facets) {
             const bool several = first.facets.size() > 1 || second.facets.size() > 1;
             // A pattern means only pairs that share an edge.
-            if (several && (a == b || !share_edge(a, b))) continue;
+            if (several && (a == b || !share_edge(stone_.solid, a, b))) continue;
             need_edge(a, b);
             if (spread) {
                 Reading reading = base;

@@ -130,18 +130,17 @@ Place Binder::place(const std::string& name) const {
     return result;
 }
 
-bool Binder::share_edge(int a, int b) const {
-    const std::vector<int>& other = stone_.solid.facets[b].corners;
-    int shared = 0;
-    for (int corner : stone_.solid.facets[a].corners) {
-        shared += std::find(other.begin(), other.end(), corner) != other.end() ? 1 : 0;
-    }
-    return shared >= 2;
+bool share_edge(const Solid& solid, int a, int b) {
+    const std::vector<int>& other = solid.facets[std::size_t(b)].corners;
+    const std::vector<int>& corners = solid.facets[std::size_t(a)].corners;
+    return std::count_if(corners.begin(), corners.end(), [&](int corner) {
+               return std::find(other.begin(), other.end(), corner) != other.end();
+           }) >= 2;
 }
 
 void Binder::need_edge(int a, int b) const {
     if (a == b) fail(fmt::format("names facet '{}' twice", facet_name(a)));
-    if (!share_edge(a, b)) {
+    if (!share_edge(stone_.solid, a, b)) {
         fail(fmt::format("facets '{}' and '{}' share no edge in the mesh", facet_name(a),
                          facet_name(b)));
     }
