@@ -182,11 +182,18 @@ MaybeVerdict undetermined(const Fit& fit) {
                         : "next, " + bench_words(fit.result.findings.help[0]))};
 }
 
+// Outlines and relations have no value that somebody may have copied.
+bool has_measured_value(const FitModel& model) {
+    return std::any_of(model.readings().begin(), model.readings().end(),
+                       [](const Reading& r) { return !r.exact && !is_relation(r.kind); });
+}
+
 // The lower tail of chi-square. Not with a prior, where readings count with more than their sigmas
 // (count_beside_prior).
 std::string too_good(const Fit& fit) {
     const FitStatistics& statistics = fit.result.statistics;
     if (fit.result.log.options.prior.source != Prior::Source::none) return {};
+    if (!has_measured_value(fit.model)) return {};
     if (!(statistics.dof > 0) || !(statistics.chi2_low_p < fit.level)) return {};
     constexpr double k_exactly = 1e6;
     const double times = std::sqrt(statistics.dof / std::max(statistics.chi2, 1e-300));

@@ -7,7 +7,9 @@
 
 #include "fit/fit.h"
 #include "fit/planes/plane_observations.h"
+#include "fit/silhouettes/silhouette_fit.h"
 #include "tests/fit/test_stones.h"
+#include "tests/fit/turntable_outlines.h"
 
 namespace culet {
 namespace {
@@ -76,6 +78,46 @@ TEST(KnownPlanes, MoveTheFit) {
     const FittedFacet& leaning = fit.facets[std::size_t(find_facet(stone.solid, "X+"))];
     EXPECT_NEAR(leaning.sigma_inclination, k_sigma, 0.05 * k_sigma);
     EXPECT_EQ(fit.readings.back().kind, ReadingKind::photograph);
+}
+
+// Outlines that show each plane twice, exactly where the mesh has it.
+Reading outlines(const Solid& solid) {
+    auto known = std::make_shared<OutlineObservations>();
+    for (const Facet& facet : solid.facets) known->planes.push_back(facet.plane);
+    const std::size_t facets = solid.facets.size();
+    for (std::size_t f = 0; f < facets; ++f) {
+        for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+            PlaneObservations::Row row{std::vector<Vec3>(facets, Vec3(0)),
+                                       std::vector<double>(facets, 0), 0};
+            const bool is_across = std::abs(glm::dot(axis, solid.facets[f].plane.normal)) < 0.5;
+            if (is_across) row.normal[f] = axis / k_sigma;
+            if (!is_across) row.offset[f] = 1 / k_sigma;
+            known->rows.insert(known->rows.end(), 2, row);
+        }
+    }
+    known->motions = {FrameMotion{}};
+    known->sigmas = {k_sigma};
+    known->estimated = {false};
+    Reading reading;
+    reading.id = "outlines";
+    reading.kind = ReadingKind::silhouette;
+    reading.outline_observations = known;
+    reading.outlines =
+        std::make_shared<const SilhouetteSet>(test::turntable_outlines(solid, {.views = 4}));
+    return reading;
+}
+
+// Values may have been copied; outlines have none.
+TEST(KnownPlanes, OfOutlinesAloneAreNotSaidToAgreeTooWell) {
+    const Stone stone = test::stone_of(test::cube());
+    const auto is_too_good = [](const FitResult& fit) {
+        EXPECT_GT(fit.statistics.dof, 5);
+        EXPECT_LT(fit.statistics.chi2, 1e-6);
+        return fit.message.find("copied") != std::string::npos;
+    };
+    EXPECT_FALSE(is_too_good(fit_stone(stone, {outlines(stone.solid)})));
+    EXPECT_TRUE(is_too_good(
+        fit_stone(stone, {caliper(ReadingKind::width, {0, 1, 0}, 2), outlines(stone.solid)})));
 }
 
 }  // namespace
