@@ -31,7 +31,8 @@ std::string without_doubted(const FitResult& result) {
     const bool one = result.findings.doubts.size() == 1;
     std::string figures;
     for (const Change& change : result.log.changed) {
-        if (change.what != k_readings_left_out) continue;
+        // The two fits may have different sigmas, by which chi-square need not fall.
+        if (change.what != k_readings_left_out || !(change.before > change.after)) continue;
         figures = fmt::format(" (chi-square {:.1f} with {}, {:.1f} without)", change.before,
                               one ? "it" : "them", change.after);
     }

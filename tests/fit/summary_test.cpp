@@ -120,6 +120,20 @@ TEST(Summary, SaysWhatIsOpenAndWhatNothingChecks) {
     EXPECT_THAT(lines, Contains(says("1 of 1", "r0")));
 }
 
+// Chi-square need not fall, since both fits estimate their sigmas; figures that do not show why a
+// reading was left out are not said.
+TEST(Summary, SaysChiSquareWithTheDoubtedReadingOnlyWhereItIsLarger) {
+    FitResult r = result();
+    r.status = FitStatus::contradictory;
+    r.findings.doubts = {"readings.csv line 12: 43.4 is no angle of its tier"};
+    r.log.changed = {{k_readings_left_out, "", 120.5, 48.9, "chi-square"}};
+    EXPECT_THAT(fit_summary(r), Contains(says("left out", "120.5", "48.9")));
+    r.log.changed[0].before = 40.5;
+    const auto lines = fit_summary(r);
+    EXPECT_THAT(lines, Contains(HasSubstr("left out")));
+    for (const std::string& line : lines) EXPECT_THAT(line, Not(HasSubstr("chi-square")));
+}
+
 TEST(Summary, OfAFailureSaysNotToRelyOnIt) {
     FitResult r;
     r.message = "the fitted stone is not closed";
