@@ -126,7 +126,7 @@ Scene scene_of(const ViewSource& source) {
         light.clear();
     }
     const TomlTable root = toml_of_text("", source.cut->kind, keys);
-    apply_words_beside(root, stone);
+    apply_stone_keys(root, stone);
     if (light.empty() && !root.has("light") && !root.has("preset")) light = k_usual_light;
     return culet::scene_of(root, &stone, light);
 }

@@ -75,9 +75,10 @@ Eigen::MatrixXd interpolation(const std::vector<double>& nm) {
 
 // Minimises x'N x / 2 under A x = b with Lagrange multipliers, and again with some values of x
 // fixed; one factorization serves all.
-class LeastUnder {
+class ConstrainedQuadratic {
 public:
-    LeastUnder(const Eigen::MatrixXd& normal, const Eigen::MatrixXd& A, const Eigen::VectorXd& b)
+    ConstrainedQuadratic(const Eigen::MatrixXd& normal, const Eigen::MatrixXd& A,
+                         const Eigen::VectorXd& b)
         : A_(A), b_(b) {
         const Eigen::Index all = normal.rows(), rows = A.rows();
         Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(all + rows, all + rows);
@@ -149,14 +150,14 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
     integrals.block(3, n, 3, n) = weight;
     Eigen::VectorXd colours(6);
     colours << wanted(0), wanted(2);
-    const LeastUnder smoothest(roughness, integrals, colours);
-    std::vector<std::pair<Eigen::Index, Eigen::Index>> held;  // node, primary
+    const ConstrainedQuadratic smoothest(roughness, integrals, colours);
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> active;  // node, primary
     Eigen::MatrixXd best;
     while (true) {
-        const Eigen::Index rows = static_cast<Eigen::Index>(held.size());
+        const Eigen::Index rows = static_cast<Eigen::Index>(active.size());
         Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, 2 * n);
         for (Eigen::Index row = 0; row < rows; ++row) {
-            const auto [node, primary] = held[static_cast<std::size_t>(row)];
+            const auto [node, primary] = active[static_cast<std::size_t>(row)];
             if (primary != 2) H(row, node) = primary == 0 ? 1 : -1;
             if (primary != 0) H(row, n + node) = primary == 2 ? 1 : -1;
         }
@@ -168,8 +169,8 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         if (best.size() == 0 || values.minCoeff() > best.minCoeff()) best = values;
         std::pair<Eigen::Index, Eigen::Index> worst;
         if (values.minCoeff(&worst.first, &worst.second) >= -1e-12) break;
-        if (std::find(held.begin(), held.end(), worst) != held.end()) break;
-        held.push_back(worst);
+        if (std::find(active.begin(), active.end(), worst) != active.end()) break;
+        active.push_back(worst);
     }
     if (best.size() == 0) {
         // Only determines what the integrals leave open.

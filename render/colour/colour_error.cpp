@@ -51,8 +51,8 @@ ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& t
     return error;
 }
 
-ColourError error_in_common(const std::array<std::vector<Rgb>, 2>& seen,
-                            const std::array<std::vector<Rgb>, 2>& truth) {
+ColourError noise_corrected_error(const std::array<std::vector<Rgb>, 2>& seen,
+                                  const std::array<std::vector<Rgb>, 2>& truth) {
     std::vector<Rgb> mean_seen = seen[0], mean_truth = truth[0];
     double common = 0, squares = 0;
     for (std::size_t i = 0; i < mean_truth.size(); ++i) {

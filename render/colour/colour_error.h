@@ -38,7 +38,7 @@ ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& t
 /// The same for pixels drawn twice, independently, with few rays. Their noise exceeds the picture's
 /// error, so the error of the runs' mean is scaled by the part that both have in common. For P
 /// pixels that part is uncertain by 1/sqrt(P) of the squares, which is added.
-ColourError error_in_common(const std::array<std::vector<Rgb>, 2>& seen,
-                            const std::array<std::vector<Rgb>, 2>& truth);
+ColourError noise_corrected_error(const std::array<std::vector<Rgb>, 2>& seen,
+                                  const std::array<std::vector<Rgb>, 2>& truth);
 
 }  // namespace culet

@@ -134,18 +134,18 @@ public:
     }
 
     // Residuals, and their Jacobian.
-    VectorXd off(const VectorXd& x, MatrixXd& slopes) const {
+    VectorXd residuals(const VectorXd& x, MatrixXd& jacobian) const {
         const Index each = primaries_ ? 12 : 3, all = static_cast<Index>(ways_.size());
         const MatrixXd K = absorption(x), M = shares(x);
         // Light of each primary at the wavelengths: three wavelengths determine it.
         const MatrixXd light = primaries_ ? MatrixXd(inverse3(M)) : MatrixXd();
         VectorXd rows = VectorXd::Zero(each * all + x.size());
-        slopes = MatrixXd::Zero(rows.size(), x.size());
+        jacobian = MatrixXd::Zero(rows.size(), x.size());
         for (Index w = 0; w < all; ++w) {
             const Way& way = ways_[static_cast<std::size_t>(w)];
             const VectorXd seen = way.transmitted(K);
             rows.segment(each * w, 3) = way.metric * (M * seen - way.colour);
-            fill(slopes.middleRows(each * w, 3), way, K, M, seen, VectorXd::Ones(nodes_),
+            fill(jacobian.middleRows(each * w, 3), way, K, M, seen, VectorXd::Ones(nodes_),
                  way.metric, nullptr);
             for (Index p = 0; primaries_ && p < 3; ++p) {
                 const Index row = each * w + 3 * (p + 1);
@@ -153,15 +153,15 @@ public:
                 const VectorXd lit = light.col(p);
                 rows.segment(row, 3) =
                     weight * (M * seen.cwiseProduct(lit) - way.of_primaries.col(p));
-                fill(slopes.middleRows(row, 3), way, K, M, seen, lit, weight * Matrix3d::Identity(),
-                     &light);
+                fill(jacobian.middleRows(row, 3), way, K, M, seen, lit,
+                     weight * Matrix3d::Identity(), &light);
             }
         }
         const VectorXd moved = x - first();
         for (Index k = 0; k < x.size(); ++k) {
             const double near = k < rays_ * nodes_ ? k_near_absorption : k_near_shares;
             rows[each * all + k] = near * moved[k];
-            slopes(each * all + k, k) = near;
+            jacobian(each * all + k, k) = near;
         }
         return rows;
     }
@@ -171,7 +171,7 @@ private:
         return rays_ * nodes_ + colour * (nodes_ - 1) + node;
     }
     // Jacobian of scale M (seen . lit), where `lit` is 1 or a column of `light`, the inverse of M.
-    void fill(Eigen::Ref<MatrixXd> slopes, const Way& way, const MatrixXd& K, const MatrixXd& M,
+    void fill(Eigen::Ref<MatrixXd> jacobian, const Way& way, const MatrixXd& K, const MatrixXd& M,
               const VectorXd& seen, const VectorXd& lit, const Matrix3d& scale,
               const MatrixXd* light) const {
         const double part = way.ray < 0 ? 1.0 / static_cast<double>(rays_) : 1;
@@ -179,7 +179,7 @@ private:
             for (Index i = 0; (way.ray < 0 || way.ray == r) && i < nodes_; ++i) {
                 double slope = 0;
                 way.transmitted(K(r, i), &slope);
-                slopes.col(r * nodes_ + i) = part * slope * lit[i] * (scale * M.col(i));
+                jacobian.col(r * nodes_ + i) = part * slope * lit[i] * (scale * M.col(i));
             }
         }
         const Index last = nodes_ - 1;
@@ -189,7 +189,7 @@ private:
                                         ? Vector3d(scale * (M * seen.cwiseProduct(light->col(c))))
                                         : Vector3d(Vector3d::Zero());
             for (Index i = 0; i < last; ++i)
-                slopes.col(share_at(c, i)) =
+                jacobian.col(share_at(c, i)) =
                     (seen[i] * lit[i] - seen[last] * lit[last]) * scale.col(c) -
                     (lit[i] - lit[last]) * turned;
         }
@@ -203,27 +203,27 @@ private:
 
 // Levenberg-Marquardt from x; returns the remaining sum of squares.
 double least_squares(const Fit& fit, VectorXd& x) {
-    MatrixXd slopes, tried_slopes;
-    VectorXd off = fit.off(x, slopes);
+    MatrixXd jacobian, tried_jacobian;
+    VectorXd residuals = fit.residuals(x, jacobian);
     double damping = 1e-3;
     for (int step = 0; step < k_most_steps && damping < 1e9;) {
-        MatrixXd normal = transpose_times(slopes, slopes);
+        MatrixXd normal = transpose_times(jacobian, jacobian);
         normal.diagonal() *= 1 + damping;
-        const VectorXd tried = x - Cholesky(normal).solve_one(slopes.transpose() * off);
-        const VectorXd left = fit.off(tried, tried_slopes);
-        const double before = off.squaredNorm(), after = left.squaredNorm();
+        const VectorXd tried = x - Cholesky(normal).solve_one(jacobian.transpose() * residuals);
+        const VectorXd left = fit.residuals(tried, tried_jacobian);
+        const double before = residuals.squaredNorm(), after = left.squaredNorm();
         if (!(after < before)) {
             damping *= 5;
             continue;
         }
         x = tried;
-        off = left;
-        std::swap(slopes, tried_slopes);
+        residuals = left;
+        std::swap(jacobian, tried_jacobian);
         damping *= 0.2;
         ++step;
         if (before - after < k_least_gain * before) break;
     }
-    return off.squaredNorm();
+    return residuals.squaredNorm();
 }
 
 FewWavelengths fitted(const std::vector<Spectrum>& absorption, const std::vector<double>& nm,
@@ -276,7 +276,7 @@ FewWavelengths fitted(const std::vector<Spectrum>& absorption, const std::vector
 
 }  // namespace
 
-const FewWavelengths& few_wavelengths(const std::vector<Spectrum>& absorption_per_mm,
+const FewWavelengths& fit_wavelengths(const std::vector<Spectrum>& absorption_per_mm,
                                       const std::vector<double>& wavelengths_nm, double width_mm) {
     constexpr double k_steps = 4;  // steps per octave
     const double width = std::exp2(std::round(k_steps * std::log2(width_mm)) / k_steps);

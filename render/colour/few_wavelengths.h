@@ -29,7 +29,7 @@ struct FewWavelengths {
 /// four widths. With three wavelengths the light of each primary is fitted too.
 /// `absorption_per_mm`: of each principal ray, one to three. The width is rounded to a quarter of
 /// an octave (19 %), so that similar stones share one cached result.
-const FewWavelengths& few_wavelengths(const std::vector<Spectrum>& absorption_per_mm,
+const FewWavelengths& fit_wavelengths(const std::vector<Spectrum>& absorption_per_mm,
                                       const std::vector<double>& wavelengths_nm, double width_mm);
 
 }  // namespace culet

@@ -3,7 +3,7 @@
 //
 // POV-Ray computes the tree of light paths of an isotropic stone with Snell's law and unpolarised
 // Fresnel reflection, for the same eye rays: culet's picture with effects = "none", or with
-// absorption. The eye ray has level 1, and the ray that leaves after K inner hits has level K + 2,
+// absorption. The eye ray has level 1, and the ray that exits after K inner hits has level K + 2,
 // so culet's depth d (d - 1 inner segments) is max_trace_level d + 1. (In POV-Ray's source, version
 // 3.7, `reflection { 0, 1 fresnel }` uses the interior's index and is 1 beyond the critical angle,
 // `conserve_energy` gives the rest to the refracted ray, and cut rays are black.)

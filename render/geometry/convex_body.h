@@ -34,7 +34,7 @@ public:
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const;
     /// The same, but tries `last` first and updates it; changes only the time.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction, EntryGuess& last) const;
-    /// Facet through which a ray from inside leaves: the nearest plane that it runs towards, the
+    /// Facet through which a ray from inside exits: the nearest plane that it runs towards, the
     /// first of equally near ones. A start that rounding put outside counts as on the plane, so a
     /// corner becomes two hits. The ray runs away from the facet just left, so this is ignored.
     /// `guess` is tried first (-1: none), e.g. a neighbouring ray's facet.

@@ -39,7 +39,7 @@ public:
     /// starts inside.
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const;
 
-    /// Facet where a ray leaves that runs inwards from a point on facet `from` (-1: from anywhere
+    /// Facet where a ray exits that runs inwards from a point on facet `from` (-1: from anywhere
     /// inside). A start that rounding put outside is moved in by the shortest way, so a corner
     /// becomes two hits, the second at distance 0. Every start gets a facet.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const;

@@ -54,7 +54,7 @@ std::vector<ScreenPoint> convex_hull(std::vector<ScreenPoint> points) {
     return hull;
 }
 
-// Converts the beam tree's leaves, in the order of a walk, to its nodes.
+// Converts the beams of a tree, in the order of a walk, to its nodes.
 class NodeCollector {
 public:
     NodeCollector(const FacetNet& net, const ScreenView& view, double n, bool regions,
@@ -67,27 +67,27 @@ public:
 
     void add_branch(const BeamBranch& branch) {
         open_.clear();
-        for (const Beam& leaf : branch.leaves) add_leaf(branch, leaf);
+        for (const Beam& beam : branch.leaves) add_beam(branch, beam);
     }
 
 private:
-    void add_leaf(const BeamBranch& branch, const Beam& leaf) {
-        const std::uint16_t* facets = branch.facets.data() + leaf.facet;
-        const ScreenPoint* corners = branch.corners.data() + leaf.corner;
-        const double area = 0.5 * pixel_area_ * doubled_area(corners, leaf.corners);
+    void add_beam(const BeamBranch& branch, const Beam& beam) {
+        const std::uint16_t* facets = branch.facets.data() + beam.facet;
+        const ScreenPoint* corners = branch.corners.data() + beam.corner;
+        const double area = 0.5 * pixel_area_ * doubled_area(corners, beam.corners);
         EyeFront& front = light_.fronts[static_cast<std::size_t>(front_of_facet_[facets[0]])];
-        // Number of open nodes that contain this leaf.
+        // Number of open nodes that contain this beam.
         std::size_t common = 0;
-        while (common < open_.size() && common + 1 < leaf.facets &&
+        while (common < open_.size() && common + 1 < beam.facets &&
                light_.exits[static_cast<std::size_t>(open_[common])].facet == facets[common + 1])
             ++common;
         open_.resize(common);
-        for (std::size_t i = common + 1; i < leaf.facets; ++i) open(facets[0], facets[i]);
+        for (std::size_t i = common + 1; i < beam.facets; ++i) open(facets[0], facets[i]);
         for (const int node : open_) {
             light_.exits[static_cast<std::size_t>(node)].area += area;
             if (!regions_) continue;
             std::vector<ScreenPoint>& outline = light_.regions[static_cast<std::size_t>(node)];
-            outline.insert(outline.end(), corners, corners + leaf.corners);
+            outline.insert(outline.end(), corners, corners + beam.corners);
         }
         const double left = open_.empty()
                                 ? 1 - front.reflectance

@@ -1,6 +1,6 @@
 #pragma once
 // Traces light from an eye infinitely far away into a convex stone. By reversibility, the part that
-// leaves along a direction is the part of the light from there that the eye sees.
+// exits along a direction is the part of the light from there that the eye sees.
 //
 // All rays of a beam (render/beams) hit the same facets, and for a parallel eye they are parallel.
 // So areas, directions and weights are exact for each beam, and continuous in the facets' angles.
@@ -15,11 +15,11 @@
 
 namespace culet {
 
-/// Light that leaves through one face after one sequence of facets.
+/// Light that exits through one face after one sequence of facets.
 struct EyeExit {
     int front = 0;         ///< index in EyeLight::fronts
     int parent = -1;       ///< index in EyeLight::exits of the previous face; -1: the front facet
-    int facet = 0;         ///< where it leaves; index in the solid
+    int facet = 0;         ///< where it exits; index in the solid
     int faces = 2;         ///< hit so far, including the front one and this one
     double area = 0;       ///< of the beam, across the line of sight; square units of the solid
     double weight = 0;     ///< leaving, relative to the eye's light; 0: total reflection

@@ -11,7 +11,7 @@ namespace {
 // Cosine from which a facet counts as facing the eye (GemRay's `facettype`).
 constexpr double k_facing = 1e-4;
 
-// Adds the contribution of light that leaves along `direction` to every model.
+// Adds the contribution of light that exits along `direction` to every model.
 void add(LightReturn& sum, double share, const Vec3& direction, const EyeLight& light,
          double cos_head, const RandomSky& sky) {
     const double d = glm::dot(direction, light.towards_eye);

@@ -4,7 +4,7 @@
 // Gemology 34 (1998) 158).
 //
 // Let d be the cosine between the line of sight and the direction along which a part of the eye's
-// light leaves. Parts count if 0 < d <= cos(head); the viewer's head is black. The weights are
+// light exits. Parts count if 0 < d <= cos(head); the viewer's head is black. The weights are
 //   iso 1;  cos d;  sc2 2 d sqrt(1 - d^2);  random sc2 times an uneven sky with spots (RandomSky)
 // wlr counts d^2 for d > 0, without the head and the outer reflection, which the others include. It
 // is for one line of sight; GIA's, for observers all around above the stone, is `weighted_return`.

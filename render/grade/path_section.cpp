@@ -24,7 +24,7 @@ constexpr double k_outside = 0.35;     // drawn length of rays outside the stone
                                        // width
 constexpr double k_nudge = 1e-9;       // relative to the width: a path does not hit the side where
                                        // it starts
-constexpr double k_leaves = 0.5;
+constexpr double k_exits = 0.5;
 
 struct Side {
     Point normal{0, 0};
@@ -66,7 +66,7 @@ struct Hit {
     Point normal{0, 0};
 };
 
-// Where a path inside the stone leaves.
+// Where a path inside the stone exits.
 std::optional<Hit> exit_of(const Polygon& polygon, const Point& from, const Point& d,
                            double least) {
     std::optional<Hit> nearest;
@@ -82,7 +82,7 @@ std::optional<Hit> exit_of(const Polygon& polygon, const Point& from, const Poin
 
 // Where a path from above hits the stone: the last of the sides that it enters.
 std::optional<Hit> entry_of(const Polygon& polygon, const Point& from, const Point& d) {
-    double enters = 0, leaves = std::numeric_limits<double>::infinity();
+    double enters = 0, exits = std::numeric_limits<double>::infinity();
     std::optional<Hit> last;
     for (const Side& side : polygon.sides) {
         const double towards = glm::dot(side.normal, d);
@@ -93,13 +93,13 @@ std::optional<Hit> entry_of(const Polygon& polygon, const Point& from, const Poi
         }
         const double distance = height / towards;
         if (towards > 0) {
-            leaves = std::min(leaves, distance);
+            exits = std::min(exits, distance);
         } else if (distance > enters) {
             enters = distance;
             last = Hit{distance, side.normal};
         }
     }
-    if (!last || !(enters < leaves)) return std::nullopt;
+    if (!last || !(enters < exits)) return std::nullopt;
     return last;
 }
 
@@ -110,9 +110,9 @@ Point refracted(const Point& d, const Point& normal, double n1, double n2) {
     return glm::normalize(n1 * d + (n1 * cosine - face.q2) * normal);
 }
 
-PathEnd end_of(const Point& d, double head) {
-    if (!(d.y > 0)) return PathEnd::leak;
-    return d.y > std::cos(head) ? PathEnd::head : PathEnd::returned;
+SectionEnd end_of(const Point& d, double head) {
+    if (!(d.y > 0)) return SectionEnd::leak;
+    return d.y > std::cos(head) ? SectionEnd::head : SectionEnd::returned;
 }
 
 SectionPoint written(const Point& p) {
@@ -136,7 +136,7 @@ std::optional<SectionPath> path_from(const Polygon& polygon, double n, double he
         path.points.push_back(written(at));
         const double cosine = std::clamp(glm::dot(hit->normal, d), 0.0, 1.0);
         const FaceReflection met = mean_reflection(n, 1, n * cosine);
-        if (!met.total && 1 - met.mean > k_leaves) {
+        if (!met.total && 1 - met.mean > k_exits) {
             d = refracted(d, -hit->normal, n, 1);
             path.points.push_back(written(at + k_outside * width * d));
             path.end = end_of(d, head);
@@ -156,15 +156,15 @@ double section_azimuth(const Solid& solid) {
 
 }  // namespace
 
-const char* name_of(PathEnd end) {
+const char* name_of(SectionEnd end) {
     switch (end) {
-        case PathEnd::returned:
+        case SectionEnd::returned:
             return "returned";
-        case PathEnd::head:
+        case SectionEnd::head:
             return "head";
-        case PathEnd::leak:
+        case SectionEnd::leak:
             return "leak";
-        case PathEnd::trapped:
+        case SectionEnd::trapped:
             return "trapped";
     }
     return "";

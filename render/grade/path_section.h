@@ -10,15 +10,15 @@
 
 namespace culet {
 
-enum class PathEnd { returned, head, leak, trapped };
-const char* name_of(PathEnd end);
+enum class SectionEnd { returned, head, leak, trapped };
+const char* name_of(SectionEnd end);
 
 /// x outward in the section, y up.
 using SectionPoint = std::array<double, 2>;
 
 struct SectionPath {
     std::vector<SectionPoint> points;  ///< from outside to outside
-    PathEnd end = PathEnd::trapped;
+    SectionEnd end = SectionEnd::trapped;
 };
 
 struct PathSection {
@@ -27,7 +27,7 @@ struct PathSection {
     std::vector<SectionPath> paths;
 };
 
-/// Each path leaves at the first side that transmits more than half of it, and ends after nine
+/// Each path exits at the first side that transmits more than half of it, and ends after nine
 /// faces at most. Sides perpendicular to the section are exact; others are drawn where they
 /// intersect it, and reflect as if perpendicular. `head`: half angle, radians.
 PathSection path_section(const Solid& convex, double n, double head);

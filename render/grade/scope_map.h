@@ -1,5 +1,5 @@
 #pragma once
-// A scope's view of a stone as a map: for each point, the part of the eye's light that leaves into
+// A scope's view of a stone as a map: for each point, the part of the eye's light that exits into
 // each band of directions.
 
 #include <vector>

@@ -34,11 +34,11 @@ struct AsetShares {
 AsetShares aset_shares(const EyeLight& light, int facet = -1,
                        const ScopeBands& bands = aset_bands());
 
-/// Light that enters and leaves through the table, reflected by two pavilion facets. Its colour in
+/// Light that enters and exits through the table, reflected by two pavilion facets. Its colour in
 /// ASET indicates the pavilion's angle.
 struct TableReflection {
     double share = 0;         ///< of the light on the table
-    double elevation = 0;     ///< elevation at which its largest part leaves, radians
+    double elevation = 0;     ///< elevation at which its largest part exits, radians
     const char* colour = "";  ///< red, green, blue or dark
 };
 TableReflection table_reflection(const EyeLight& light, int table);

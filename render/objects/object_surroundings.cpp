@@ -21,7 +21,7 @@ Random random_of(std::uint64_t seed, const Vec3& origin, const Vec3& direction) 
 }
 
 // Exits of less weight are followed with proportional probability.
-constexpr double k_leaf_threshold = 0.25;
+constexpr double k_exit_threshold = 0.25;
 
 }  // namespace
 
@@ -68,7 +68,7 @@ double ObjectSurroundings::ask(WorldRay ray, double weight, int first, int count
     Random random = random_of(scene_.seed, ray.origin, ray.direction);
     ray.importance = weight;
     return ObjectPaths(scene_, first, count, planes, random)
-        .arriving_if_it_matters(ray, k_leaf_threshold, light);
+        .arriving_if_it_matters(ray, k_exit_threshold, light);
 }
 
 void ObjectSurroundings::add_radiance(const Vec3& origin, const Vec3& direction, double weight,

@@ -86,7 +86,7 @@ std::optional<ShapeHit> nearest_on(const BoxShape& box, const Vec3& origin, cons
         const int towards = rate > 0 ? 1 : 0;
         const double near = ((rate > 0 ? -half : half) - place) / rate,
                      far = ((rate > 0 ? half : -half) - place) / rate;
-        // A ray that leaves its own face outwards does not hit the box again.
+        // A ray that runs outwards from its own face does not hit the box again.
         if (start == 2 * axis + towards) return std::nullopt;
         if (near > in) {
             in = near;

@@ -14,7 +14,7 @@ namespace culet {
 namespace {
 
 // Smallest alpha^2; smoother surfaces count as polished. Squared slopes are 1 - cosine, rounded by
-// 2^-52, which leaves three digits.
+// 2^-52, so three digits remain.
 constexpr double k_flattest = 0x1p-42;
 constexpr int k_once_cosines = 64, k_once_azimuths = 32, k_once_heights = 128;
 

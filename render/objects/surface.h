@@ -35,7 +35,7 @@ public:
     MuellerReflection reflection(int node, double cosine) const;
     /// Mean of s and p, of a metal.
     double reflectance(int node, double cosine) const;
-    /// Part of the light that leaves lossless microfacets after one reflection; the rest is
+    /// Part of the light that lossless microfacets send out after one reflection; the rest is
     /// reflected again.
     double reflected_once(double cosine) const;
     /// Factor on singly reflected light that restores multiple reflections between microfacets

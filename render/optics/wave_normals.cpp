@@ -61,7 +61,7 @@ public:
 
     // Root w of the quadratic with N fixed: the larger (slow) or the smaller (fast). For real N the
     // discriminant is a sum of non-negative terms.
-    double held(double q, bool slow) const {
+    double root_at_fixed_normal(double q, bool slow) const {
         const Vec3 N = at(q);
         const double b = b_of(N), product = c_.d1 * c_.d3 * N.y * N.y;
         const double root = std::sqrt(b * b - 4 * a_ * product);
@@ -72,7 +72,7 @@ public:
     }
 
     // Both roots for a complex N, in arbitrary order.
-    std::array<Complex, 2> held(Complex q) const {
+    std::array<Complex, 2> root_at_fixed_normal(Complex q) const {
         const Complex x = K_.x + q * n_.x, y = K_.y + q * n_.y, z = K_.z + q * n_.z;
         const Complex b = c_.d3 * x * x + (c_.d1 + c_.d3) * y * y + c_.d1 * z * z + c_.d1 * c_.d3;
         const Complex product = c_.d1 * c_.d3 * y * y;
@@ -128,7 +128,7 @@ public:
                 change = std::abs(move) / (std::abs(root.q) + 1e-300);
             }
             if (!std::isfinite(change)) return root;
-            // Newton's method squares the error: a change of 1e-9 leaves only rounding error.
+            // Newton's method squares the error: after 1e-9 only rounding error remains.
             if (change < 1e-14 || (change < 1e-9 && step > 0 && last < 1e-3)) {
                 root.converged = true;
                 return root;
@@ -236,7 +236,7 @@ public:
 
     std::array<CrystalMode, 2> towards_n() const {
         std::array<CrystalMode, 2> modes;
-        if (!both_travel(modes) && !both_evanescent(modes)) of_all_four(modes);
+        if (!both_travel(modes) && !both_evanescent(modes)) from_quartic(modes);
         const double apart = glm::length(modes[0].wave - modes[1].wave);
         if (modes[0].propagates && modes[1].propagates && apart < k_beside_axis * split_) {
             const Vec3 H = frame_.into(real_part(modes[1].H));
@@ -258,21 +258,21 @@ private:
             double squared = equation_.Q2(), w = 0;
             for (int step = 0; step < 3; ++step) {
                 if (!(squared > 0)) return false;
-                w = equation_.held(std::sqrt(squared), slow);
+                w = equation_.root_at_fixed_normal(std::sqrt(squared), slow);
                 squared = w + equation_.Q2();
             }
             if (!(squared > 0)) return false;
             double q = std::sqrt(squared);
             const auto newton = equation_.polished<double>(w, q, 8);
-            const bool same_wave =
-                newton.converged && newton.q > 0 &&
-                std::abs(newton.w - equation_.held(newton.q, slow)) <= 1e-9 * split_;
+            const bool same_wave = newton.converged && newton.q > 0 &&
+                                   std::abs(newton.w - equation_.root_at_fixed_normal(
+                                                           newton.q, slow)) <= 1e-9 * split_;
             if (same_wave) {
                 q = newton.q;
             } else {
                 bool settled = false;
                 for (int step = 0; step < k_most_steps && !settled; ++step) {
-                    const double next = equation_.held(q, slow);
+                    const double next = equation_.root_at_fixed_normal(q, slow);
                     squared = next + equation_.Q2();
                     if (!(squared > 0)) return false;
                     settled = std::abs(next - w) <= 1e-15 * (std::abs(next) + 1e-3 * split_);
@@ -293,14 +293,14 @@ private:
     bool both_evanescent(std::array<CrystalMode, 2>& modes) const {
         if (!(equation_.Q2() < -4 * split_)) return false;
         const Complex start(0, std::sqrt(-equation_.Q2()));
-        const std::array<Complex, 2> first = equation_.held(start);
+        const std::array<Complex, 2> first = equation_.root_at_fixed_normal(start);
         for (int m = 0; m < 2; ++m) {
             Complex w = first[m], q = start;
             bool settled = false;
             for (int step = 0; step < k_most_steps && !settled; ++step) {
                 q = std::sqrt(w + equation_.Q2());
                 if (q.imag() < 0) q = -q;
-                const std::array<Complex, 2> next = equation_.held(q);
+                const std::array<Complex, 2> next = equation_.root_at_fixed_normal(q);
                 const Complex nearest =
                     std::abs(next[0] - w) <= std::abs(next[1] - w) ? next[0] : next[1];
                 settled = std::abs(nearest - w) <= 1e-15 * (std::abs(w) + 1e-3 * split_);
@@ -316,7 +316,7 @@ private:
 
     // Near grazing: polishes all four waves of this K from the companion matrix of Fresnel's
     // quartic in a scaled q, and takes the two towards n.
-    void of_all_four(std::array<CrystalMode, 2>& modes) const {
+    void from_quartic(std::array<CrystalMode, 2>& modes) const {
         const std::array<double, 5> c = equation_.quartic();
         double scale = 0;
         for (int i = 1; i < 5; ++i)
@@ -341,8 +341,8 @@ private:
                 const bool good = std::abs(root.q - q0) <= k_reach * scale && std::isfinite(root.w);
                 const double q = good ? root.q : q0;
                 wave.w = good ? root.w : w0;
-                const bool slow = std::abs(wave.w - equation_.held(q, true)) <=
-                                  std::abs(wave.w - equation_.held(q, false));
+                const bool slow = std::abs(wave.w - equation_.root_at_fixed_normal(q, true)) <=
+                                  std::abs(wave.w - equation_.root_at_fixed_normal(q, false));
                 travelling(wave.mode, q, slow);
                 wave.forward = glm::dot(wave.mode.ray, n_);
             } else {

@@ -15,7 +15,7 @@ namespace culet {
 namespace {
 
 // Parts of all evaluations: for GemRay's search, and for a search from the design itself. The rest
-// is two restarts from the best so far, so that the second leaves a kink where the first stalled.
+// is two restarts from the best so far, so that the second escapes a kink where the first stalled.
 constexpr double k_two_factors = 0.2, k_own_start = 0.35, k_first_rest = 0.25;
 constexpr double k_factor_step = 0.04, k_most_factor = 1.5;
 constexpr double k_first_step = 1.5, k_second_step = 0.5;  // degrees

@@ -196,7 +196,7 @@ std::optional<TierDesign::Planes> TierDesign::closed(Planes planes) const {
     double before = size_;
     for (int step = 0; step < k_most_steps; ++step) {
         // Columns: angles in units of the weight, offsets in units of the size.
-        Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(rows, 2 * count);
+        Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, 2 * count);
         Eigen::VectorXd misses(rows);
         Eigen::Index row = 0;
         for (const std::vector<int>& facets : facets_at_) {
@@ -216,10 +216,10 @@ std::optional<TierDesign::Planes> TierDesign::closed(Planes planes) const {
                 misses(row) = q.col(m).dot(offsets) / size_;
                 for (Eigen::Index i = 0; i < k; ++i) {
                     const auto f = static_cast<std::size_t>(facets[std::size_t(i)]);
-                    if (offset_is_free_[f]) slopes(row, count + Eigen::Index(f)) = q(i, m);
+                    if (offset_is_free_[f]) jacobian(row, count + Eigen::Index(f)) = q(i, m);
                     if (!angle_is_free_[f]) continue;
                     const Vec3 slope = slope_of(planes.of[f].normal);
-                    slopes(row, Eigen::Index(f)) =
+                    jacobian(row, Eigen::Index(f)) =
                         -q(i, m) *
                         (slope.x * corner.x() + slope.y * corner.y() + slope.z * corner.z()) /
                         (size_ * k_angle_weight);
@@ -231,7 +231,7 @@ std::optional<TierDesign::Planes> TierDesign::closed(Planes planes) const {
             return planes;
         if (!std::isfinite(miss)) return std::nullopt;
         before = miss;
-        const Eigen::VectorXd change = shortest_solution(slopes, -misses, k_dependent);
+        const Eigen::VectorXd change = shortest_solution(jacobian, -misses, k_dependent);
         for (Eigen::Index f = 0; f < count; ++f) {
             Plane& plane = planes.of[static_cast<std::size_t>(f)];
             if (angle_is_free_[static_cast<std::size_t>(f)])

@@ -120,8 +120,8 @@ ColourError Planner::colours_apart() const {
         };
         return std::array{drawn(k_pilot_rays), drawn(k_pilot_rays + 1)};
     };
-    return error_in_common(spectral(with_effects({Effects::dispersion})),
-                           spectral(with_effects({})));
+    return noise_corrected_error(spectral(with_effects({Effects::dispersion})),
+                                 spectral(with_effects({})));
 }
 
 // Independent errors add in quadrature.
@@ -149,7 +149,7 @@ void Planner::bound_coherence() {
     line.bound = line.bound_delta_e = 0;
     if (line.on || !on(Effects::birefringence)) return;
     const std::string waves =
-        fmt::format("one lags up to {:.2g} waves behind the other", waves_behind(scene_));
+        fmt::format("one lags up to {:.2g} waves behind the other", retardation_in_waves(scene_));
     if (same_light_everywhere(scene_.lights) && !on(Effects::absorption)) {
         line.why = fmt::format("{}; {}", k_same_light, waves);
         return;

@@ -82,7 +82,7 @@ private:
         ++trace_.length;
     }
 
-    // Reports an exit for what leaves for good. Returns how many nodes go on (inside, or to meet
+    // Reports an exit for what exits for good. Returns how many nodes go on (inside, or to meet
     // the stone again); a single one is left in `inner`.
     int after_hit(CrystalNode& inner, CrystalNode& outer) {
         bool meets = false;

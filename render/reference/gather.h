@@ -11,9 +11,9 @@
 namespace culet {
 
 /// Weights of one eye ray that bring no light, summed over the band's nodes.
-class Lost {
+class UnseenWeights {
 public:
-    explicit Lost(int count) : count_(count) {}
+    explicit UnseenWeights(int count) : count_(count) {}
     void remainder(const NodeWeights& weight) { remainder_ += sum(weight); }
     void absorbed(const NodeWeights& weight) { absorbed_ += sum(weight); }
     void cut(const NodeWeights& weight) { cut_ += sum(weight); }
@@ -33,10 +33,13 @@ private:
 
 /// Adds the radiance of one ray's exits, at the nodes of its band; `single`: the band has only one.
 template <bool single>
-class Gather : public Lost {
+class Gather : public UnseenWeights {
 public:
     Gather(const Surroundings& surroundings, const Band& band, double* radiance)
-        : Lost(band.count), surroundings_(surroundings), band_(band), radiance_(radiance) {}
+        : UnseenWeights(band.count),
+          surroundings_(surroundings),
+          band_(band),
+          radiance_(radiance) {}
 
     void path_exits(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
                     const PathTrace& trace) {

@@ -82,8 +82,8 @@ private:
         for (int i = 0; i < nodes(); ++i) most = std::max(most, tau[i]);
         return weight * most;
     }
-    // A convex body is given the last ray's facet as a guess, any other the facet that the ray
-    // leaves.
+    // A convex body is given the last ray's facet as a guess, any other the facet where the ray
+    // starts.
     BodyHit way_out(const Vec3& at, const Vec3& direction) const {
         constexpr bool convex = std::is_same_v<Body, ConvexBody>;
         return body_.exit(at, direction, trace_.facets[trace_.length - (convex ? 0 : 1)]);

@@ -18,12 +18,12 @@ namespace {
 
 constexpr int k_rays_of_a_wavelength = 4;
 
-class GatherStokes : public Lost {
+class GatherStokes : public UnseenWeights {
 public:
     GatherStokes(const Surroundings& surroundings, const Band& band,
                  const std::vector<double>& luminance, const std::vector<double>& usual, int nodes,
                  int planes, double* stokes)
-        : Lost(band.count),
+        : UnseenWeights(band.count),
           surroundings_(surroundings),
           band_(band),
           luminance_(luminance),
@@ -139,11 +139,12 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
     // With objects, most of the noise is theirs, so a ray need not carry all wavelengths.
     const int usual_turns = has_objects_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;
-    take_turns(std::clamp(scene.settings.wavelength_turns.value_or(usual_turns), 1,
-                          static_cast<int>(std::min(pattern_.size(), setup_.bands.size()))));
+    assign_bands_to_rays(
+        std::clamp(scene.settings.wavelength_turns.value_or(usual_turns), 1,
+                   static_cast<int>(std::min(pattern_.size(), setup_.bands.size()))));
 }
 
-void PixelShader::take_turns(int turns) {
+void PixelShader::assign_bands_to_rays(int turns) {
     const std::size_t count = pattern_.size();
     // Order the grid's cells so that every stretch is evenly spread (Roberts 2018, R2).
     const std::size_t side = static_cast<std::size_t>(std::lround(std::sqrt(count)));
@@ -240,11 +241,11 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
             PathLimits limits = limits_;
             limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
                           (limits_.alike ? 0 : static_cast<std::uint64_t>(band.first));
-            const auto take = [&](const Lost& lost) {
-                sums.remainder += part * lost.remainder_ / nodes_;
-                sums.absorbed += part * lost.absorbed_ / nodes_;
-                sums.cut += part * lost.cut_ / nodes_;
-                sums.deepest = std::max(sums.deepest, lost.deepest_);
+            const auto take = [&](const UnseenWeights& unseen) {
+                sums.remainder += part * unseen.remainder_ / nodes_;
+                sums.absorbed += part * unseen.absorbed_ / nodes_;
+                sums.cut += part * unseen.cut_ / nodes_;
+                sums.deepest = std::max(sums.deepest, unseen.deepest_);
             };
             if (k_has_effects && setup_.general) {
                 GatherStokes gather(surroundings_, band, stone_luminance_, usual_, nodes_, planes(),

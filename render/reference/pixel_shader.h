@@ -55,7 +55,7 @@ public:
                     PixelMemory& memory) const;
 
 private:
-    void take_turns(int turns);
+    void assign_bands_to_rays(int turns);
     void background(const EyeRay& ray, double* stokes) const;
 
     bool has_objects_, has_stone_, covers_objects_;

@@ -79,7 +79,7 @@ private:
     ProbedPath& path_of(const Vec3& at, const Vec3& direction, const PathTrace& trace) {
         // The number of exits is unknown, so the progress stays at 0; the call only checks for a
         // stop.
-        if (progress_ && ++leaves_ % 4096 == 0 && !progress_(0)) throw Interrupted();
+        if (progress_ && ++exits_ % 4096 == 0 && !progress_(0)) throw Interrupted();
         std::vector<int> facets(trace.facets.begin(), trace.facets.begin() + trace.length);
         const std::string modes(trace.modes.begin(), trace.modes.begin() + trace.length - 1);
         const auto [found, is_new] = index_.try_emplace({facets, modes}, result_.paths.size());
@@ -105,7 +105,7 @@ private:
     const Scene& scene_;
     const Surroundings& surroundings_;
     int nodes_;
-    long long leaves_ = 0;
+    long long exits_ = 0;
     const Progress& progress_;
     ProbeResult& result_;
     std::vector<double> stokes_;

@@ -50,7 +50,7 @@ std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) 
 
 // Decides whether a mesh is convex if nobody says so. It is not if it deviates from convex by more
 // than the miss of designs' meets. Meshes with non-planar facets are always drawn by their planes.
-void judge_convexity(Stone& stone, std::vector<std::string>& notes) {
+void detect_convexity(Stone& stone, std::vector<std::string>& notes) {
     const CheckLimits limits{.planarity = k_largest_miss, .must_be_convex = false};
     if (is_convex(stone.solid) || !find_faults(stone.solid, limits).empty()) return;
     const double apart = distance_from_planes_body(stone.solid);
@@ -78,7 +78,7 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
         if (!table.has("material")) require_material(file, *table.path(file_key));
         stone = std::move(file.stone);
         for (std::string& note : file.notes) notes.push_back(std::move(note));
-        if (!file.states_convex) judge_convexity(stone, notes);
+        if (!file.states_convex) detect_convexity(stone, notes);
     } else {
         SolidFile file = read_solid(*table.path("mesh"));
         stone.solid = std::move(file.solid);
@@ -91,9 +91,9 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
             stone.unit = *known;
         }
         stone.convex = table.boolean("convex").value_or(true);
-        if (!table.has("convex")) judge_convexity(stone, notes);
+        if (!table.has("convex")) detect_convexity(stone, notes);
     }
-    apply_words_beside(table, stone);
+    apply_stone_keys(table, stone);
     return stone;
 }
 
@@ -154,7 +154,7 @@ void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
 
 }  // namespace
 
-void apply_words_beside(const TomlTable& table, Stone& stone) {
+void apply_stone_keys(const TomlTable& table, Stone& stone) {
     // Beside a stone file these keys are for this picture only: the same stone in another material.
     if (const auto name = table.text("name")) stone.name = *name;
     if (table.has("material") || table.has("mesh")) {

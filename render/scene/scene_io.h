@@ -25,6 +25,6 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead = nullptr,
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes);
 
 /// Applies the keys beside a stone's file: `name`, `material` and the crystal's axes.
-void apply_words_beside(const TomlTable& table, Stone& stone);
+void apply_stone_keys(const TomlTable& table, Stone& stone);
 
 }  // namespace culet

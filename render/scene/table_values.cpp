@@ -9,7 +9,7 @@ namespace culet {
 
 namespace {
 
-// Floats end at 3e38 and lose digits below 1e-38; this leaves room for sums of lights and for what
+// Floats end at 3e38 and lose digits below 1e-38; there is room for sums of lights and for what
 // is left behind a stone.
 constexpr double k_brightest = 1e36, k_dimmest = 1e-36;
 

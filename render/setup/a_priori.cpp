@@ -85,7 +85,7 @@ double absorbed_across(const Scene& scene) {
     return 1 - std::exp(-strongest * diameter(scene.stone.solid) * mm_per(scene.stone.unit));
 }
 
-double waves_behind(const Scene& scene) {
+double retardation_in_waves(const Scene& scene) {
     return index_spans(scene).birefringence * scene.immersion * diameter(scene.stone.solid) *
            mm_per(scene.stone.unit) / (k_d_line_nm * 1e-6);
 }

@@ -36,7 +36,7 @@ double aperture_blur(const Scene& scene);
 /// Largest part of the light absorbed in one pass through the stone: 1 - exp(-K d).
 double absorbed_across(const Scene& scene);
 /// Largest retardation between a crystal's waves in one pass, in waves (D line).
-double waves_behind(const Scene& scene);
+double retardation_in_waves(const Scene& scene);
 /// Largest difference of decadic absorbance between two principal rays in one pass.
 double absorbance_apart(const Scene& scene);
 

@@ -246,7 +246,7 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     // Spectral pictures, and scenes with objects, use the wavelengths themselves.
     if (setup.on(Effects::absorption) && optics.spectral_absorption && !scene.settings.spectral &&
         !scene.has_objects() && count >= k_least_fitted && count <= k_most_fitted) {
-        few = &few_wavelengths(absorption_of(material, each_ray), setup.wavelengths_nm,
+        few = &fit_wavelengths(absorption_of(material, each_ray), setup.wavelengths_nm,
                                mm * diameter(scene.stone.solid));
         setup.rgb_weight = few->rgb_weight;
     }

@@ -64,7 +64,7 @@ TEST(FewWavelengths, HaveTheColourOfTheWholeSpectrum) {
         for (const std::vector<double>& nm :
              {std::vector<double>{450, 540, 610}, even_wavelengths(3), even_wavelengths(5),
               even_wavelengths(8), even_wavelengths(15)}) {
-            const FewWavelengths& few = few_wavelengths(rays_of(material), nm, k_width);
+            const FewWavelengths& few = fit_wavelengths(rays_of(material), nm, k_width);
             const auto seen = [&](double mm) { return few_colour(few, nm, mm); };
             const auto whole = [&](double mm) { return whole_colour(material, mm); };
             const double path = light_path_mm(k_width);
@@ -93,7 +93,7 @@ TEST(FewWavelengths, HaveTheColourOfTheWholeSpectrum) {
 TEST(FewWavelengths, KeepColouredLights) {
     const Material ruby = catalogue_material("ruby_gem");
     const std::vector<double> nm{450, 540, 610};
-    const WavelengthSet set(nm, few_wavelengths(rays_of(ruby), nm, k_width).rgb_weight);
+    const WavelengthSet set(nm, fit_wavelengths(rays_of(ruby), nm, k_width).rgb_weight);
     for (const Rgb& rgb : {Rgb{1, 0, 0}, Rgb{0.2, 0.7, 0.1}, Rgb{0, 0, 3}}) {
         const Rgb back = set.rgb_of(set.spectrum_of(rgb).data());
         for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(back[c], rgb[c], 1e-9);

@@ -86,13 +86,13 @@ TEST(ColourError, InCommonIsWhatTwoDrawingsBothShow) {
         for (Rgb& pixel : drawing) pixel[1] += noise(random);
     }
     const std::array<std::vector<Rgb>, 2> both{truth, truth};
-    EXPECT_NEAR(error_in_common(brighter, both).radiance, 0.25, 1e-12);
-    EXPECT_EQ(error_in_common(apart, both).radiance, 0);
+    EXPECT_NEAR(noise_corrected_error(brighter, both).radiance, 0.25, 1e-12);
+    EXPECT_EQ(noise_corrected_error(apart, both).radiance, 0);
     std::vector<Rgb> mean = truth;
     for (std::size_t i = 0; i < pixels; ++i) mean[i][1] = 0.5 * (noisy[0][i][1] + noisy[1][i][1]);
     // Products of P independent pairs sum to 0 within 3 sqrt(P) of the two variances, and 1/sqrt(P)
     // of the squares, which are half of one variance, is left open: (6 + 1) / 64.
-    EXPECT_LE(error_in_common(noisy, both).radiance,
+    EXPECT_LE(noise_corrected_error(noisy, both).radiance,
               std::sqrt(7.0 / 64) * colour_error(mean, truth).radiance);
 }
 

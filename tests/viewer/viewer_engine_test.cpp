@@ -56,7 +56,7 @@ std::vector<std::uint8_t> rendered(const Stone& stone, const std::string& scene_
     keys.emplace_back("render.check=\"none\"");
     const TomlTable root = toml_of_text(scene_toml, "scene.toml", keys);
     Stone said = stone;
-    apply_words_beside(root, said);
+    apply_stone_keys(root, said);
     const Scene scene = scene_of(root, &said);
     const RenderResult result = render(scene);
     PngLook look = scene.film;

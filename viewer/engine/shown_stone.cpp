@@ -60,7 +60,7 @@ void ShownStone::set(const std::vector<std::string>& settings, const std::string
                      const HeldFiles& files, const std::string& name) {
     const TomlTable root = toml_of_text(scene_toml, name, settings, files);
     Stone stone = viewed_.stone;
-    apply_words_beside(root, stone);
+    apply_stone_keys(root, stone);
     Scene scene = culet::scene_of(root, &stone);
     // As `culet render --engine beams --check none` draws it.
     scene.settings.check = Check::none;

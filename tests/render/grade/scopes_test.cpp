@@ -237,14 +237,14 @@ TEST(PathSection, ShowsTheTextbooksPath) {
     // Through the table beside the middle: two mains, then out of the crown.
     int returned = 0, leaked = 0;
     for (const SectionPath& path : section.paths) {
-        returned += path.end == PathEnd::returned || path.end == PathEnd::head;
-        leaked += path.end == PathEnd::leak;
+        returned += path.end == SectionEnd::returned || path.end == SectionEnd::head;
+        leaked += path.end == SectionEnd::leak;
     }
     EXPECT_GE(returned, 10);
     // The same stone with a flat pavilion is a window.
     const PathSection window = path_section(round_brilliant({.pavilion = 15}), 1.54, radians(10));
     int through = 0;
-    for (const SectionPath& path : window.paths) through += path.end == PathEnd::leak;
+    for (const SectionPath& path : window.paths) through += path.end == SectionEnd::leak;
     EXPECT_GT(through, 6);
     EXPECT_LT(leaked, 3);
 }

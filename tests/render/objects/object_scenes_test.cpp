@@ -314,7 +314,7 @@ TEST(ObjectScenes, ThingsStandBetweenAStoneAndItself) {
     scene.camera.up = {0, 0, 1};
     scene.camera.orthographic_width = 0.2;
     scene.lights.sources = {DiscLight{{1, 0, 0}, 0, 0.01, {1.0}}};
-    // Far away: the scene is furnished, and nothing sees it.
+    // Far away: the scene has objects, and nothing sees it.
     scene.objects = {{SphereShape{{0, 90, 0}, 1e-3}, DiffuseMaterial{{0.0}}}};
     // A pile of m plates of reflectance R a face passes (1 - R) / (1 + (2 m - 1) R) (Stokes 1862).
     const double R = 0.04;
