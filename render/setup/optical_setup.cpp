@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "render/colour/few_wavelengths.h"
 #include "render/setup/light_needs.h"
 #include "render/setup/probe_wavelengths.h"
+#include "render/setup/stone_bands.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -38,13 +38,6 @@ namespace {
 // For interference colours: fringes over wavelength are 10 nm wide at 30 waves.
 constexpr int k_least_coherent_nodes = 29;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<double> even_nodes(int count) {
-    std::vector<double> nm;
-    for (int i = 0; i < count; ++i)
-        nm.push_back(k_first_nm + (k_last_nm - k_first_nm) * i / (count - 1));
-    return nm;
-}
 
 struct Decider {
     const Scene& scene;
@@ -107,36 +100,33 @@ bool more_stones_need_spectrum(const Scene& scene) {
     });
 }
 
-// Orders values by the crystal's three axes (uniaxial: axis 0 is the optic axis, e).
-template <class Value>
-std::array<double, 3> along_axes(OpticCharacter optic, const Value& value) {
-    switch (optic) {
-        case OpticCharacter::isotropic:
-            return {value(0), value(0), value(0)};
-        case OpticCharacter::uniaxial:
-            return {value(1), value(0), value(0)};
-        case OpticCharacter::biaxial:
-            return {value(0), value(1), value(2)};
-    }
-    return {};
-}
-
-double mean(const std::array<double, 3>& v) {
-    // Keeps equal values exactly equal.
-    return v[0] == v[1] && v[1] == v[2] ? v[0] : (v[0] + v[1] + v[2]) / 3;
-}
-
-// Absorption per mm of each principal ray, or their mean if the waves are not separated.
-std::vector<Spectrum> absorption_of(const Material& material, bool each_ray) {
-    const int rays = ray_count(material.optic);
-    const std::vector<Spectrum> all(material.absorption_per_mm.begin(),
-                                    material.absorption_per_mm.begin() + rays);
-    if (each_ray || rays == 1) return all;
-    const std::vector<double> nm = even_nodes(k_node_counts.back());
-    std::vector<double> values;
-    for (const double at : nm)
-        values.push_back(mean(along_axes(material.optic, [&](int r) { return all[r].at(at); })));
-    return {Spectrum(nm, values)};
+void decide_effects(const Scene& scene, const Optics& optics, OpticalSetup& setup) {
+    Decider decider{scene, setup};
+    const OpticCharacter optic = scene.stone.material.optic;
+    const bool anisotropic = optic != OpticCharacter::isotropic;
+    const bool one_wavelength = scene.settings.wavelengths_nm.size() == 1;
+    decider.decide(Effects::dispersion, optics.span > 0 && !one_wavelength,
+                   fmt::format("index changes by {:.4f} over the wavelengths", optics.span),
+                   one_wavelength ? "one wavelength only" : "index is the same at every wavelength",
+                   k_unknown);
+    decider.decide(Effects::birefringence, optics.split > 0,
+                   fmt::format("{} reaches {:.4f}",
+                               optic == OpticCharacter::biaxial ? "n_gamma - n_alpha" : "n_e - n_o",
+                               optics.split),
+                   anisotropic ? "the principal indices are equal" : "the stone is isotropic",
+                   k_unknown);
+    decider.decide(Effects::absorption, optics.strongest > 0,
+                   fmt::format("up to {:.4f} per mm", optics.strongest), "the stone is clear", 1.0);
+    decider.decide(
+        Effects::pleochroism,
+        optics.unequal_absorption && decider.allowed(Effects::absorption) && optics.split > 0,
+        "the two rays are absorbed differently",
+        anisotropic ? "both rays are absorbed alike" : "the stone is isotropic", 1.0);
+    decider.decide(Effects::polarization, true, "faces polarise light, and later faces see it", "",
+                   k_unknown);
+    decider.decide(Effects::aperture, scene.camera.aperture_radius > 0,
+                   fmt::format("pupil radius {:.4g}", scene.camera.aperture_radius),
+                   "pinhole camera", k_unknown);
 }
 
 void decide_coherence(const Scene& scene, const Optics& optics, OpticalSetup& setup) {
@@ -162,48 +152,8 @@ void decide_coherence(const Scene& scene, const Optics& optics, OpticalSetup& se
         Effects::coherence, crystal && asked, why, crystal && !asked ? k_unknown : 0};
 }
 
-}  // namespace
-
-bool chose_spectrum(const Scene& scene, const OpticalSetup& setup) {
-    return scene.settings.wavelengths_nm.empty() &&
-           setup.wavelengths_nm.size() >= static_cast<std::size_t>(k_node_counts[0]);
-}
-
-OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
-    const Material& material = scene.stone.material;
-    OpticalSetup setup;
-    Decider decider{scene, setup};
-    const bool anisotropic = material.optic != OpticCharacter::isotropic;
-    const std::vector<double>& given = scene.settings.wavelengths_nm;
-    const Optics optics = optics_of(material, given.empty() ? even_nodes(k_probes) : given);
-
-    const bool one_wavelength = given.size() == 1;
-    decider.decide(Effects::dispersion, optics.span > 0 && !one_wavelength,
-                   fmt::format("index changes by {:.4f} over the wavelengths", optics.span),
-                   one_wavelength ? "one wavelength only" : "index is the same at every wavelength",
-                   k_unknown);
-    decider.decide(
-        Effects::birefringence, optics.split > 0,
-        fmt::format("{} reaches {:.4f}",
-                    material.optic == OpticCharacter::biaxial ? "n_gamma - n_alpha" : "n_e - n_o",
-                    optics.split),
-        anisotropic ? "the principal indices are equal" : "the stone is isotropic", k_unknown);
-    decider.decide(Effects::absorption, optics.strongest > 0,
-                   fmt::format("up to {:.4f} per mm", optics.strongest), "the stone is clear", 1.0);
-    decider.decide(
-        Effects::pleochroism,
-        optics.unequal_absorption && decider.allowed(Effects::absorption) && optics.split > 0,
-        "the two rays are absorbed differently",
-        anisotropic ? "both rays are absorbed alike" : "the stone is isotropic", 1.0);
-    decider.decide(Effects::polarization, true, "faces polarise light, and later faces see it", "",
-                   k_unknown);
-    decider.decide(Effects::aperture, scene.camera.aperture_radius > 0,
-                   fmt::format("pupil radius {:.4g}", scene.camera.aperture_radius),
-                   "pinhole camera", k_unknown);
-    decide_coherence(scene, optics, setup);
-
-    const bool dispersive = setup.on(Effects::dispersion);
-    const bool coherent = setup.on(Effects::coherence);
+// Which light paths the effects need.
+void decide_paths(const Scene& scene, OpticalSetup& setup) {
     setup.splits = setup.on(Effects::birefringence);
     setup.stokes =
         has_polariser(scene) || (setup.on(Effects::polarization) &&
@@ -225,71 +175,39 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
                                               : "always on for stones that are not convex";
         decision.error_bound = 0;
     }
-    if (!given.empty()) {
-        setup.wavelengths_nm = given;
-    } else if (dispersive || (setup.on(Effects::absorption) && optics.spectral_absorption) ||
-               (coherent && has_polariser(scene)) || more_stones_need_spectrum(scene) ||
-               light_needs(scene) == LightNeeds::a_spectrum) {
-        setup.wavelengths_nm =
-            even_nodes(coherent ? std::max(nodes, k_least_coherent_nodes) : nodes);
-    } else if (light_needs(scene) == LightNeeds::three_for_rgb) {
-        // Three nodes carry any RGB light exactly.
-        setup.wavelengths_nm = {450, 550, 610};
-    } else {
-        setup.wavelengths_nm = {k_d_line_nm};
-    }
+}
 
-    const double mm = mm_per(scene.stone.unit);
-    const int count = static_cast<int>(setup.wavelengths_nm.size());
-    const bool each_ray = setup.on(Effects::pleochroism) && setup.splits;
-    const FewWavelengths* few = nullptr;
-    // Spectral pictures, and scenes with objects, use the wavelengths themselves.
-    if (setup.on(Effects::absorption) && optics.spectral_absorption && !scene.settings.spectral &&
-        !scene.has_objects() && count >= k_least_fitted && count <= k_most_fitted) {
-        few = &fit_wavelengths(absorption_of(material, each_ray), setup.wavelengths_nm,
-                               mm * diameter(scene.stone.solid));
-        setup.rgb_weight = few->rgb_weight;
-    }
-    const double spacing =
-        count > 1 ? (setup.wavelengths_nm.back() - setup.wavelengths_nm.front()) / (count - 1) : 0;
-    const double bandwidth = scene.settings.bandwidth_nm.value_or(spacing);
-    const int per_band = dispersive || coherent ? 1 : k_band_nodes;
-    for (int first = 0; first < count; first += per_band) {
-        Band band;
-        band.first = first;
-        band.count = std::min(per_band, count - first);
-        const double nm = dispersive       ? setup.wavelengths_nm[first]
-                          : one_wavelength ? given.front()
-                                           : k_d_line_nm;
-        std::array<double, 3> n =
-            along_axes(material.optic, [&](int ray) { return material.index[ray].at(nm); });
-        band.n = mean(n);
-        // Without birefringence, use the mean over the vibration directions.
-        if (!setup.splits) n = {band.n, band.n, band.n};
-        // In a uniaxial crystal only the optic axis matters.
-        band.crystal = material.optic == OpticCharacter::uniaxial
-                           ? uniaxial_crystal(scene.stone.crystal.axes[0], n[1], n[0])
-                           : Crystal(scene.stone.crystal.axes, n);
-        band.two_waves = !band.crystal.isotropic();
-        band.n_outside = scene.immersion;
-        band.absorbs = setup.on(Effects::absorption);
-        for (int i = 0; i < band.count; ++i) {
-            const double at = setup.wavelengths_nm[first + i];
-            std::array<double, 3> K = along_axes(material.optic, [&](int ray) {
-                return mm * (few ? few->absorption_per_mm[each_ray ? ray : 0][first + i]
-                                 : material.absorption_per_mm[ray].at(at));
-            });
-            if (!setup.on(Effects::pleochroism) || !band.two_waves) K.fill(mean(K));
-            for (int axis = 0; axis < 3; ++axis) band.absorption[axis][i] = K[axis];
-        }
-        const double here = setup.wavelengths_nm[first];
-        band.wavelength = here * 1e-6 / mm;
-        if (coherent) {
-            band.coherence_length = bandwidth > 0 ? band.wavelength * here / bandwidth
-                                                  : std::numeric_limits<double>::infinity();
-        }
-        setup.bands.push_back(band);
-    }
+std::vector<double> wavelengths_for(const Scene& scene, const Optics& optics,
+                                    const OpticalSetup& setup, int nodes) {
+    if (!scene.settings.wavelengths_nm.empty()) return scene.settings.wavelengths_nm;
+    const bool coherent = setup.on(Effects::coherence);
+    if (setup.on(Effects::dispersion) ||
+        (setup.on(Effects::absorption) && optics.spectral_absorption) ||
+        (coherent && has_polariser(scene)) || more_stones_need_spectrum(scene) ||
+        light_needs(scene) == LightNeeds::a_spectrum)
+        return even_nodes(coherent ? std::max(nodes, k_least_coherent_nodes) : nodes);
+    // Three nodes carry any RGB light exactly.
+    if (light_needs(scene) == LightNeeds::three_for_rgb) return {450, 550, 610};
+    return {k_d_line_nm};
+}
+
+}  // namespace
+
+bool chose_spectrum(const Scene& scene, const OpticalSetup& setup) {
+    return scene.settings.wavelengths_nm.empty() &&
+           setup.wavelengths_nm.size() >= static_cast<std::size_t>(k_node_counts[0]);
+}
+
+OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
+    const std::vector<double>& given = scene.settings.wavelengths_nm;
+    const Optics optics =
+        optics_of(scene.stone.material, given.empty() ? even_nodes(k_probes) : given);
+    OpticalSetup setup;
+    decide_effects(scene, optics, setup);
+    decide_coherence(scene, optics, setup);
+    decide_paths(scene, setup);
+    setup.wavelengths_nm = wavelengths_for(scene, optics, setup, nodes);
+    add_bands(scene, optics.spectral_absorption, setup);
     return setup;
 }
 
