@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "render/optics/path.h"
 #include "render/reference/surroundings.h"
@@ -63,6 +64,60 @@ private:
     const Surroundings& surroundings_;
     const Band& band_;
     double* radiance_;
+};
+
+/// The same for all four Stokes parameters (`planes` 4) or the first, with random choices.
+class GatherStokes : public UnseenWeights {
+public:
+    GatherStokes(const Surroundings& surroundings, const Band& band,
+                 const std::vector<double>& luminance, const std::vector<double>& usual, int nodes,
+                 int planes, double* stokes)
+        : UnseenWeights(band.count),
+          surroundings_(surroundings),
+          band_(band),
+          luminance_(luminance),
+          usual_(usual),
+          nodes_(nodes),
+          planes_(planes),
+          stokes_(stokes) {}
+
+    void path_exits(const PathEnd& end, const PathTrace& trace) {
+        seen(trace);
+        if (planes_ == 4) {
+            surroundings_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
+            return;
+        }
+        NodeWeights seen{};
+        surroundings_.add_radiance(end.at, end.direction, end.coherency.power(), band_.first,
+                                   band_.count, seen.data());
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += end.transmitted[i] * seen[i];
+    }
+    // The weight has mean 0, so any radiance is unbiased. The mean radiance compensates the loss
+    // best, and exactly in constant light.
+    void roulette(const NodeWeights& weight) {
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
+    }
+    void choice_begins() { estimates_.begin(luminance_so_far()); }
+    void choice_ends(bool second) { estimates_.end(second, luminance_so_far()); }
+    double variance() const { return estimates_.variance(); }
+
+private:
+    double luminance_so_far() const {
+        double sum = 0;
+        for (int k = 0; k < planes_; ++k) {
+            for (int i = band_.first; i < band_.first + band_.count; ++i)
+                sum += luminance_[k * nodes_ + i] * stokes_[k * nodes_ + i];
+        }
+        return sum;
+    }
+    const Surroundings& surroundings_;
+    const Band& band_;
+    const std::vector<double>&luminance_, &usual_;
+    int nodes_, planes_;
+    double* stokes_;
+    PairedEstimates estimates_;
 };
 
 }  // namespace culet

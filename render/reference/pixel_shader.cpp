@@ -18,59 +18,6 @@ namespace {
 
 constexpr int k_rays_of_a_wavelength = 4;
 
-class GatherStokes : public UnseenWeights {
-public:
-    GatherStokes(const Surroundings& surroundings, const Band& band,
-                 const std::vector<double>& luminance, const std::vector<double>& usual, int nodes,
-                 int planes, double* stokes)
-        : UnseenWeights(band.count),
-          surroundings_(surroundings),
-          band_(band),
-          luminance_(luminance),
-          usual_(usual),
-          nodes_(nodes),
-          planes_(planes),
-          stokes_(stokes) {}
-
-    void path_exits(const PathEnd& end, const PathTrace& trace) {
-        seen(trace);
-        if (planes_ == 4) {
-            surroundings_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
-            return;
-        }
-        NodeWeights seen{};
-        surroundings_.add_radiance(end.at, end.direction, end.coherency.power(), band_.first,
-                                   band_.count, seen.data());
-        for (int i = 0; i < band_.count; ++i)
-            stokes_[band_.first + i] += end.transmitted[i] * seen[i];
-    }
-    // The weight has mean 0, so any radiance is unbiased. The mean radiance compensates the loss
-    // best, and exactly in constant light.
-    void roulette(const NodeWeights& weight) {
-        for (int i = 0; i < band_.count; ++i)
-            stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
-    }
-    void choice_begins() { estimates_.begin(luminance_so_far()); }
-    void choice_ends(bool second) { estimates_.end(second, luminance_so_far()); }
-    double variance() const { return estimates_.variance(); }
-
-private:
-    double luminance_so_far() const {
-        double sum = 0;
-        for (int k = 0; k < planes_; ++k) {
-            for (int i = band_.first; i < band_.first + band_.count; ++i)
-                sum += luminance_[k * nodes_ + i] * stokes_[k * nodes_ + i];
-        }
-        return sum;
-    }
-    const Surroundings& surroundings_;
-    const Band& band_;
-    const std::vector<double>&luminance_, &usual_;
-    int nodes_, planes_;
-    double* stokes_;
-    PairedEstimates estimates_;
-};
-
 // Colour of each Stokes parameter (of 1) at each node, behind the eye's optics.
 std::vector<Rgb> colour_weights(const WavelengthSet& colours, const EyeOptics& optics, int planes) {
     const int nodes = colours.size();
@@ -132,6 +79,7 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
       limits_(prepared.limits),
       pattern_(sample_pattern(samples, setup_.on(Effects::aperture), scene.settings.filter,
                               scene.settings.filter_radius)),
+      share_(1.0 / static_cast<double>(pattern_.size())),
       nodes_(prepared.colours.size()),
       rgb_(colour_weights(prepared.colours, scene.camera.optics, planes())),
       usual_(usual_radiance(surroundings_, scene.camera.look_at, nodes_)) {
@@ -209,6 +157,60 @@ void PixelShader::background(const EyeRay& ray, double* stokes) const {
     surroundings_.add_direct_stokes(ray, eyes_.frame(ray.direction), nodes_, stokes);
 }
 
+void PixelShader::trace_band(const Band& band, const EyeRay& ray, const BodyHit& entry,
+                             const PathLimits& limits, double part, double* seen, PixelSums& sums,
+                             PixelMemory& memory) const {
+    const auto take = [&](const UnseenWeights& unseen) {
+        sums.remainder += part * unseen.remainder_ / nodes_;
+        sums.absorbed += part * unseen.absorbed_ / nodes_;
+        sums.cut += part * unseen.cut_ / nodes_;
+        sums.deepest = std::max(sums.deepest, unseen.deepest_);
+    };
+    if (k_has_effects && setup_.general) {
+        GatherStokes gather(surroundings_, band, stone_luminance_, usual_, nodes_, planes(), seen);
+        CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
+        const EyeFrame frame = eyes_.frame(ray.direction);
+        paths.trace(ray, frame.x, frame.y, entry);
+        sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
+        sums.sampled += paths.sampled();
+        sums.events += paths.events();
+        sums.variance += share_ * share_ * gather.variance();
+        take(gather);
+        return;
+    }
+    const auto follow_in = [&](const auto& body, auto one) {
+        Gather<one> gather(surroundings_, band, seen);
+        LightPaths<Gather<one>, one, std::decay_t<decltype(body)>>(body, band, limits, gather,
+                                                                   memory.trace)
+            .trace(ray, entry);
+        take(gather);
+    };
+    const auto follow = [&](auto one) {
+        body_.convex() ? follow_in(body_.planes(), one) : follow_in(body_, one);
+    };
+    if (!k_has_effects || band.count == 1) {
+        follow(std::true_type{});
+    } else {
+        follow(std::false_type{});
+    }
+    sums.events += memory.trace.length;
+}
+
+void PixelShader::trace_sample(std::size_t i, const EyeRay& ray, const BodyHit& entry,
+                               std::uint64_t pixel, double* seen, PixelSums& sums,
+                               PixelMemory& memory) const {
+    for (std::size_t b = 0; b < (k_has_effects ? setup_.bands.size() : 1); ++b) {
+        if (k_has_effects && static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i])
+            continue;
+        const Band& band = setup_.bands[b];
+        PathLimits limits = limits_;
+        limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
+                      (limits_.alike ? 0 : static_cast<std::uint64_t>(band.first));
+        trace_band(band, ray, entry, limits, share_ * band_factor_[b], seen, sums, memory);
+        ++sums.rays;
+    }
+}
+
 PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
                              PixelMemory& memory) const {
     const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
@@ -216,7 +218,6 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
     memory.stone.assign(2 * values, 0.0);
     memory.behind.assign(2 * values, 0.0);
     PixelSums sums;
-    const double share = 1.0 / static_cast<double>(pattern_.size());
     for (std::size_t i = 0; i < pattern_.size(); ++i) {
         if (memory.goes_on && !memory.goes_on()) break;
         const SamplePoint& p = pattern_[i];
@@ -227,68 +228,29 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         if (!entry || surroundings_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, memory.behind.data() + half_[i] * values);
             if (covers_objects_ && surroundings_.stands_at(ray.origin, ray.direction))
-                sums.hit += share;
+                sums.hit += share_;
             continue;
         }
-        sums.hit += share;
-        if (!has_objects_) sums.counted += share;
-        double* seen = memory.stone.data() + half_[i] * values;
-        for (std::size_t b = 0; b < (k_has_effects ? setup_.bands.size() : 1); ++b) {
-            if (k_has_effects && static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i])
-                continue;
-            const Band& band = setup_.bands[b];
-            const double part = share * band_factor_[b];
-            PathLimits limits = limits_;
-            limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
-                          (limits_.alike ? 0 : static_cast<std::uint64_t>(band.first));
-            const auto take = [&](const UnseenWeights& unseen) {
-                sums.remainder += part * unseen.remainder_ / nodes_;
-                sums.absorbed += part * unseen.absorbed_ / nodes_;
-                sums.cut += part * unseen.cut_ / nodes_;
-                sums.deepest = std::max(sums.deepest, unseen.deepest_);
-            };
-            if (k_has_effects && setup_.general) {
-                GatherStokes gather(surroundings_, band, stone_luminance_, usual_, nodes_, planes(),
-                                    seen);
-                CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
-                const EyeFrame frame = eyes_.frame(ray.direction);
-                paths.trace(ray, frame.x, frame.y, *entry);
-                sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
-                sums.sampled += paths.sampled();
-                sums.events += paths.events();
-                sums.variance += share * share * gather.variance();
-                take(gather);
-            } else {
-                const auto follow_in = [&](const auto& body, auto one) {
-                    Gather<one> gather(surroundings_, band, seen);
-                    LightPaths<Gather<one>, one, std::decay_t<decltype(body)>>(body, band, limits,
-                                                                               gather, memory.trace)
-                        .trace(ray, *entry);
-                    take(gather);
-                };
-                const auto follow = [&](auto one) {
-                    body_.convex() ? follow_in(body_.planes(), one) : follow_in(body_, one);
-                };
-                if (!k_has_effects || band.count == 1) {
-                    follow(std::true_type{});
-                } else {
-                    follow(std::false_type{});
-                }
-                sums.events += memory.trace.length;
-            }
-            ++sums.rays;
-        }
+        sums.hit += share_;
+        if (!has_objects_) sums.counted += share_;
+        trace_sample(i, ray, *entry, pixel, memory.stone.data() + half_[i] * values, sums, memory);
     }
     if (has_objects_) sums.counted = 1;
+    add_up(memory, sums, stokes);
+    return sums;
+}
+
+void PixelShader::add_up(const PixelMemory& memory, PixelSums& sums, double* stokes) const {
+    const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
     Rgb apart{};
     double luminance_apart = 0;
     for (std::size_t i = 0; i < values; ++i) {
         const double *stone = &memory.stone[i], *behind = &memory.behind[i];
         const double of_stone = factor_[i] * (stone[0] + stone[values]);
-        const double whole = share * (of_stone + (behind[0] + behind[values]));
+        const double whole = share_ * (of_stone + (behind[0] + behind[values]));
         const double difference = of_half_[0][i] * stone[0] - of_half_[1][i] * stone[values] +
                                   behind_half_[0] * behind[0] - behind_half_[1] * behind[values];
-        sums.luminance += luminance_[i] * (has_objects_ ? whole : share * of_stone);
+        sums.luminance += luminance_[i] * (has_objects_ ? whole : share_ * of_stone);
         luminance_apart += luminance_[i] * difference;
         for (std::size_t c = 0; c < 3; ++c) {
             apart[c] += rgb_[i][c] * difference;
@@ -301,7 +263,6 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
     // With objects every ray is random: the mean of two independent halves has a quarter of their
     // difference's variance, edges within the pixel included.
     if (has_objects_ && halved_) sums.variance = 0.25 * luminance_apart * luminance_apart;
-    return sums;
 }
 
 }  // namespace culet

@@ -57,6 +57,14 @@ public:
 private:
     void assign_bands_to_rays(int turns);
     void background(const EyeRay& ray, double* stokes) const;
+    // Adds light through the stone to `seen`, per value: in one band, and in all of sample `i`.
+    void trace_band(const Band& band, const EyeRay& ray, const BodyHit& entry,
+                    const PathLimits& limits, double part, double* seen, PixelSums& sums,
+                    PixelMemory& memory) const;
+    void trace_sample(std::size_t i, const EyeRay& ray, const BodyHit& entry, std::uint64_t pixel,
+                      double* seen, PixelSums& sums, PixelMemory& memory) const;
+    // Means over the samples, from the sums of both halves.
+    void add_up(const PixelMemory& memory, PixelSums& sums, double* stokes) const;
 
     bool has_objects_, has_stone_, covers_objects_;
     StoneBody body_;
@@ -65,6 +73,7 @@ private:
     const Surroundings& surroundings_;
     PathLimits limits_;
     std::vector<SamplePoint> pattern_;
+    double share_;                                // of a sample in the pixel
     std::vector<std::size_t> half_;               // of each sample: 0 or 1
     bool halved_ = false;                         // every band is in both halves
     std::array<std::vector<double>, 2> of_half_;  // weight of a ray in its half's mean, per value
