@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 namespace culet {
@@ -77,15 +78,19 @@ std::size_t texel_at(const EnvironmentMap& map, const MapPlace& place) {
                 static_cast<std::size_t>(x));
 }
 
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+// Of the light up to `most`.
 template <class Layout>
-Rgb energy_of(const Layout& layout) {
+Rgb energy_of(const Layout& layout, const Rgb& most = {k_infinite, k_infinite, k_infinite}) {
     Rgb sum{};
     const EnvironmentMap& map = layout.map;
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
             const double omega = layout.solid_angle(x, y);
             const std::size_t at = 3 * (static_cast<std::size_t>(y) * map.width + x);
-            for (std::size_t c = 0; c < 3; ++c) sum[c] += omega * map.rgb[at + c];
+            for (std::size_t c = 0; c < 3; ++c)
+                sum[c] += omega * std::min<double>(map.rgb[at + c], most[c]);
         }
     }
     return sum;
@@ -96,18 +101,16 @@ int steps_for(double coarse, double fine) {
     return std::clamp(static_cast<int>(std::ceil(4 * coarse / fine)), 4, 24);
 }
 
-template <class From, class To>
-void resample(const From& from, EnvironmentMap& to_map, const To& to) {
-    const EnvironmentMap& source = from.map;
-    const double four_pi = 4 * k_pi;
-    const Rgb energy = energy_of(from);
-    Rgb most{};
-    for (std::size_t c = 0; c < 3; ++c) most[c] = 4 * energy[c] / four_pi;
-    const double pitch_from = std::sqrt(four_pi / (static_cast<double>(source.rgb.size()) / 3));
-    const double pitch_to = std::sqrt(four_pi / (static_cast<double>(to_map.rgb.size()) / 3));
+double pitch_of(const EnvironmentMap& map) {
+    return std::sqrt(4 * k_pi / (static_cast<double>(map.rgb.size()) / 3));
+}
 
-    // Light up to the limit: mean over an even grid in the texel, weighted by solid angle.
-    const int steps = steps_for(pitch_to, pitch_from);
+// Sets the target to the light up to `most`: mean over an even grid in each texel, weighted by
+// solid angle.
+template <class From, class To>
+void sample_up_to(const Rgb& most, const From& from, EnvironmentMap& to_map, const To& to) {
+    const EnvironmentMap& source = from.map;
+    const int steps = steps_for(pitch_of(to_map), pitch_of(source));
     for (int y = 0; y < to_map.height; ++y) {
         for (int x = 0; x < to_map.width; ++x) {
             Rgb sum{};
@@ -127,23 +130,14 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
                 to_map.rgb[at + c] = static_cast<float>(sum[c] / weight);
         }
     }
-    // Sampling is off by about a thousandth: scale it to the right total.
-    Rgb base{};
-    for (int y = 0; y < source.height; ++y) {
-        for (int x = 0; x < source.width; ++x) {
-            const double omega = from.solid_angle(x, y);
-            const std::size_t at = 3 * (static_cast<std::size_t>(y) * source.width + x);
-            for (std::size_t c = 0; c < 3; ++c)
-                base[c] += omega * std::min<double>(source.rgb[at + c], most[c]);
-        }
-    }
-    const Rgb sampled = energy_of(to);
-    for (std::size_t i = 0; i < to_map.rgb.size(); ++i) {
-        if (sampled[i % 3] > 0)
-            to_map.rgb[i] = static_cast<float>(to_map.rgb[i] * (base[i % 3] / sampled[i % 3]));
-    }
-    // Bright lights: move each piece of a source texel, with its solid angle, to one target texel.
-    const int pieces = steps_for(pitch_from, pitch_to);
+}
+
+// Adds the light above `most`: moves each piece of a source texel, with its solid angle, to one
+// target texel.
+template <class From, class To>
+void move_above(const Rgb& most, const From& from, EnvironmentMap& to_map, const To& to) {
+    const EnvironmentMap& source = from.map;
+    const int pieces = steps_for(pitch_of(source), pitch_of(to_map));
     std::vector<double> carried(to_map.rgb.size(), 0.0);
     for (int y = 0; y < source.height; ++y) {
         for (int x = 0; x < source.width; ++x) {
@@ -169,6 +163,21 @@ void resample(const From& from, EnvironmentMap& to_map, const To& to) {
                 to_map.rgb[at + c] += static_cast<float>(carried[at + c] / omega);
         }
     }
+}
+
+template <class From, class To>
+void resample(const From& from, EnvironmentMap& to_map, const To& to) {
+    const Rgb energy = energy_of(from);
+    Rgb most{};
+    for (std::size_t c = 0; c < 3; ++c) most[c] = 4 * energy[c] / (4 * k_pi);
+    sample_up_to(most, from, to_map, to);
+    // Sampling is off by about a thousandth: scale it to the right total.
+    const Rgb base = energy_of(from, most), sampled = energy_of(to);
+    for (std::size_t i = 0; i < to_map.rgb.size(); ++i) {
+        if (sampled[i % 3] > 0)
+            to_map.rgb[i] = static_cast<float>(to_map.rgb[i] * (base[i % 3] / sampled[i % 3]));
+    }
+    move_above(most, from, to_map, to);
 }
 
 EnvironmentMap empty_map(int width, int height) {
