@@ -55,64 +55,81 @@ LightColour radiance_in(const TomlTable& table, const std::optional<Vec3>& norma
     return colour;
 }
 
-std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
-                                                       std::vector<std::string>& notes) {
-    const auto path = *table.path("environment");
-    ReadPicture read = [&] {
-        try {
-            const std::string* const held = table.held_file("environment");
-            return held != nullptr ? picture_of_bytes(*held, path) : read_picture(path);
-        } catch (const InputError& error) {
-            table.fail("environment", error.what());
-        }
-    }();
-    auto map = std::make_shared<EnvironmentMap>();
-    map->width = read.picture.width;
-    map->height = read.picture.height;
-    map->rgb = std::move(read.picture.rgb);
+ReadPicture picture_in(const TomlTable& table, const std::filesystem::path& path) {
+    try {
+        const std::string* const held = table.held_file("environment");
+        return held != nullptr ? picture_of_bytes(*held, path) : read_picture(path);
+    } catch (const InputError& error) {
+        table.fail("environment", error.what());
+    }
+}
+
+// Decides by the map's shape.
+bool is_cube(const EnvironmentMap& map, const TomlTable& table, const std::string& file) {
     const auto shaped = [&](int across, int down) {
-        return map->width * static_cast<long long>(down) ==
-               map->height * static_cast<long long>(across);
+        return map.width * static_cast<long long>(down) ==
+               map.height * static_cast<long long>(across);
     };
     if (shaped(6, 1) || shaped(4, 3) || shaped(3, 4)) {
         table.fail("environment",
                    fmt::format("{} is {} x {} pixels, a cube map by its shape; six squares in a "
                                "column are read (OpenEXR's layout), and lat-long maps",
-                               path.filename().string(), map->width, map->height));
+                               file, map.width, map.height));
     }
     const bool cube = shaped(1, 6);
     if (!cube && !shaped(2, 1)) {
         table.fail("environment",
                    fmt::format("{} is {} x {} pixels; a lat-long map is twice as wide as high",
-                               path.filename().string(), map->width, map->height));
+                               file, map.width, map.height));
     }
-    for (const std::string& note : read.notes)
-        notes.push_back(fmt::format("{}: {}", path.filename().string(), note));
+    return cube;
+}
+
+void add_notes(const ReadPicture& read, const std::string& file, std::vector<std::string>& notes) {
+    for (const std::string& note : read.notes) notes.push_back(fmt::format("{}: {}", file, note));
     if (!read.not_photometric.empty()) {
-        notes.push_back(fmt::format("{}: {}: the map is not photometric", path.filename().string(),
-                                    read.not_photometric));
+        notes.push_back(
+            fmt::format("{}: {}: the map is not photometric", file, read.not_photometric));
     }
     if (read.was_encoded) {
         notes.push_back(fmt::format(
             "{}: lights brighter than white are missing in a picture of 8 or 16 bits; an EXR or "
             "HDR map holds them",
-            path.filename().string()));
+            file));
     }
+}
+
+// Sets negative values to 0; returns how many.
+std::size_t clear_negative(EnvironmentMap& map, const TomlTable& table, const std::string& file) {
     std::size_t negative = 0;
-    for (std::size_t i = 0; i < map->rgb.size(); ++i) {
-        if (!std::isfinite(map->rgb[i])) {
+    for (std::size_t i = 0; i < map.rgb.size(); ++i) {
+        if (!std::isfinite(map.rgb[i])) {
             const std::size_t pixel = i / 3;
-            table.fail("environment", fmt::format("{} holds {} at pixel {},{}: repair the map",
-                                                  path.filename().string(), map->rgb[i],
-                                                  pixel % static_cast<std::size_t>(map->width),
-                                                  pixel / static_cast<std::size_t>(map->width)));
+            table.fail("environment",
+                       fmt::format("{} holds {} at pixel {},{}: repair the map", file, map.rgb[i],
+                                   pixel % static_cast<std::size_t>(map.width),
+                                   pixel / static_cast<std::size_t>(map.width)));
         }
-        if (map->rgb[i] < 0) {
-            map->rgb[i] = 0;
+        if (map.rgb[i] < 0) {
+            map.rgb[i] = 0;
             ++negative;
         }
     }
-    if (negative > 0) {
+    return negative;
+}
+
+std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
+                                                       std::vector<std::string>& notes) {
+    const auto path = *table.path("environment");
+    const std::string file = path.filename().string();
+    ReadPicture read = picture_in(table, path);
+    auto map = std::make_shared<EnvironmentMap>();
+    map->width = read.picture.width;
+    map->height = read.picture.height;
+    map->rgb = std::move(read.picture.rgb);
+    const bool cube = is_cube(*map, table, file);
+    add_notes(read, file, notes);
+    if (const std::size_t negative = clear_negative(*map, table, file); negative > 0) {
         notes.push_back(
             fmt::format("{}: {} negative values were taken as 0", path.string(), negative));
     }
