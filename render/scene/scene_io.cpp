@@ -152,6 +152,60 @@ void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
     }
 }
 
+// Absorption scale and immersion.
+void read_factors(const TomlTable& root, Scene& scene) {
+    if (const auto scale = root.number("absorption_scale")) {
+        if (!(*scale >= 0 && *scale <= 1000)) {
+            root.fail("absorption_scale",
+                      fmt::format("absorption_scale is a factor on the material's absorption, 0 to "
+                                  "1000, found {}",
+                                  *scale));
+        }
+        for (Spectrum& absorption : scene.stone.material.absorption_per_mm)
+            absorption = absorption.scaled(*scale);
+    }
+    if (const auto immersion = root.number("immersion")) {
+        if (!(*immersion >= 1 && *immersion <= 4)) {
+            root.fail("immersion",
+                      fmt::format("immersion is a refractive index, 1 to 4, found {}", *immersion));
+        }
+        scene.immersion = *immersion;
+    }
+}
+
+// Returns the preset's name, or "". `instead`: a preset that replaces the file's lights.
+std::string read_lights(const TomlTable& root, std::string_view instead, bool may_be_dark,
+                        Scene& scene) {
+    const auto light = root.table("light");
+    if (!instead.empty()) {
+        const auto lights = light_preset(instead);
+        if (!lights) throw InputError(no_light_preset(instead));
+        scene.lights = *lights;
+        return std::string(instead);
+    }
+    if (!light) {
+        if (!may_be_dark)
+            root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");
+        return "";
+    }
+    scene.lights = lights_of(*light, scene.notes);
+    if (const auto degrees = light->vector("rotate")) {
+        const Vec3 middle = scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
+        scene.lights = turned_lights(scene.lights, rotation_of(*degrees), middle);
+    }
+    return light->text("preset").value_or("");
+}
+
+void aim_camera(const TomlTable& root, const std::optional<TomlTable>& camera, bool from_below,
+                Scene& scene) {
+    if (camera) scene.camera = read_camera(*camera);
+    if (camera && names_a_view(*camera)) return;
+    if (!scene.has_stone())
+        root.fail("",
+                  "the scene has no stone to look at: add a [camera] with position and look_at");
+    frame_stone(scene.stone.solid, from_below ? Facing::pavilion : Facing::crown, scene.camera);
+}
+
 }  // namespace
 
 void apply_stone_keys(const TomlTable& table, Stone& stone) {
@@ -190,50 +244,14 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
     for (const Stone& stone : scene.more_stones) {
         for (std::string& note : notes_on(stone.material)) scene.notes.push_back(std::move(note));
     }
-    if (const auto scale = root.number("absorption_scale")) {
-        if (!(*scale >= 0 && *scale <= 1000)) {
-            root.fail("absorption_scale",
-                      fmt::format("absorption_scale is a factor on the material's absorption, 0 to "
-                                  "1000, found {}",
-                                  *scale));
-        }
-        for (Spectrum& absorption : scene.stone.material.absorption_per_mm)
-            absorption = absorption.scaled(*scale);
-    }
-    if (const auto immersion = root.number("immersion")) {
-        if (!(*immersion >= 1 && *immersion <= 4)) {
-            root.fail("immersion",
-                      fmt::format("immersion is a refractive index, 1 to 4, found {}", *immersion));
-        }
-        scene.immersion = *immersion;
-    }
+    read_factors(root, scene);
     const auto view = view_in(root);
-    const auto camera = root.table("camera"), light = root.table("light");
-    std::string preset(light_instead);
-    if (!preset.empty()) {
-        const auto lights = light_preset(preset);
-        if (!lights) throw InputError(no_light_preset(preset));
-        scene.lights = *lights;
-    } else if (light) {
-        scene.lights = lights_of(*light, scene.notes);
-        if (const auto degrees = light->vector("rotate")) {
-            const Vec3 middle = scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
-            scene.lights = turned_lights(scene.lights, rotation_of(*degrees), middle);
-        }
-        preset = light->text("preset").value_or("");
-    } else if (!view && !shines(scene.objects)) {
-        root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");
-    }
+    const auto camera = root.table("camera");
+    const std::string preset =
+        read_lights(root, light_instead, view || shines(scene.objects), scene);
     const LightPreset* known = find_light_preset(preset);
     if (known != nullptr) scene.light_preset = known->name;
-    if (camera) scene.camera = read_camera(*camera);
-    if (!scene.has_stone() && (!camera || !names_a_view(*camera)))
-        root.fail("",
-                  "the scene has no stone to look at: add a [camera] with position and look_at");
-    if (!camera || !names_a_view(*camera)) {
-        const bool below = known != nullptr && known->from_below;
-        frame_stone(scene.stone.solid, below ? Facing::pavilion : Facing::crown, scene.camera);
-    }
+    aim_camera(root, camera, known != nullptr && known->from_below, scene);
     if (view) apply_view_preset(view->first, view->second, scene);
     if (const auto shading = root.table("shading")) scene.shading = read_shading(*shading);
     if (const auto film = root.table("film")) scene.film = read_film(*film);
