@@ -60,54 +60,73 @@ bool comes_before(const LineCrossing& a, const LineCrossing& b) {
 // Flags of a projected vertex. Shifted right by `k_right_shift`, k_right becomes k_above.
 constexpr unsigned k_above = 1, k_right = 2, k_right_shift = 1;
 
-}  // namespace
+// Facets along an edge: from its lower to its higher vertex, and back.
+using EdgeUses = std::map<std::pair<int, int>, std::pair<std::vector<int>, std::vector<int>>>;
 
-PolyhedronBody::PolyhedronBody(const Solid& solid) {
-    if (solid.facets.size() < 4) throw InputError("a solid needs at least 4 facets");
+EdgeUses edge_uses(const Solid& solid) {
     const int vertex_count = static_cast<int>(solid.vertices.size());
-    for (const Vec3& vertex : solid.vertices) {
-        for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(vertex[axis]);
-    }
-
-    // Facets along each edge, from the lower to the higher vertex and back.
-    std::map<std::pair<int, int>, std::pair<std::vector<int>, std::vector<int>>> uses;
-    std::vector<std::vector<int>> facets_at(solid.vertices.size());
+    EdgeUses uses;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         const Facet& facet = solid.facets[f];
         const int index = static_cast<int>(f);
-        normals_.push_back(facet.plane.normal);
-        offsets_.push_back(facet.plane.offset);
-        corners_.push_back(facet.corners);
-        all_.push_back(index);
-        if (facet.corners.empty()) {
+        if (facet.corners.empty())
             throw InputError(fmt::format("facet {} has no corners", facet.name));
-        }
         for (std::size_t i = 0; i < facet.corners.size(); ++i) {
             const int a = facet.corners[i], b = facet.corners[(i + 1) % facet.corners.size()];
             if (std::min(a, b) < 0 || std::max(a, b) >= vertex_count) {
                 throw InputError(
                     fmt::format("facet {} has a corner that does not exist", facet.name));
             }
-            facets_at[static_cast<std::size_t>(a)].push_back(index);
             if (a < b) uses[{a, b}].first.push_back(index);
             if (a > b) uses[{b, a}].second.push_back(index);
         }
     }
+    return uses;
+}
 
+// For each facet, whether the whole stone is behind its plane.
+std::vector<bool> outermost_of(const Solid& solid) {
     Vec3 low = solid.vertices[0], high = low;
     for (const Vec3& vertex : solid.vertices) {
         low = glm::min(low, vertex);
         high = glm::max(high, vertex);
     }
     const double margin = k_flat * glm::length(high - low);
+    std::vector<bool> outermost;
     for (const Facet& facet : solid.facets) {
-        outermost_.push_back(std::all_of(
+        outermost.push_back(std::all_of(
             solid.vertices.begin(), solid.vertices.end(),
             [&](const Vec3& vertex) { return height_above(facet.plane, vertex) <= margin; }));
     }
+    return outermost;
+}
 
+// For each facet, the others that share a vertex with it, in order.
+std::vector<std::vector<int>> vertex_sharers_of(const Solid& solid) {
+    std::vector<std::vector<int>> facets_at(solid.vertices.size()), sharers;
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        for (const int corner : solid.facets[f].corners)
+            facets_at[static_cast<std::size_t>(corner)].push_back(static_cast<int>(f));
+    }
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        std::vector<int>& of = sharers.emplace_back();
+        for (const int corner : solid.facets[f].corners) {
+            const auto& here = facets_at[static_cast<std::size_t>(corner)];
+            of.insert(of.end(), here.begin(), here.end());
+        }
+        std::sort(of.begin(), of.end());
+        of.erase(std::unique(of.begin(), of.end()), of.end());
+        std::erase(of, static_cast<int>(f));
+    }
+    return sharers;
+}
+
+}  // namespace
+
+PolyhedronBody::PolyhedronBody(const Solid& solid) {
+    if (solid.facets.size() < 4) throw InputError("a solid needs at least 4 facets");
     // If more than two facets share an edge, their pairing makes no difference to a ray.
-    for (const auto& [ends, facets] : uses) {
+    for (const auto& [ends, facets] : edge_uses(solid)) {
         const auto& [along, against] = facets;
         if (along.size() != against.size()) {
             const int facet = along.empty() ? against.front() : along.front();
@@ -119,18 +138,17 @@ PolyhedronBody::PolyhedronBody(const Solid& solid) {
             edges_.push_back({ends.first, ends.second, along[i], against[i]});
         }
     }
-
-    for (std::size_t f = 0; f < corners_.size(); ++f) {
-        std::vector<int> sharers;
-        for (const int corner : corners_[f]) {
-            const auto& here = facets_at[static_cast<std::size_t>(corner)];
-            sharers.insert(sharers.end(), here.begin(), here.end());
-        }
-        std::sort(sharers.begin(), sharers.end());
-        sharers.erase(std::unique(sharers.begin(), sharers.end()), sharers.end());
-        std::erase(sharers, static_cast<int>(f));
-        vertex_sharers_.push_back(std::move(sharers));
+    for (const Vec3& vertex : solid.vertices) {
+        for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(vertex[axis]);
     }
+    for (const Facet& facet : solid.facets) {
+        all_.push_back(static_cast<int>(all_.size()));
+        normals_.push_back(facet.plane.normal);
+        offsets_.push_back(facet.plane.offset);
+        corners_.push_back(facet.corners);
+    }
+    outermost_ = outermost_of(solid);
+    vertex_sharers_ = vertex_sharers_of(solid);
 }
 
 // Distance to the facet's plane, clamped to the facet's extent along the line: a facet seen edge-on
