@@ -232,7 +232,7 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
                                                    part_of(progress, done, done + share));
             });
             if (round.sketch_anew) done += share;
-            photograph.finding.parameters_determined = evidence.moves_told;
+            photograph.finding.parameters_determined = evidence.parameters_determined;
             photograph.reading.photograph = std::make_shared<const PlaneObservations>(
                 plane_observations(evidence, result.after, inflation));
             all.readings.push_back(photograph.reading);

@@ -36,7 +36,7 @@ PoseOptions options_of(const RegisterArguments& a) {
     options.principal_point_error = a.principal_point_error / 100;
     options.limits.angle = radians(a.within_deg);
     options.limits.shift_px = a.within_px;
-    options.limits.doubt = a.doubt_percent / 100;
+    options.limits.error_probability = a.doubt_percent / 100;
     options.both_chiralities = a.mirrored;
     options.threads = a.common.threads;
     return options;

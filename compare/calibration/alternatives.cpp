@@ -64,7 +64,7 @@ glm::dmat3 wrong_light(Chance& chance) {
 
 }  // namespace
 
-Alternatives::Alternatives(const Scene& model, const WorldsAsked& asked,
+Alternatives::Alternatives(const Scene& model, const AlternativeOptions& asked,
                            std::vector<std::string>& notes)
     : model_(model),
       middle_(centroid(model.stone.solid)),
@@ -73,10 +73,11 @@ Alternatives::Alternatives(const Scene& model, const WorldsAsked& asked,
       catalogue_(asked.start ? asked.start : symmetrised(model.stone.solid, model.stone.up)),
       neighbours_(neighbouring_materials(model.stone.material, k_neighbours)) {
     const Stone& stone = model_.stone;
-    const auto add = [&](World world, std::string name, double deg, int which, int draw) {
-        const auto seed = seed_of(asked.seed, static_cast<std::uint64_t>(world),
+    const auto add = [&](Alternative alternative, std::string name, double deg, int which,
+                         int draw) {
+        const auto seed = seed_of(asked.seed, static_cast<std::uint64_t>(alternative),
                                   static_cast<std::uint64_t>(1000 * which + draw));
-        draws_.push_back({world, std::move(name), deg, seed, which});
+        draws_.push_back({alternative, std::move(name), deg, seed, which});
     };
     const bool tiltable = with_facet_error(stone.solid, 1e-4, 1).has_value();
     if (!tiltable) {
@@ -93,32 +94,32 @@ Alternatives::Alternatives(const Scene& model, const WorldsAsked& asked,
     const int rounds = std::max(1, asked.draws);
     for (int round = 0; round < rounds; ++round) {
         if (tiltable) {
-            if (round < (rounds + 1) / 2) add(World::facet_error, "0 degrees", 0, 0, round);
+            if (round < (rounds + 1) / 2) add(Alternative::facet_error, "0 degrees", 0, 0, round);
             for (std::size_t l = 0; l < levels.size(); ++l) {
-                add(World::facet_error, fmt::format("{:g} degrees", levels[l]), levels[l],
+                add(Alternative::facet_error, fmt::format("{:g} degrees", levels[l]), levels[l],
                     static_cast<int>(l), round);
             }
         }
         const int from = asked.null_draws * round / rounds;
         const int to = asked.null_draws * (round + 1) / rounds;
         for (int k = from; k < to; ++k) {
-            if (!one_light) add(World::light, "", 0, 0, k);
-            add(World::pose, "", 0, 0, k);
-            if (!one_light) add(World::both, "", 0, 0, k);
+            if (!one_light) add(Alternative::light, "", 0, 0, k);
+            add(Alternative::pose, "", 0, 0, k);
+            if (!one_light) add(Alternative::both, "", 0, 0, k);
         }
         // After the second round, because a budget that runs out drops the last draws first.
         if (round != std::min(1, rounds - 1)) continue;
         if (catalogue_) {
-            add(World::catalogue, asked.start ? "the starting mesh" : "the symmetrical stone", 0, 0,
-                0);
+            add(Alternative::catalogue, asked.start ? "the starting mesh" : "the symmetrical stone",
+                0, 0, 0);
         }
         for (std::size_t m = 0; m < neighbours_.size(); ++m) {
-            add(World::material, neighbours_[m].id, 0, static_cast<int>(m), 0);
+            add(Alternative::material, neighbours_[m].id, 0, static_cast<int>(m), 0);
         }
         for (int w = 0; w < k_wrongs; ++w) {
             if (w == turned_light && one_light) continue;
             if (w == more_absorption && !absorbs(stone.material)) continue;
-            add(World::wrong, name_of(static_cast<Wrong>(w)), 0, w, 0);
+            add(Alternative::wrong, name_of(static_cast<Wrong>(w)), 0, w, 0);
         }
     }
 }
@@ -177,12 +178,12 @@ void Alternatives::make_wrong(Scene& scene, int which, Chance& chance) const {
     }
 }
 
-Scene Alternatives::scene_of(const WorldDraw& job) const {
+Scene Alternatives::scene_of(const AlternativeDraw& job) const {
     Scene scene = model_;
     Chance chance(seed_of(job.seed, 7, 0));
     Stone& stone = scene.stone;
-    switch (job.world) {
-        case World::facet_error:
+    switch (job.alternative) {
+        case Alternative::facet_error:
             if (job.facet_error_deg > 0) {
                 if (auto solid = with_facet_error(model_.stone.solid, radians(job.facet_error_deg),
                                                   job.seed)) {
@@ -190,27 +191,28 @@ Scene Alternatives::scene_of(const WorldDraw& job) const {
                 }
             }
             break;
-        case World::light:
+        case Alternative::light:
             scene.lights = turned_lights(model_.lights, wrong_light(chance), middle_);
             break;
-        case World::pose:
+        case Alternative::pose:
             stone = turned_stone(model_.stone, wrong_pose(chance), middle_);
             break;
-        case World::both:
+        case Alternative::both:
             scene.lights = turned_lights(model_.lights, wrong_light(chance), middle_);
             stone = turned_stone(model_.stone, wrong_pose(chance), middle_);
             break;
-        case World::catalogue:
+        case Alternative::catalogue:
             stone.solid = *catalogue_;
             break;
-        case World::material:
+        case Alternative::material:
             stone.material = neighbours_[static_cast<std::size_t>(job.which)];
             break;
-        case World::wrong:
+        case Alternative::wrong:
             make_wrong(scene, job.which, chance);
             break;
     }
-    if (view_sigma_ > 0 && job.world != World::pose && job.world != World::both) {
+    if (view_sigma_ > 0 && job.alternative != Alternative::pose &&
+        job.alternative != Alternative::both) {
         Chance view(seed_of(job.seed, 8, static_cast<std::uint64_t>(1e4 * job.facet_error_deg)));
         stone = turned_stone(stone, unsure_view(view), middle_);
     }

@@ -13,7 +13,7 @@
 
 namespace culet {
 
-struct WorldsAsked {
+struct AlternativeOptions {
     int draws = 8;        ///< at each facet error
     int null_draws = 24;  ///< of each null
     std::uint64_t seed = 1;
@@ -23,8 +23,8 @@ struct WorldsAsked {
     double view_sigma = 0;
 };
 
-struct WorldDraw {
-    World world = World::facet_error;
+struct AlternativeDraw {
+    Alternative alternative = Alternative::facet_error;
     std::string name;
     double facet_error_deg = 0;
     std::uint64_t seed = 0;
@@ -34,11 +34,12 @@ struct WorldDraw {
 class Alternatives {
 public:
     /// Adds to `notes` which alternatives there are none of, and why. The model must outlive this.
-    Alternatives(const Scene& model, const WorldsAsked& asked, std::vector<std::string>& notes);
+    Alternatives(const Scene& model, const AlternativeOptions& asked,
+                 std::vector<std::string>& notes);
 
     /// All kinds come up early, in case the time budget runs out.
-    const std::vector<WorldDraw>& draws() const { return draws_; }
-    Scene scene_of(const WorldDraw& draw) const;
+    const std::vector<AlternativeDraw>& draws() const { return draws_; }
+    Scene scene_of(const AlternativeDraw& draw) const;
 
 private:
     glm::dmat3 wrong_pose(Chance& chance) const;
@@ -51,7 +52,7 @@ private:
     int turns_alike_ = 1;
     std::optional<Solid> catalogue_;
     std::vector<Material> neighbours_;
-    std::vector<WorldDraw> draws_;
+    std::vector<AlternativeDraw> draws_;
 };
 
 }  // namespace culet

@@ -16,9 +16,10 @@ namespace {
 
 class Draws {
 public:
-    Draws(const Alternatives& worlds, const Photo& model_picture, const DraftRenderer& renderer,
-          const CalibrateOptions& options, const std::vector<CameraModel>& cameras)
-        : worlds_(worlds),
+    Draws(const Alternatives& alternatives, const Photo& model_picture,
+          const DraftRenderer& renderer, const CalibrateOptions& options,
+          const std::vector<CameraModel>& cameras)
+        : alternatives_(alternatives),
           model_picture_(model_picture),
           renderer_(renderer),
           options_(options),
@@ -28,12 +29,13 @@ public:
     }
 
     /// One for each camera.
-    std::vector<CalibrationDraw> draw(const WorldDraw& job) const;
+    std::vector<CalibrationDraw> draw(const AlternativeDraw& job) const;
 
 private:
-    CalibrationDraw photograph(const WorldDraw& job, const Photo& stone, std::size_t camera) const;
+    CalibrationDraw photograph(const AlternativeDraw& job, const Photo& stone,
+                               std::size_t camera) const;
 
-    const Alternatives& worlds_;
+    const Alternatives& alternatives_;
     const Photo& model_picture_;
     std::vector<Photo> soft_pictures_;  // as each camera's lens shows it
     const DraftRenderer& renderer_;
@@ -41,11 +43,12 @@ private:
     const std::vector<CameraModel>& cameras_;
 };
 
-CalibrationDraw Draws::photograph(const WorldDraw& job, const Photo& stone,
+CalibrationDraw Draws::photograph(const AlternativeDraw& job, const Photo& stone,
                                   std::size_t which) const {
-    CalibrationDraw result{job.world, job.name, job.facet_error_deg, {}};
+    CalibrationDraw result{job.alternative, job.name, job.facet_error_deg, {}};
     CameraModel camera = cameras_[which];
-    if (job.world == World::light || job.world == World::both || job.world == World::pose) {
+    if (job.alternative == Alternative::light || job.alternative == Alternative::both ||
+        job.alternative == Alternative::pose) {
         // A photographer would meter again under another light.
         const double exposure = exposure_like(stone, model_picture_);
         for (double& gain : camera.gain) gain *= exposure;
@@ -68,8 +71,8 @@ CalibrationDraw Draws::photograph(const WorldDraw& job, const Photo& stone,
     return result;
 }
 
-std::vector<CalibrationDraw> Draws::draw(const WorldDraw& job) const {
-    const Photo stone = renderer_.draw(worlds_.scene_of(job));
+std::vector<CalibrationDraw> Draws::draw(const AlternativeDraw& job) const {
+    const Photo stone = renderer_.draw(alternatives_.scene_of(job));
     std::vector<CalibrationDraw> result;
     for (std::size_t k = 0; k < cameras_.size(); ++k) result.push_back(photograph(job, stone, k));
     return result;
@@ -103,11 +106,11 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
     Calibration common;
     common.seed = options.seed;
     for (const ScoreKind& kind : score_kinds()) common.keys.push_back(kind.key);
-    const Alternatives worlds(
+    const Alternatives alternatives(
         model, {options.draws, options.null_draws, options.seed, options.start, options.view_sigma},
         common.notes);
-    const Draws draws(worlds, model_picture, renderer, options, cameras);
-    const std::vector<WorldDraw>& jobs = worlds.draws();
+    const Draws draws(alternatives, model_picture, renderer, options, cameras);
+    const std::vector<AlternativeDraw>& jobs = alternatives.draws();
     std::vector<std::vector<CalibrationDraw>> made(jobs.size());
     in_batches(jobs.size(), options.threads, progress,
                [&](std::size_t i) { made[i] = draws.draw(jobs[i]); });
@@ -116,7 +119,7 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
         CalibrateOptions own = options;
         own.camera = cameras[k];
         result[k].hash = calibration_hash(model, own);
-        for (auto& of_world : made) result[k].draws.push_back(std::move(of_world[k]));
+        for (auto& of_alternative : made) result[k].draws.push_back(std::move(of_alternative[k]));
     }
     return result;
 }

@@ -21,7 +21,7 @@ struct CalibrateOptions {
     CameraModel camera;     ///< of the photograph
     int draws = 8;          ///< at each facet error
     int null_draws = 24;    ///< of each null
-    double view_sigma = 0;  ///< as in WorldsAsked
+    double view_sigma = 0;  ///< as in AlternativeOptions
     std::uint64_t seed = 1;
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     double largest = 256;  ///< as for `aligned`

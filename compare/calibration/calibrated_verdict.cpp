@@ -35,7 +35,7 @@ std::vector<std::optional<double>> values_of(const std::vector<Score>& scores,
     return values;
 }
 
-std::optional<NullStatistics> null_statistics(World world, const Score& photo,
+std::optional<NullStatistics> null_statistics(Alternative alternative, const Score& photo,
                                               const Calibration& calibration,
                                               const FacetErrorScale& scale,
                                               std::optional<double> photo_rank) {
@@ -44,7 +44,7 @@ std::optional<NullStatistics> null_statistics(World world, const Score& photo,
     against.null.clear();
     std::vector<double> ranks, errors;
     for (const CalibrationDraw& draw : calibration.draws) {
-        if (draw.world != world) continue;
+        if (draw.alternative != alternative) continue;
         if (draw.scores[primary]) against.null.push_back(*draw.scores[primary]);
         // A draw that could not be registered counts as the worst possible.
         const EquivalentError error = scale.of(draw.scores);
@@ -53,20 +53,20 @@ std::optional<NullStatistics> null_statistics(World world, const Score& photo,
     }
     if (against.null.size() < 5) return std::nullopt;
     fill_null(against);
-    NullStatistics worth;
-    worth.world = world;
-    worth.draws = static_cast<int>(ranks.size());
-    worth.mean = against.null_mean;
-    worth.sd = against.null_sd;
-    worth.z = against.z.value_or(0);
+    NullStatistics statistics;
+    statistics.alternative = alternative;
+    statistics.draws = static_cast<int>(ranks.size());
+    statistics.mean = against.null_mean;
+    statistics.sd = against.null_sd;
+    statistics.z = against.z.value_or(0);
     if (photo_rank) {
-        worth.as_good = static_cast<int>(std::count_if(
+        statistics.as_good = static_cast<int>(std::count_if(
             ranks.begin(), ranks.end(), [&](double rank) { return rank <= *photo_rank; }));
-        worth.p = (worth.as_good + 1.0) / (worth.draws + 1.0);
+        statistics.p = (statistics.as_good + 1.0) / (statistics.draws + 1.0);
     }
-    worth.least_deg = *std::min_element(errors.begin(), errors.end());
-    worth.median_deg = upper_median(std::move(errors));
-    return worth;
+    statistics.least_deg = *std::min_element(errors.begin(), errors.end());
+    statistics.median_deg = upper_median(std::move(errors));
+    return statistics;
 }
 
 bool takes_part(const std::string& key, bool geometry_only) {
@@ -94,9 +94,9 @@ std::string facets_off(const EquivalentError& error) {
 std::string chance_in_words(const CalibratedVerdict& verdict) {
     if (verdict.nulls.empty()) return "";
     const NullStatistics& worst = verdict.nulls.front();
-    const char* what = worst.world == World::light  ? "lights"
-                       : worst.world == World::pose ? "poses"
-                                                    : "lights and poses";
+    const char* what = worst.alternative == Alternative::light  ? "lights"
+                       : worst.alternative == Alternative::pose ? "poses"
+                                                                : "lights and poses";
     return fmt::format("; {} of {} wrong {} agree as well", worst.as_good, worst.draws, what);
 }
 
@@ -165,9 +165,10 @@ CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibrati
     const std::string primary = geometry_only ? "cw_ssim" : k_primary;
     for (const Score& score : scores) {
         if (score.key != primary || !score.value) continue;
-        for (const World world : {World::light, World::pose, World::both}) {
-            if (auto worth = null_statistics(world, score, calibration, scale, rank)) {
-                verdict.nulls.push_back(*worth);
+        for (const Alternative alternative :
+             {Alternative::light, Alternative::pose, Alternative::both}) {
+            if (auto statistics = null_statistics(alternative, score, calibration, scale, rank)) {
+                verdict.nulls.push_back(*statistics);
             }
         }
     }
@@ -175,12 +176,12 @@ CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibrati
                      [](const NullStatistics& a, const NullStatistics& b) { return a.z < b.z; });
     const std::size_t zncc = index_of(calibration, k_primary);
     for (const CalibrationDraw& draw : calibration.draws) {
-        if (draw.world != World::catalogue && draw.world != World::material &&
-            draw.world != World::wrong) {
+        if (draw.alternative != Alternative::catalogue &&
+            draw.alternative != Alternative::material && draw.alternative != Alternative::wrong) {
             continue;
         }
         verdict.hypotheses.push_back(
-            {draw.world, draw.name, draw.scores[zncc], scale.of(draw.scores)});
+            {draw.alternative, draw.name, draw.scores[zncc], scale.of(draw.scores)});
     }
     verdict.calibration = std::move(calibration);
     judge(verdict);

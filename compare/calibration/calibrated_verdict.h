@@ -12,7 +12,7 @@
 namespace culet {
 
 struct NullStatistics {
-    World world = World::light;
+    Alternative alternative = Alternative::light;
     int draws = 0;
     double mean = 0, sd = 0;  ///< of zncc
     double z = 0;             ///< of atanh, see `fill_null`
@@ -24,8 +24,8 @@ struct NullStatistics {
     double least_deg = 0, median_deg = 0;
 };
 
-struct HypothesisWorth {
-    World world = World::wrong;
+struct HypothesisScore {
+    Alternative alternative = Alternative::wrong;
     std::string name;
     std::optional<double> zncc;
     EquivalentError equivalent;
@@ -39,7 +39,7 @@ struct CalibratedVerdict {
     EquivalentError equivalent;
     std::vector<SensitivityCurve> curves;  ///< one for each score that takes part
     std::vector<NullStatistics> nulls;     ///< smallest z first
-    std::vector<HypothesisWorth> hypotheses;
+    std::vector<HypothesisScore> hypotheses;
     bool geometry_only = false;  ///< the photograph cannot serve for photometry
     Calibration calibration;
     /// Minus the logarithm of the scores' mean answer (degrees): unbounded, for ranking photographs

@@ -30,7 +30,7 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
     json["evidence"] = number_or_null(verdict.evidence);
     json["nulls"] = Json::array();
     for (const NullStatistics& null : verdict.nulls) {
-        json["nulls"].push_back({{"world", name_of(null.world)},
+        json["nulls"].push_back({{"world", name_of(null.alternative)},
                                  {"draws", null.draws},
                                  {"zncc_mean", number_or_null(null.mean)},
                                  {"zncc_sd", number_or_null(null.sd)},
@@ -41,8 +41,8 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
                                  {"median_deg", number_or_null(null.median_deg)}});
     }
     json["hypotheses"] = Json::array();
-    for (const HypothesisWorth& h : verdict.hypotheses) {
-        json["hypotheses"].push_back({{"world", name_of(h.world)},
+    for (const HypothesisScore& h : verdict.hypotheses) {
+        json["hypotheses"].push_back({{"world", name_of(h.alternative)},
                                       {"name", h.name},
                                       {"zncc", number_or_null(h.zncc)},
                                       {"equivalent_facet_error", equivalent_json(h.equivalent)}});

@@ -8,7 +8,7 @@
 
 namespace culet {
 
-enum class World {
+enum class Alternative {
     facet_error,  ///< tilted facets: the sensitivity curve; 0 degrees is the ceiling
     light,        ///< lights turned by 15 to 180 degrees
     pose,         ///< turned and tilted, registered anew
@@ -17,12 +17,12 @@ enum class World {
     material,     ///< neighbours in the catalogue of materials
     wrong         ///< one thing slightly wrong: index, dispersion, absorption, light, tilt
 };
-const char* name_of(World world);
+const char* name_of(Alternative alternative);
 
 struct CalibrationDraw {
-    World world = World::facet_error;
+    Alternative alternative = Alternative::facet_error;
     std::string name;            ///< "0.1 degrees", "quartz", "no dispersion"; nulls: empty
-    double facet_error_deg = 0;  ///< of World::facet_error
+    double facet_error_deg = 0;  ///< of Alternative::facet_error
     /// One for each key; nothing: undefined, or the picture could not be registered.
     std::vector<std::optional<double>> scores;
 };

@@ -14,33 +14,34 @@ constexpr auto number = json_number<Json>;
 constexpr int k_schema = 3;  // 1: scored against a sharp render; 2: without the facets' tilts
 constexpr std::size_t k_most_draws = 100000;
 
-constexpr World k_worlds[] = {World::facet_error, World::light,    World::pose, World::both,
-                              World::catalogue,   World::material, World::wrong};
+constexpr Alternative k_alternatives[] = {
+    Alternative::facet_error, Alternative::light,    Alternative::pose, Alternative::both,
+    Alternative::catalogue,   Alternative::material, Alternative::wrong};
 
-std::optional<World> world_named(const std::string& name) {
-    for (const World world : k_worlds) {
-        if (name == name_of(world)) return world;
+std::optional<Alternative> alternative_named(const std::string& name) {
+    for (const Alternative alternative : k_alternatives) {
+        if (name == name_of(alternative)) return alternative;
     }
     return std::nullopt;
 }
 
 }  // namespace
 
-const char* name_of(World world) {
-    switch (world) {
-        case World::facet_error:
+const char* name_of(Alternative alternative) {
+    switch (alternative) {
+        case Alternative::facet_error:
             return "facet_error";
-        case World::light:
+        case Alternative::light:
             return "light";
-        case World::pose:
+        case Alternative::pose:
             return "pose";
-        case World::both:
+        case Alternative::both:
             return "both";
-        case World::catalogue:
+        case Alternative::catalogue:
             return "catalogue";
-        case World::material:
+        case Alternative::material:
             return "material";
-        case World::wrong:
+        case Alternative::wrong:
             return "wrong";
     }
     return "wrong";
@@ -59,7 +60,7 @@ std::string calibration_json(const Calibration& calibration) {
     json["notes"] = calibration.notes;
     json["draws"] = Json::array();
     for (const CalibrationDraw& draw : calibration.draws) {
-        Json one = {{"world", name_of(draw.world)},
+        Json one = {{"world", name_of(draw.alternative)},
                     {"name", draw.name},
                     {"facet_error_deg", number(draw.facet_error_deg)},
                     {"scores", Json::array()}};
@@ -85,9 +86,9 @@ std::optional<Calibration> calibration_from(const std::string& text) {
         if (json.at("draws").size() > k_most_draws) return std::nullopt;
         for (const Json& one : json.at("draws")) {
             CalibrationDraw draw;
-            const auto world = world_named(one.at("world").get<std::string>());
-            if (!world) return std::nullopt;
-            draw.world = *world;
+            const auto alternative = alternative_named(one.at("world").get<std::string>());
+            if (!alternative) return std::nullopt;
+            draw.alternative = *alternative;
             draw.name = one.at("name").get<std::string>();
             draw.facet_error_deg = one.at("facet_error_deg").get<double>();
             for (const Json& score : one.at("scores")) {

@@ -62,7 +62,7 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     const std::size_t tilts = 2 * solid.facets.size();
     TiltModel parts;
     parts.changes.resize(tilts);
-    std::vector<std::vector<double>> bends(tilts);  // second differences
+    std::vector<std::vector<double>> second_differences(tilts);
     const auto column = [&](std::size_t tilt) {
         cv::Mat either[2];
         for (const int side : {0, 1}) {
@@ -73,13 +73,13 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
             either[side] = solid_there ? seen(*renderer.sketch(scene)) : untilted;
         }
         parts.changes[tilt] = samples_of((either[0] - either[1]) / (2 * k_step_deg), mask_);
-        bends[tilt] = samples_of(either[0] + either[1] - 2 * untilted, mask_);
+        second_differences[tilt] = samples_of(either[0] + either[1] - 2 * untilted, mask_);
     };
     in_batches(tilts, threads, progress, column);
-    const std::size_t samples = bends.front().size();
+    const std::size_t samples = second_differences.front().size();
     parts.noise.assign(samples, k_least_noise * k_least_noise);
-    for (const auto& bend : bends) {
-        for (std::size_t i = 0; i < samples; ++i) parts.noise[i] += bend[i] * bend[i] / 2;
+    for (const auto& values : second_differences) {
+        for (std::size_t i = 0; i < samples; ++i) parts.noise[i] += values[i] * values[i] / 2;
     }
     for (double& n : parts.noise) n = std::sqrt(n);
     const cv::Mat fine = seen_finely(renderer.picture(), camera.psf_px),

@@ -8,7 +8,7 @@ namespace culet {
 /// Constant beyond the ends.
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
 
-/// Where a non-increasing curve has this value: the middle of a flat stretch, or the nearer end.
+/// Where a non-increasing curve has this value: the middle of a level part, or the nearer end.
 double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y, double value);
 
 /// Non-decreasing least squares with equal weights (isotonic regression by pool adjacent violators,

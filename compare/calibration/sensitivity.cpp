@@ -43,7 +43,8 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
                                  const std::vector<std::string>& keys) {
     std::map<double, std::vector<const CalibrationDraw*>> by_level;
     for (const CalibrationDraw& draw : calibration.draws) {
-        if (draw.world == World::facet_error) by_level[draw.facet_error_deg].push_back(&draw);
+        if (draw.alternative == Alternative::facet_error)
+            by_level[draw.facet_error_deg].push_back(&draw);
     }
     for (const auto& [deg, draws] : by_level) {
         levels_deg_.push_back(deg);
@@ -154,7 +155,7 @@ JointDraws FacetErrorScale::joint_draws(const Calibration& calibration) const {
     joint.draws.resize(levels_.size());
     for (const Curve& curve : curves_) joint.curves.push_back(curve.stabilised_scores);
     for (const CalibrationDraw& draw : calibration.draws) {
-        if (draw.world != World::facet_error) continue;
+        if (draw.alternative != Alternative::facet_error) continue;
         const auto level = std::find(levels_deg_.begin(), levels_deg_.end(), draw.facet_error_deg);
         joint.draws[static_cast<std::size_t>(level - levels_deg_.begin())].push_back(
             stabilised_scores(draw.scores));

@@ -24,7 +24,7 @@ namespace {
 // A view of lower quality is used only where no other sees more, and counts as not covered.
 constexpr double k_seen = 1e-4;
 // Exponent of each correction: over-relaxation of Richardson and Lucy's small steps (Meinel 1986).
-constexpr double k_boldness = 1.6;
+constexpr double k_overrelaxation = 1.6;
 
 cv::Mat on_each_channel(const cv::Mat& plane) {
     cv::Mat three;
@@ -240,7 +240,7 @@ void sharpen(EnvironmentMap& map, const std::vector<BallView>& views,
         if (total[i] <= 0) continue;
         for (std::size_t c = 0; c < 3; ++c)
             map.rgb[3 * i + c] *=
-                static_cast<float>(std::pow(up[3 * i + c] / total[i], k_boldness));
+                static_cast<float>(std::pow(up[3 * i + c] / total[i], k_overrelaxation));
     }
 }
 

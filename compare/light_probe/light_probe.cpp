@@ -112,7 +112,7 @@ void doubt_views(LightProbe& probe) {
 }
 
 // Sets notes for people, and `doubt`.
-void judge(LightProbe& probe) {
+void assess(LightProbe& probe) {
     double omega_sum = 0, covered = 0;
     std::vector<float> stops;
     double sum = 0;
@@ -332,7 +332,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
     if (coarser > 1) probe.light = coarsened(probe.light, coarser);
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); ++i)
         probe.light.map.rgb[i] /= static_cast<float>(options.reflectance[i % 3]);
-    judge(probe);
+    assess(probe);
     return probe;
 }
 

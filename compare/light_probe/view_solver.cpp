@@ -174,7 +174,7 @@ public:
             if (std::abs(scale / before - 1) < k_same_scale) break;
         }
         differences.PrepareForEvaluation(true, false);
-        tell_certainty(differences, scale, share, all, result);
+        set_sigma(differences, scale, share, all, result);
         std::vector<double> sizes = differences.known();
         for (double& size : sizes) size = std::abs(size);
         result.residual = median(std::move(sizes));
@@ -213,13 +213,13 @@ private:
 
     // Sigma and effective number of the correspondences from their gradients' scatter over the
     // patches.
-    void tell_certainty(const Differences& differences, double scale, double share_before,
-                        double all, ViewSolution& result) const {
-        Square normal = Square::Zero();  // Gauss-Newton matrix of the reweighted squares
-        Square bend = Square::Zero();    // Hessian of the loss; outliers have the opposite sign
-        Eigen::Matrix<double, k_view_parameters, k_patches> pulls;
+    void set_sigma(const Differences& differences, double scale, double share_before, double all,
+                   ViewSolution& result) const {
+        Square normal = Square::Zero();        // Gauss-Newton matrix of the reweighted squares
+        Square loss_hessian = Square::Zero();  // outliers have the opposite sign
+        Eigen::Matrix<double, k_view_parameters, k_patches> patch_gradients;
         Eigen::Array<bool, k_patches, 1> holds;
-        pulls.setZero();
+        patch_gradients.setZero();
         holds.setConstant(false);
         const std::vector<Eigen::Index> patches = patches_of(correspondences_);
         for (std::size_t i = 0; i < correspondences_.size(); ++i) {
@@ -229,8 +229,8 @@ private:
             const double squeezed = 1 / (1 + x * x);
             const double w = correspondences_[i].weight / (scale * scale) * squeezed;
             normal.noalias() += w * row * row.transpose();
-            bend.noalias() += w * squeezed * (1 - x * x) * row * row.transpose();
-            pulls.col(patches[i]) += w * value * row;
+            loss_hessian.noalias() += w * squeezed * (1 - x * x) * row * row.transpose();
+            patch_gradients.col(patches[i]) += w * value * row;
             holds[patches[i]] = true;
         }
         const double count = static_cast<double>(holds.count());
@@ -240,9 +240,10 @@ private:
             result.sigma = std::numeric_limits<double>::infinity();
             return;
         }
-        const ViewParameters sum = pulls.rowwise().sum();
+        const ViewParameters sum = patch_gradients.rowwise().sum();
         const Square scatter =
-            (pulls * pulls.transpose() - sum * sum.transpose() / count) * (count / freedom);
+            (patch_gradients * patch_gradients.transpose() - sum * sum.transpose() / count) *
+            (count / freedom);
         Square prior = Square(certainty_.cwiseAbs2().asDiagonal());
         const Square held =
             Square((step_.array() == 0).cast<double>().matrix().asDiagonal()) * 1e30;
@@ -251,9 +252,10 @@ private:
         const double repeated = std::max(1.0, (flat * scatter).trace() / (flat * normal).trace());
         result.correspondences = all / repeated;
         const double share = 1 / repeated;
-        bend = share * bend + prior + held;
-        if (PivotedCholesky(bend).pivots().minCoeff() <= 0) bend = share * normal + prior + held;
-        const Square back = inverse_of(bend);
+        loss_hessian = share * loss_hessian + prior + held;
+        if (PivotedCholesky(loss_hessian).pivots().minCoeff() <= 0)
+            loss_hessian = share * normal + prior + held;
+        const Square back = inverse_of(loss_hessian);
         const Square covariance = back * (share * share * scatter + prior) * back;
         result.sigma = std::sqrt(std::max(covariance.topLeftCorner<3, 3>().trace() / 3, 0.0));
     }

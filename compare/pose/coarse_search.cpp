@@ -48,10 +48,10 @@ double sum_of_agreement(const Target& target, const StoneView& view, double& var
             const double share = (i + 0.5) / count;
             of_edge += along.agreement({edge.from.x + share * dx, edge.from.y + share * dy});
         }
-        const double witnesses = std::max(1.0, length / independent);
+        const double effective_points = std::max(1.0, length / independent);
         const double mean = of_edge / (count - 2);
-        sum += mean * witnesses;
-        variance += witnesses;
+        sum += mean * effective_points;
+        variance += effective_points;
     }
     variance *= target.edges.spread() * target.edges.spread();
     return sum;

@@ -78,15 +78,15 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     }
     support.chance = sum / shifts;
     const double variance = std::max(0.0, squares / shifts - support.chance * support.chance);
-    const double witnesses = std::max(1.0, crown.points * std::min(1.0, step / independent));
+    const double effective_points = std::max(1.0, crown.points * std::min(1.0, step / independent));
     const double chance = std::clamp(support.chance, 0.02, 0.98);
-    const double spread = std::sqrt(variance + chance * (1 - chance) / witnesses);
+    const double spread = std::sqrt(variance + chance * (1 - chance) / effective_points);
     support.z = (support.met - support.chance) / spread;
     // Every point meets with the overall share, or with that of chance.
     const double met = std::clamp(support.met, 0.02, 0.98);
     const double gain =
         met * std::log(met / chance) + (1 - met) * std::log((1 - met) / (1 - chance));
-    support.log_likelihood = witnesses * (met > chance ? gain : -gain);
+    support.log_likelihood = effective_points * (met > chance ? gain : -gain);
     const double outline_sigma = 0.4 + 0.0015 * diameter_px;
     const double off = outline_rms / outline_sigma;
     support.log_likelihood -= 0.5 * 16 * off * off;

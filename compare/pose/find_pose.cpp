@@ -66,7 +66,7 @@ bool looks_alike(const PoseTask& task, const Candidate& a, const Candidate& b) {
 
 /// Negative log prior of a view's angle to the start: sigma is half the search angle, and one start
 /// in a thousand means another symmetric view.
-double unlikely_from(double start_angle, const PoseTask& task, bool symmetric = true) {
+double negative_log_prior(double start_angle, const PoseTask& task, bool symmetric = true) {
     const double far = 0.5 * std::pow(start_angle / (0.5 * task.options.search), 2);
     return symmetric ? std::min(far, std::log(1000.0)) : far;
 }
@@ -88,8 +88,8 @@ void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) 
         return angle_between(c.refined.solved.view, c.side->start);
     };
     const auto lead = [&](const Candidate& a, const Candidate& b) {
-        return lead_of(a, b) + unlikely_from(start_angle(b), task) -
-               unlikely_from(start_angle(a), task);
+        return lead_of(a, b) + negative_log_prior(start_angle(b), task) -
+               negative_log_prior(start_angle(a), task);
     };
     std::vector<std::size_t> alike{0};
     std::size_t likeliest = 0;
@@ -127,8 +127,8 @@ double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& oth
     if (other.symmetric &&
         (other.mirrored != pose.mirrored || other.start_angle > task.options.search))
         return 1e300;
-    return other.lead + unlikely_from(other.start_angle, task, other.symmetric) -
-           unlikely_from(pose.start_angle, task);
+    return other.lead + negative_log_prior(other.start_angle, task, other.symmetric) -
+           negative_log_prior(pose.start_angle, task);
 }
 
 /// Warns if the edges alone prefer a symmetric view that the start does not mean.
@@ -197,13 +197,13 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
         else
             ++pose.look_alikes;
     }
-    judge(task, won, rival, rival_turn, pose);
+    assess(task, won, rival, rival_turn, pose);
 }
 
 void refine(const PoseTask& task, std::vector<Candidate>& candidates) {
     tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
         Candidate& c = candidates[i];
-        c.refined = draw_in(task.wire, c.side->picture, c.view, settings_of(task, *c.side));
+        c.refined = refine_roughly(task.wire, c.side->picture, c.view, settings_of(task, *c.side));
         if (!c.refined.lost) c.support = support_of(task, *c.side, c.refined.solved.view);
     });
 }
@@ -232,7 +232,7 @@ void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose&
     add_meant_look_alikes(task, best);
     tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t i) {
         Candidate& c = best[i];
-        c.refined = settle(task.wire, c.side->picture, c.refined, settings_of(task, *c.side));
+        c.refined = refine_fully(task.wire, c.side->picture, c.refined, settings_of(task, *c.side));
         if (c.refined.lost) return;
         c.support = support_of(task, *c.side, c.refined.solved.view);
         c.evidence = crown_evidence(c.side->picture, c.side->stone, c.refined.points,

@@ -33,7 +33,7 @@ struct PoseLimits {
     /// Median distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;
     /// Probability that the edges are met by chance, or that another view is right.
-    double doubt = 0.001;
+    double error_probability = 0.001;
 };
 
 struct PoseOptions {
@@ -112,7 +112,7 @@ struct FoundPose {
     double crown_support = 0, chance_support = 0;  ///< shares of the crown's edge points met
     double support_z = 0;
     CrownEvidence evidence;
-    double doubt = 1;  ///< as in PoseLimits
+    double error_probability = 1;  ///< as in PoseLimits
     /// The view's sigma from the normal equations, and from the jackknife.
     double angle_by_edges = 0, angle_by_groups = 0;
     /// Facet errors of the model estimated from the edges, one sigma: tilt as in PoseOptions, and

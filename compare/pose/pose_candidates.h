@@ -13,7 +13,7 @@ struct Candidate {
     StoneView view;
     RefinedView refined;
     EdgeSupport support;
-    CrownEvidence evidence;  ///< set by `settle`
+    CrownEvidence evidence;  ///< set by `refine_fully`
 };
 
 struct SeenView {

@@ -106,8 +106,8 @@ void describe_marks(const Candidate& won, FoundPose& pose) {
     pose.crown_px = middle_of(std::move(crown));
 }
 
-void judge(const PoseTask& task, const Candidate& won, double rival, double rival_turn,
-           FoundPose& pose) {
+void assess(const PoseTask& task, const Candidate& won, double rival, double rival_turn,
+            FoundPose& pose) {
     const PoseLimits& limits = task.options.limits;
     const double diameter = won.side->shape.diameter;
     const auto refuse = [&](std::string why, std::string remedy) {
@@ -148,27 +148,28 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
     }
     const double by_chance = std::min(1.0, std::exp(k_places_tried - evidence_of(pose)));
     const double by_rival = rival < 700 ? 1 / (1 + std::exp(rival)) : 0;
-    pose.doubt = std::min(1.0, by_chance + by_rival);
-    if (pose.doubt > limits.doubt && by_chance >= by_rival) {
+    pose.error_probability = std::min(1.0, by_chance + by_rival);
+    if (pose.error_probability > limits.error_probability && by_chance >= by_rival) {
         refuse(
             fmt::format("{} of {} edges of the crown are where this model has them, and by "
                         "chance {:.0f} would be: that happens in {} of wrong views (at most {})",
                         pose.evidence.met, pose.evidence.looked,
                         pose.evidence.chance_share * pose.evidence.looked, percent(by_chance),
-                        percent(limits.doubt)),
+                        percent(limits.error_probability)),
             fmt::format("Check that this is the stone, from this side{}; then take it larger and "
                         "sharper, in a light that shows the edges around the table, or tilted "
                         "by 10 to 20 degrees; --doubt accepts more",
                         or_mirrored));
-    } else if (pose.doubt > limits.doubt) {
-        refuse(fmt::format("another view, {:.0f} degrees from this one, explains the photograph "
-                           "nearly as well: the chance that it is the right one is {} (at most {})",
-                           degrees(rival_turn), percent(by_rival), percent(limits.doubt)),
-               fmt::format("Turn the scene's camera to within {:.0f} degrees of how the stone was "
-                           "held and search no farther (--search-deg {:.0f}), or photograph it "
-                           "tilted by 10 to 20 degrees; --doubt accepts more",
-                           std::max(2.0, degrees(rival_turn) / 3),
-                           std::max(2.0, degrees(rival_turn) / 2)));
+    } else if (pose.error_probability > limits.error_probability) {
+        refuse(
+            fmt::format("another view, {:.0f} degrees from this one, explains the photograph "
+                        "nearly as well: the chance that it is the right one is {} (at most {})",
+                        degrees(rival_turn), percent(by_rival), percent(limits.error_probability)),
+            fmt::format("Turn the scene's camera to within {:.0f} degrees of how the stone was "
+                        "held and search no farther (--search-deg {:.0f}), or photograph it "
+                        "tilted by 10 to 20 degrees; --doubt accepts more",
+                        std::max(2.0, degrees(rival_turn) / 3),
+                        std::max(2.0, degrees(rival_turn) / 2)));
     }
     if (!(pose.sigmas.angle_99 <= limits.angle)) {
         const double off = degrees(pose.sigmas.angle_99);

@@ -10,9 +10,10 @@ void describe_sigmas(const PoseTask& task, const Candidate& won, FoundPose& pose
 /// Sets the edge marks, and their median distances.
 void describe_marks(const Candidate& won, FoundPose& pose);
 
-/// Sets `doubt`; says in `trouble` which limit is exceeded and in `remedy` what to do. `rival`: the
-/// lead over the next other view (infinite: there is none); `rival_turn`: the angle to it, radians.
-void judge(const PoseTask& task, const Candidate& won, double rival, double rival_turn,
-           FoundPose& pose);
+/// Sets `error_probability`; says in `trouble` which limit is exceeded and in `remedy` what to do.
+/// `rival`: the lead over the next other view (infinite: there is none); `rival_turn`: the angle to
+/// it, radians.
+void assess(const PoseTask& task, const Candidate& won, double rival, double rival_turn,
+            FoundPose& pose);
 
 }  // namespace culet

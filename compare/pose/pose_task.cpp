@@ -15,7 +15,7 @@ namespace {
 // Sizes that differ by no more than this have the same aspect ratio.
 constexpr double k_rounding_px = 1.5;
 // Standard deviation of a uniform distribution over what was cropped, 1 / sqrt(12).
-constexpr double k_of_the_cut = 0.29;
+constexpr double k_uniform_sigma = 0.29;
 constexpr double k_edge_reach = 0.012;  // of the edge map, share of the diameter
 
 }  // namespace
@@ -71,7 +71,7 @@ Camera start_for(const Camera& start, int width, int height, PoseOptions& option
     camera.fov = 2 * std::atan(std::tan(start.fov / 2) * down / grown);
     const double cut = std::max(grown * start.width - width, grown * start.height - height);
     options.principal_point_error =
-        std::hypot(options.principal_point_error, k_of_the_cut * cut / width);
+        std::hypot(options.principal_point_error, k_uniform_sigma * cut / width);
     return camera;
 }
 

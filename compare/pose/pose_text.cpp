@@ -36,7 +36,7 @@ std::string pose_json(const FoundPose& pose) {
     json["status"] = pose.usable() ? "found" : "refused";
     json["trouble"] = pose.trouble;
     json["remedy"] = pose.remedy;
-    json["doubt"] = pose.doubt;
+    json["doubt"] = pose.error_probability;
     json["camera"] = camera_json(pose.camera);
     json["mirrored"] = pose.mirrored;
     json["chirality_known"] = pose.chirality_known;

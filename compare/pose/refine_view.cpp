@@ -96,8 +96,8 @@ bool ran_away(const StoneView& start, const StoneView& view) {
 
 }  // namespace
 
-RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
-                    const RefineSettings& settings) {
+RefinedView refine_roughly(const WireSolid& wire, const EdgePicture& picture,
+                           const StoneView& start, const RefineSettings& settings) {
     RefinedView refined;
     refined.solved.view = start;
     const SolverSettings solver = solver_settings(settings);
@@ -126,8 +126,8 @@ RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const Sto
     return refined;
 }
 
-RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
-                   const RefineSettings& settings) {
+RefinedView refine_fully(const WireSolid& wire, const EdgePicture& picture,
+                         const RefinedView& start, const RefineSettings& settings) {
     RefinedView refined = start;
     SolverSettings solver = solver_settings(settings);
     solver.facets_free = true;

@@ -19,19 +19,19 @@ struct RefinedView {
     SolvedView solved;
     std::vector<WirePoint> points;  ///< at the found view
     std::vector<MetEdge> met;       ///< those used last
-    /// Facet errors estimated by `settle`, one sigma: tilt and offset.
+    /// Facet errors estimated by `refine_fully`, one sigma: tilt and offset.
     double facet_error = 0, facet_offset = 0;
     bool lost = false;  ///< too few edges were met, or the view diverged
 };
 
 /// Fast, for choosing among views: the facets stay fixed, without covariance.
-RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
-                    const RefineSettings& settings);
+RefinedView refine_roughly(const WireSolid& wire, const EdgePicture& picture,
+                           const StoneView& start, const RefineSettings& settings);
 
-/// Continues from `draw_in` with all parameters free, estimates the facet errors, and computes the
-/// covariance.
-RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
-                   const RefineSettings& settings);
+/// Continues from `refine_roughly` with all parameters free, estimates the facet errors, and
+/// computes the covariance.
+RefinedView refine_fully(const WireSolid& wire, const EdgePicture& picture,
+                         const RefinedView& start, const RefineSettings& settings);
 
 /// Jackknife variances (Quenouille 1949, Tukey 1958) over sixteen groups of edges: of the view's
 /// rotation (three axes), place (two) and logarithm of scale. They include mistaken edges, which

@@ -51,7 +51,7 @@ struct PhotographEvidence::Parts {
     Solid measured;
     PictureChanges changes;
     PictureEquations equations;
-    MovesTold told;
+    DeterminedMoves determined;
 };
 
 PhotographEvidence::Parts::Parts(const Photo& taken, const Scene& given, int n)
@@ -103,16 +103,16 @@ void PhotographEvidence::Parts::set_equations(const Solid& solid,
         return Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size()));
     };
     e.changes.resize(rows, moves);
-    Eigen::VectorXd bent = Eigen::VectorXd::Zero(rows);
+    Eigen::VectorXd nonlinearity = Eigen::VectorXd::Zero(rows);
     for (Eigen::Index k = 0; k < moves; ++k) {
         e.changes.col(k) = column(changes.slopes[std::size_t(k)]);
-        // A move t has the non-linear effect bend (t / step)^2 / 2. Its mean square over a normal
-        // distribution is 3/4 bend^2 (spread / step)^4.
+        // A move t has the non-linear effect c (t / step)^2 / 2. Its mean square over a normal
+        // distribution is 3/4 c^2 (spread / step)^4.
         const double share = 0.75 * std::pow(spread[std::size_t(k)] / k_move_step, 4);
-        bent += share * column(changes.bends[std::size_t(k)]).cwiseAbs2();
+        nonlinearity += share * column(changes.second_differences[std::size_t(k)]).cwiseAbs2();
     }
-    e.bent = bent.cwiseSqrt();
-    e.noise = (bent.array() + k_least_noise * k_least_noise).sqrt().matrix();
+    e.nonlinearity = nonlinearity.cwiseSqrt();
+    e.noise = (nonlinearity.array() + k_least_noise * k_least_noise).sqrt().matrix();
     e.spread = column(spread);
 
     const Photo drawn = picture(solid);
@@ -153,17 +153,18 @@ PlaneEvidence PhotographEvidence::measure(const Solid& solid, const std::vector<
     }
     p.set_equations(solid, spread);
     p.measured = solid;
-    p.told = moves_told(e);
+    p.determined = solved_moves(e);
 
     PlaneEvidence evidence;
-    evidence.moves_told = p.told.moves_told;
-    for (Eigen::Index r = 0; r < p.told.rows.rows(); ++r) {
+    evidence.parameters_determined = p.determined.parameters_determined;
+    for (Eigen::Index r = 0; r < p.determined.rows.rows(); ++r) {
         PlaneEvidence::Row& row = evidence.rows.emplace_back();
-        row.value = p.told.values[r];
+        row.value = p.determined.values[r];
         for (std::size_t f = 0; f < facets.size(); ++f) {
             const auto k = Eigen::Index(k_moves_of_a_facet * f);
-            row.facets.push_back(plane_slopes(facets[f], p.told.rows(r, k), p.told.rows(r, k + 1),
-                                              p.told.rows(r, k + 2)));
+            row.facets.push_back(plane_slopes(facets[f], p.determined.rows(r, k),
+                                              p.determined.rows(r, k + 1),
+                                              p.determined.rows(r, k + 2)));
         }
     }
     return evidence;
@@ -175,7 +176,7 @@ void PhotographEvidence::settle(const Solid& solid) {
     Eigen::VectorXd spread = Eigen::VectorXd::Zero(k_amounts);
     spread.tail(k_set_up_angles).setConstant(k_angle_spread);
     const Eigen::VectorXd found = nuisances_beside(
-        p.equations, p.told,
+        p.equations, p.determined,
         Eigen::Map<const Eigen::VectorXd>(moves.data(), Eigen::Index(moves.size())), spread);
     for (double& gain : p.camera.gain) gain *= std::pow(1 + found[Nuisance::exposure], 2);
     // Blurs add in squares.

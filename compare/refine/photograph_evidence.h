@@ -22,7 +22,7 @@ struct PlaneEvidence {
         double value = 0;
     };
     std::vector<Row> rows;
-    double moves_told = 0;  ///< how many moves, of three per facet, the photograph determines
+    double parameters_determined = 0;  ///< of the planes, which have three each
 };
 
 /// A place where the photograph disagrees with the stone.

@@ -27,7 +27,7 @@ PictureChanges picture_changes(const SketchedStone& stone, const cv::Mat& mask, 
     const cv::Mat still = sketched(stone, stone.solid, stone.set_up);
     PictureChanges changes;
     changes.slopes.resize(all);
-    changes.bends.resize(all);
+    changes.second_differences.resize(all);
     const auto change = [&](std::size_t k) {
         cv::Mat either[2];
         const double step = k < moves ? k_move_step : k_angle_step;
@@ -45,7 +45,7 @@ PictureChanges picture_changes(const SketchedStone& stone, const cv::Mat& mask, 
             }
         }
         changes.slopes[k] = samples_of((either[0] - either[1]) / (2 * step), mask);
-        changes.bends[k] = samples_of(either[0] + either[1] - 2 * still, mask);
+        changes.second_differences[k] = samples_of(either[0] + either[1] - 2 * still, mask);
     };
     in_batches(all, threads, progress, change);
     return changes;

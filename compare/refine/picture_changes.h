@@ -28,7 +28,7 @@ struct SketchedStone {
 /// At the samples under `mask`, for each plane's moves (three per facet), then each set-up angle:
 /// the slope (per radian), and both sketches minus twice the middle one.
 struct PictureChanges {
-    std::vector<std::vector<double>> slopes, bends;
+    std::vector<std::vector<double>> slopes, second_differences;
 };
 /// Throws Interrupted.
 PictureChanges picture_changes(const SketchedStone& stone, const cv::Mat& mask, int threads,

@@ -22,9 +22,9 @@ constexpr double k_reach = 8;  // blurs
 // Lower limit in units of a sample's `noise`: even two equal pictures say nothing finer.
 constexpr double k_noise_floor = 0.1;
 // Smallest ratio of a direction's prior variance to the picture's that counts as information.
-constexpr double k_least_told = 0.01;
+constexpr double k_least_information = 0.01;
 // A picture cannot determine more moves than it has independent samples.
-constexpr double k_most_told = 0.75;
+constexpr double k_most_determined = 0.75;
 
 double typical(const Eigen::VectorXd& values) {
     std::vector<double> sizes;
@@ -106,36 +106,36 @@ Eigen::MatrixXd span_of(Eigen::MatrixXd columns) {
 
 // Keeps independent rows that add to the prior: directions that the picture hardly sees would add
 // only noise.
-void keep_what_tells(const Eigen::VectorXd& spread, MovesTold& told) {
-    const Eigen::MatrixXd scaled = told.rows * spread.asDiagonal();
+void keep_informative(const Eigen::VectorXd& spread, DeterminedMoves& determined) {
+    const Eigen::MatrixXd scaled = determined.rows * spread.asDiagonal();
     const SymmetricEigen parts = symmetric_eigen(transpose_times(scaled, scaled));
     const Eigen::Index all = spread.size();
     Eigen::Index first = 0;
-    while (first < all && !(parts.values[first] > k_least_told)) ++first;
+    while (first < all && !(parts.values[first] > k_least_information)) ++first;
     const Eigen::VectorXd lengths = parts.values.tail(all - first).cwiseSqrt();
     const Eigen::MatrixXd along = parts.vectors.rightCols(all - first).transpose();
-    told.values =
-        lengths.cwiseInverse().asDiagonal() * (along * (scaled.transpose() * told.values));
-    told.rows = lengths.asDiagonal() * along * spread.cwiseInverse().asDiagonal();
+    determined.values =
+        lengths.cwiseInverse().asDiagonal() * (along * (scaled.transpose() * determined.values));
+    determined.rows = lengths.asDiagonal() * along * spread.cwiseInverse().asDiagonal();
 }
 
 }  // namespace
 
-MovesTold moves_told(const PictureEquations& e) {
+DeterminedMoves solved_moves(const PictureEquations& e) {
     const Eigen::Index samples = e.difference.size();
     const Eigen::VectorXd prior = e.spread.cwiseAbs2().cwiseInverse();
-    MovesTold told;
-    told.weights = Eigen::VectorXd::Ones(samples);
+    DeterminedMoves determined;
+    determined.weights = Eigen::VectorXd::Ones(samples);
     const int reach =
         std::min(int(std::ceil(k_reach * e.blur)), std::min(e.mask.rows, e.mask.cols) / 3);
     const cv::Mat correlation = blurred_correlation(reach, e.blur);
     const cv::Mat weights = pair_weights(correlation);
-    const Eigen::VectorXd bent = e.bent.cwiseQuotient(e.noise);
+    const Eigen::VectorXd nonlinearity = e.nonlinearity.cwiseQuotient(e.noise);
     // Number of samples that are worth one independent sample of blurred white noise.
     const double area = 4 * CV_PI * e.blur * e.blur;
     Eigen::VectorXd moves;
     for (int round = 0; round < k_rounds; ++round) {
-        const Weighted w = weighted(e, told.weights);
+        const Weighted w = weighted(e, determined.weights);
         const Eigen::MatrixXd open = span_of(w.nuisances);
         const Eigen::MatrixXd changes = without_span(w.changes, open);
         const Eigen::VectorXd difference = w.difference - open * (open.transpose() * w.difference);
@@ -149,13 +149,13 @@ MovesTold moves_told(const PictureEquations& e) {
         const Eigen::VectorXd residual = difference - changes * moves;
         const Eigen::MatrixXd covariance =
             pair_sums(residual.asDiagonal() * changes, e.mask, weights) +
-            pair_sums(bent.asDiagonal() * changes, e.mask, correlation) +
+            pair_sums(nonlinearity.asDiagonal() * changes, e.mask, correlation) +
             k_noise_floor * k_noise_floor * area * normal;
         const double squares = residual.squaredNorm();
-        told.independent = squares > 0
-                               ? double(samples) * squares /
-                                     std::max(pair_sums(residual, e.mask, weights)(0, 0), squares)
-                               : double(samples) / area;
+        determined.independent =
+            squares > 0 ? double(samples) * squares /
+                              std::max(pair_sums(residual, e.mask, weights)(0, 0), squares)
+                        : double(samples) / area;
 
         const SymmetricEigen parts = symmetric_eigen(covariance);
         const Eigen::VectorXd floor =
@@ -163,41 +163,43 @@ MovesTold moves_told(const PictureEquations& e) {
         const Eigen::MatrixXd whiten =
             parts.values.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal() *
             parts.vectors.transpose();
-        told.rows = product(whiten, normal);
-        told.values = whiten * sums;
+        determined.rows = product(whiten, normal);
+        determined.values = whiten * sums;
         const auto solve = [&] {
-            const Eigen::MatrixXd information = transpose_times(told.rows, told.rows);
+            const Eigen::MatrixXd information = transpose_times(determined.rows, determined.rows);
             const PivotedCholesky both(information + Eigen::MatrixXd(prior.asDiagonal()));
-            moves = both.solve_one(told.rows.transpose() * told.values);
-            told.moves_told = both.solve(information).trace();
+            moves = both.solve_one(determined.rows.transpose() * determined.values);
+            determined.parameters_determined = both.solve(information).trace();
         };
         solve();
         // Corrects for the degrees of freedom that the moves have absorbed.
-        const double taken = std::min(told.moves_told / told.independent, k_most_told);
-        told.rows *= std::sqrt(1 - taken);
-        told.values *= std::sqrt(1 - taken);
+        const double taken =
+            std::min(determined.parameters_determined / determined.independent, k_most_determined);
+        determined.rows *= std::sqrt(1 - taken);
+        determined.values *= std::sqrt(1 - taken);
         solve();
         // Outliers by the noise of a single sample.
         const Eigen::VectorXd off =
-            (difference - changes * moves).cwiseQuotient(told.weights.cwiseSqrt());
-        told.noise = std::max(typical(off), k_noise_floor);
+            (difference - changes * moves).cwiseQuotient(determined.weights.cwiseSqrt());
+        determined.noise = std::max(typical(off), k_noise_floor);
         if (round + 1 < k_rounds) {
-            told.weights = (k_huber * told.noise *
-                            off.cwiseAbs().cwiseMax(k_noise_floor).cwiseInverse().array())
-                               .min(1.0)
-                               .matrix();
+            determined.weights = (k_huber * determined.noise *
+                                  off.cwiseAbs().cwiseMax(k_noise_floor).cwiseInverse().array())
+                                     .min(1.0)
+                                     .matrix();
         }
     }
-    keep_what_tells(e.spread, told);
-    return told;
+    keep_informative(e.spread, determined);
+    return determined;
 }
 
-Eigen::VectorXd nuisances_beside(const PictureEquations& e, const MovesTold& told,
+Eigen::VectorXd nuisances_beside(const PictureEquations& e, const DeterminedMoves& determined,
                                  const Eigen::VectorXd& moves, const Eigen::VectorXd& spread) {
-    const Weighted w = weighted(e, told.weights);
+    const Weighted w = weighted(e, determined.weights);
     const Eigen::MatrixXd nuisances = w.nuisances.leftCols(spread.size());
     Eigen::MatrixXd normal = transpose_times(nuisances, nuisances);
-    const double noise = told.noise * told.noise * double(e.difference.size()) / told.independent;
+    const double noise =
+        determined.noise * determined.noise * double(e.difference.size()) / determined.independent;
     for (Eigen::Index k = 0; k < spread.size(); ++k) {
         if (spread[k] > 0) normal(k, k) += noise / (spread[k] * spread[k]);
     }

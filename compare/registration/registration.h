@@ -13,7 +13,7 @@ namespace culet {
 
 /// q = scale * R(turn) * (p - about) + about + shift, from photo pixels p to render pixels q.
 /// Positive `turn` takes +x towards +y: clockwise as seen, because y runs down. Not an affinity,
-/// because a stretch would hide a wrong shape or viewing direction.
+/// because unequal scales would hide a wrong shape or viewing direction.
 struct Similarity {
     double scale = 1, turn = 0;
     cv::Point2d about{0, 0}, shift{0, 0};

@@ -15,21 +15,21 @@ namespace culet {
 
 namespace {
 
-std::string title_of(World world) {
-    switch (world) {
-        case World::light:
+std::string title_of(Alternative alternative) {
+    switch (alternative) {
+        case Alternative::light:
             return "Another light";
-        case World::pose:
+        case Alternative::pose:
             return "Another pose";
-        case World::both:
+        case Alternative::both:
             return "Another light and pose";
-        case World::catalogue:
+        case Alternative::catalogue:
             return "Catalogue cut";
-        case World::material:
+        case Alternative::material:
             return "Another material";
-        case World::wrong:
+        case Alternative::wrong:
             return "One thing wrong";
-        case World::facet_error:
+        case Alternative::facet_error:
             break;
     }
     return "Facet error";
@@ -162,8 +162,9 @@ std::vector<double> null_values(const Calibration& calibration, const std::strin
     if (at == calibration.keys.end()) return values;
     const auto k = static_cast<std::size_t>(at - calibration.keys.begin());
     for (const CalibrationDraw& draw : calibration.draws) {
-        const bool null =
-            draw.world == World::light || draw.world == World::pose || draw.world == World::both;
+        const bool null = draw.alternative == Alternative::light ||
+                          draw.alternative == Alternative::pose ||
+                          draw.alternative == Alternative::both;
         if (null && draw.scores[k]) values.push_back(*draw.scores[k]);
     }
     return values;
@@ -190,7 +191,7 @@ View curve_figures(const CalibratedVerdict& verdict) {
 View nulls_table(const CalibratedVerdict& verdict) {
     std::vector<View> rows;
     for (const NullStatistics& null : verdict.nulls) {
-        rows.push_back({{"world", title_of(null.world)},
+        rows.push_back({{"alternative", title_of(null.alternative)},
                         {"mean", decimals(null.mean, 2)},
                         {"sd", decimals(null.sd, 2)},
                         {"z", decimals(null.z, 1)},
@@ -203,9 +204,9 @@ View nulls_table(const CalibratedVerdict& verdict) {
 
 View hypotheses_table(const CalibratedVerdict& verdict) {
     std::vector<View> rows;
-    for (const HypothesisWorth& h : verdict.hypotheses) {
+    for (const HypothesisScore& h : verdict.hypotheses) {
         rows.push_back({{"name", h.name},
-                        {"world", title_of(h.world)},
+                        {"alternative", title_of(h.alternative)},
                         {"zncc", decimals(h.zncc, 3)},
                         {"equivalent", degrees_text(h.equivalent)}});
     }

@@ -70,12 +70,12 @@ public:
         study_.asked = scene.settings;
         study_.scene_width = scene.camera.width;
         study_.scene_height = scene.camera.height;
-        ground_.tolerance = asked;
+        studied_.tolerance = asked;
     }
 
     SceneStudy study() {
         prepare();
-        for (const StudyCandidate& candidate : study_design(ground_)) try_out(candidate);
+        for (const StudyCandidate& candidate : study_design(studied_)) try_out(candidate);
         drawing_share_ = k_search_share;
         try_by_hand();
         search();
@@ -95,7 +95,7 @@ private:
     void update_front();
     bool may_be_on_front(const StudiedRender& render) const;
     Scene scene_with(const RenderSettings& settings) const {
-        Scene scene = ground_.scene;
+        Scene scene = studied_.scene;
         scene.settings = settings;
         // Random paths independent of the reference's.
         scene.settings.seed = scene_.settings.seed + 2;
@@ -105,7 +105,7 @@ private:
 
     const Scene& scene_;
     StudyClock clock_;
-    StudyGround ground_;
+    StudiedScene studied_;
     SceneStudy study_;
     std::optional<PictureMetric> metric_;
     std::vector<DrawnTimes> times_;  // of each render
@@ -117,33 +117,33 @@ void SceneStudier::prepare() {
     SceneStudyOptions& options = study_.options;
     const double finest = options.tolerances.back();
     const int longer = std::max(scene_.camera.width, scene_.camera.height);
-    ground_.scene = scene_;
-    ground_.tolerances = options.tolerances;
+    studied_.scene = scene_;
+    studied_.tolerances = options.tolerances;
     const int size =
         options.size > 0
             ? std::min(options.size, longer)
             : affordable_size(scene_, finest, clock_.share(0.75 * k_reference_share), clock_);
-    ground_.scene.camera = resized(scene_.camera, size);
-    study_.width = ground_.scene.camera.width;
-    study_.height = ground_.scene.camera.height;
-    study_.reference = study_reference(ground_.scene, finest,
+    studied_.scene.camera = resized(scene_.camera, size);
+    study_.width = studied_.scene.camera.width;
+    study_.height = studied_.scene.camera.height;
+    study_.reference = study_reference(studied_.scene, finest,
                                        clock_.share(k_reference_share) - clock_.spent(), clock_);
-    ground_.exact = study_.reference.stats;
+    studied_.exact = study_.reference.stats;
     metric_.emplace(study_.reference.picture);
-    Scene by_beams = ground_.scene;
-    by_beams.settings = exact_settings(scene_, ground_.tolerance, k_node_counts.front());
+    Scene by_beams = studied_.scene;
+    by_beams.settings = exact_settings(scene_, studied_.tolerance, k_node_counts.front());
     const std::string refused = refused_by_beams(by_beams);
-    ground_.beams = refused.empty();
-    if (!ground_.beams) study_.notes.push_back("engines beams and preview: " + refused);
+    studied_.beams = refused.empty();
+    if (!studied_.beams) study_.notes.push_back("engines beams and preview: " + refused);
 }
 
 // Draws and evaluates a setting that was not tried yet, if there is time.
 void SceneStudier::try_out(const StudyCandidate& candidate) {
-    const std::string key = key_of(ground_, candidate.settings);
+    const std::string key = key_of(studied_, candidate.settings);
     if (!tried_.insert(key).second) return;
     const auto leave_out = [&](const std::string& why) {
         study_.left_out.push_back(fmt::format("{} {} ({}): {}", candidate.sweep, candidate.setting,
-                                              words_of(ground_, candidate.settings), why));
+                                              words_of(studied_, candidate.settings), why));
     };
     if (!candidate.needed && clock_.spent() > clock_.share(drawing_share_))
         return leave_out("not reached within the budget");
@@ -173,7 +173,7 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
     render.sweep = candidate.sweep;
     render.setting = candidate.setting;
     render.settled = settled_by(candidate.settings, result.stats);
-    render.words = words_of(ground_, render.settled);
+    render.words = words_of(studied_, render.settled);
     render.automatic = candidate.automatic;
     render.settings = candidate.settings;
     render.stats = std::move(result.stats);
@@ -243,7 +243,7 @@ void SceneStudier::search() {
             const RenderSettings settings = study_.render(*at).settled;
             const RenderStats stats = study_.render(*at).stats;
             const double before = study_.render(*at).cpu.median;
-            for (const StudyCandidate& neighbour : cheaper_neighbours(ground_, settings, stats)) {
+            for (const StudyCandidate& neighbour : cheaper_neighbours(studied_, settings, stats)) {
                 if (clock_.spent() > clock_.share(drawing_share_)) break;
                 try_out(neighbour);
             }

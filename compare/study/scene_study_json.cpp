@@ -111,7 +111,7 @@ std::string scene_study_json(const SceneStudy& study) {
     object["threads"] = study.asked.threads;
     const StudyReference& reference = study.reference;
     object["reference"] = {{"samples", reference.samples},
-                           {"rough_samples", reference.rough_samples},
+                           {"rough_samples", reference.control_samples},
                            {"tolerance", reference.tolerance},
                            {"depth", reference.stats.depth},
                            {"wavelengths", reference.stats.wavelengths_nm.size()},

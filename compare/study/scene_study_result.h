@@ -66,7 +66,7 @@ struct StudyReference {
     int samples = 0;  ///< rays per pixel of both halves together
     /// Rays per pixel with few wavelengths and short paths, a control variate: their mean plus the
     /// mean difference of exact rays along the same paths. 0: none, where they would save little.
-    int rough_samples = 0;
+    int control_samples = 0;
     double tolerance = 0;
     RenderStats stats;   ///< of the first half
     PictureError noise;  ///< of the mean of the two, from their difference

@@ -32,14 +32,14 @@ std::vector<Effects> effects_on(const RenderStats& stats) {
 }
 
 // Sets of more and more wavelengths, up to the reference's.
-std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
-    const std::vector<double>& finest = ground.exact.wavelengths_nm;
+std::vector<std::vector<double>> wavelength_sets(const StudiedScene& studied) {
+    const std::vector<double>& finest = studied.exact.wavelengths_nm;
     std::vector<std::vector<double>> sets;
-    if (ground.scene.settings.wavelengths_nm.size() == 1 || finest.size() < 2) return sets;
+    if (studied.scene.settings.wavelengths_nm.size() == 1 || finest.size() < 2) return sets;
     sets.push_back({k_d_line_nm});
     if (finest.size() > 3) sets.push_back({450, 550, 610});
     for (const int count : k_node_counts) {
-        Scene scene = ground.scene;
+        Scene scene = studied.scene;
         scene.settings.wavelengths_nm.clear();
         scene.settings.effects_auto = true;
         const std::vector<double> nodes = make_optical_setup(scene, count).wavelengths_nm;
@@ -59,7 +59,7 @@ RenderSettings with_all(const Scene& scene, const std::string& engine, double to
 
 class CandidateDesign {
 public:
-    explicit CandidateDesign(const StudyGround& ground) : ground_(ground) {}
+    explicit CandidateDesign(const StudiedScene& studied) : studied_(studied) {}
 
     void add(const std::string& sweep, const std::string& setting, const RenderSettings& settings,
              bool automatic = false, bool needed = false) {
@@ -67,38 +67,39 @@ public:
     }
 
     void automatic() {
-        for (const double tolerance : ground_.tolerances) {
-            RenderSettings settings = with_all(ground_.scene, k_auto_engine, tolerance);
+        for (const double tolerance : studied_.tolerances) {
+            RenderSettings settings = with_all(studied_.scene, k_auto_engine, tolerance);
             settings.effects_auto = true;
-            if (ground_.scene.settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
+            if (studied_.scene.settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
             add("automatic", fmt::format("tolerance {:g}", tolerance), settings, true,
-                tolerance == ground_.tolerance);
+                tolerance == studied_.tolerance);
         }
     }
     // Engines at all tolerances.
     void engines() {
-        std::vector<double> order = ground_.tolerances;
+        std::vector<double> order = studied_.tolerances;
         std::stable_sort(order.begin(), order.end(), [&](double a, double b) {
-            return (a == ground_.tolerance) > (b == ground_.tolerance);
+            return (a == studied_.tolerance) > (b == studied_.tolerance);
         });
         for (const double tolerance : order) {
             const std::string setting = fmt::format("{:g}", tolerance);
-            const bool needed = tolerance == ground_.tolerance;
-            if (ground_.beams) {
+            const bool needed = tolerance == studied_.tolerance;
+            if (studied_.beams) {
                 for (const char* engine : {k_beam_engine, k_preview_engine}) {
-                    add("tolerance", setting, with_all(ground_.scene, engine, tolerance), false,
+                    add("tolerance", setting, with_all(studied_.scene, engine, tolerance), false,
                         needed);
                 }
             }
-            add("tolerance", setting, with_all(ground_.scene, k_reference_engine, tolerance), false,
-                needed);
+            add("tolerance", setting, with_all(studied_.scene, k_reference_engine, tolerance),
+                false, needed);
         }
     }
     // One setting varied at a time; `base` is the faster engine that can draw the scene.
     void sweeps() {
-        const RenderSettings base = with_all(
-            ground_.scene, ground_.beams ? k_beam_engine : k_reference_engine, ground_.tolerance);
-        for (const Effects effect : effects_on(ground_.exact)) {
+        const RenderSettings base =
+            with_all(studied_.scene, studied_.beams ? k_beam_engine : k_reference_engine,
+                     studied_.tolerance);
+        for (const Effects effect : effects_on(studied_.exact)) {
             RenderSettings settings = base;
             without(settings, effect);
             add("effects", fmt::format("without {}", name_of(effect)), settings);
@@ -107,39 +108,39 @@ public:
         none.effects_auto = false;
         none.effects.fill(false);
         add("effects", "none", none);
-        for (const std::vector<double>& nm : wavelength_sets(ground_)) {
+        for (const std::vector<double>& nm : wavelength_sets(studied_)) {
             RenderSettings settings = base;
             settings.wavelengths_nm = nm;
             add("wavelengths", fmt::format("{}", nm.size()), settings);
         }
         for (const int samples : k_samples) {
             RenderSettings settings =
-                with_all(ground_.scene, k_reference_engine, ground_.tolerance);
+                with_all(studied_.scene, k_reference_engine, studied_.tolerance);
             settings.samples = samples;
             add("samples", fmt::format("{}", samples), settings);
         }
-        if (ground_.beams && ground_.scene.camera.aperture_radius == 0) {
+        if (studied_.beams && studied_.scene.camera.aperture_radius == 0) {
             RenderSettings settings = base;
             settings.samples = 1;
             add("samples", "1", settings);
         }
         for (const int depth : k_depths) {
-            if (depth > std::max(48, ground_.exact.depth / 4) || depth >= ground_.exact.depth)
+            if (depth > std::max(48, studied_.exact.depth / 4) || depth >= studied_.exact.depth)
                 break;
             RenderSettings settings = base;
             settings.depth = depth;
             add("depth", fmt::format("{}", depth), settings);
         }
         // Limits paths only by weight, at a large depth.
-        const int deep = std::min(24, std::max(2, ground_.exact.depth));
+        const int deep = std::min(24, std::max(2, studied_.exact.depth));
         for (const double tolerance : k_tolerances) {
             RenderSettings settings = base;
             settings.depth = deep;
             settings.tolerance = tolerance;
             add("pruning", fmt::format("depth {}, {:g}", deep, tolerance), settings);
         }
-        if (!ground_.beams) return;
-        if (ground_.scene.stone.material.optic != OpticCharacter::isotropic) {
+        if (!studied_.beams) return;
+        if (studied_.scene.stone.material.optic != OpticCharacter::isotropic) {
             for (const CrystalBeams beams : {CrystalBeams::merged, CrystalBeams::split}) {
                 RenderSettings settings = base;
                 settings.crystal_beams = beams;
@@ -150,7 +151,7 @@ public:
     std::vector<StudyCandidate> take() { return std::move(candidates_); }
 
 private:
-    const StudyGround& ground_;
+    const StudiedScene& studied_;
     std::vector<StudyCandidate> candidates_;
 };
 
@@ -182,20 +183,20 @@ RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
     return settings;
 }
 
-std::vector<StudyCandidate> study_design(const StudyGround& ground) {
-    CandidateDesign candidates(ground);
+std::vector<StudyCandidate> study_design(const StudiedScene& studied) {
+    CandidateDesign candidates(studied);
     candidates.automatic();
     candidates.engines();
     candidates.sweeps();
     return candidates.take();
 }
 
-std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
+std::vector<StudyCandidate> cheaper_neighbours(const StudiedScene& studied,
                                                const RenderSettings& settings,
                                                const RenderStats& drawn) {
     std::vector<StudyCandidate> found;
     const auto add = [&](const RenderSettings& changed) {
-        found.push_back({"search", words_of(ground, changed), changed});
+        found.push_back({"search", words_of(studied, changed), changed});
     };
     const auto coarser = std::find_if(k_tolerances.rbegin(), k_tolerances.rend(), [&](double t) {
         return t > settings.tolerance * (1 + 1e-9);
@@ -210,7 +211,7 @@ std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
         changed.cut_weight = 3 * *settings.cut_weight;
         add(changed);
     }
-    const auto sets = wavelength_sets(ground);
+    const auto sets = wavelength_sets(studied);
     const auto fewer = std::find_if(sets.rbegin(), sets.rend(), [&](const auto& nm) {
         return nm.size() < drawn.wavelengths_nm.size();
     });
@@ -250,7 +251,7 @@ std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
         add(changed);
         changed = settings;
         changed.samples = settings.samples == 1 ? 0 : 1;
-        if (ground.scene.camera.aperture_radius == 0) add(changed);
+        if (studied.scene.camera.aperture_radius == 0) add(changed);
     }
     if (drawn_by_beams(settings) && settings.crystal_beams != CrystalBeams::merged &&
         std::any_of(drawn.effects.begin(), drawn.effects.end(), [](const EffectDecision& d) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/study/study_ground.h"
+#include "compare/study/studied_scene.h"
 #include "render/render.h"
 
 namespace culet {
@@ -22,10 +22,10 @@ RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes);
 
 /// Automatic settings at each tolerance, the engines, and one setting varied at a time about the
 /// scene's tolerance; most informative first.
-std::vector<StudyCandidate> study_design(const StudyGround& ground);
+std::vector<StudyCandidate> study_design(const StudiedScene& studied);
 
 /// Cheaper in one respect each: shallower, fewer wavelengths, one effect less, ...
-std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
+std::vector<StudyCandidate> cheaper_neighbours(const StudiedScene& studied,
                                                const RenderSettings& settings,
                                                const RenderStats& drawn);
 

@@ -152,7 +152,7 @@ StudyReference study_reference(const Scene& scene, double finest_tolerance, doub
         if (metric.stone_pixels() == 0 || first.stats.rays == 0)
             throw InputError("the camera does not see the stone: there is nothing to study");
         reference.samples = first.rays + second.rays;
-        reference.rough_samples = first.rough_rays + second.rough_rays;
+        reference.control_samples = first.rough_rays + second.rough_rays;
         reference.stats = std::move(first.stats);
         // The mean differs from either half by half their difference.
         reference.noise = metric.error_of(first.picture);

@@ -6,24 +6,24 @@
 
 namespace culet {
 
-std::vector<std::string> effects_left_out(const StudyGround& ground,
+std::vector<std::string> effects_left_out(const StudiedScene& studied,
                                           const RenderSettings& settings) {
     std::vector<std::string> names;
-    Scene scene = ground.scene;
+    Scene scene = studied.scene;
     scene.settings = settings;
     const OpticalSetup setup = make_optical_setup(scene);
-    for (const EffectDecision& decision : ground.exact.effects) {
+    for (const EffectDecision& decision : studied.exact.effects) {
         if (decision.on && !setup.on(decision.effect)) names.emplace_back(name_of(decision.effect));
     }
     return names;
 }
 
-std::string words_of(const StudyGround& ground, const RenderSettings& settings) {
+std::string words_of(const StudiedScene& studied, const RenderSettings& settings) {
     std::string words = settings.engine;
     if (settings.samples > 0)
         words +=
             fmt::format(", {} ray{} a pixel", settings.samples, settings.samples > 1 ? "s" : "");
-    if (!settings.wavelengths_nm.empty() && ground.exact.wavelengths_nm.size() > 1) {
+    if (!settings.wavelengths_nm.empty() && studied.exact.wavelengths_nm.size() > 1) {
         words += fmt::format(", {} wavelength{}", settings.wavelengths_nm.size(),
                              settings.wavelengths_nm.size() > 1 ? "s" : "");
     }
@@ -34,18 +34,18 @@ std::string words_of(const StudyGround& ground, const RenderSettings& settings) 
         words +=
             *settings.crystal_beams == CrystalBeams::merged ? ", waves merged" : ", waves split";
     }
-    const std::vector<std::string> out = effects_left_out(ground, settings);
+    const std::vector<std::string> out = effects_left_out(studied, settings);
     if (!out.empty()) words += fmt::format(", without {}", fmt::join(out, ", "));
     return words;
 }
 
-std::string key_of(const StudyGround& ground, const RenderSettings& settings) {
+std::string key_of(const StudiedScene& studied, const RenderSettings& settings) {
     return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", settings.engine, settings.samples,
                        settings.tolerance, settings.depth, settings.effects_auto,
                        fmt::join(settings.wavelengths_nm, " "),
                        settings.crystal_beams ? static_cast<int>(*settings.crystal_beams) : -1,
                        settings.cut_weight.value_or(-1), settings.split_weight.value_or(-1),
-                       fmt::join(effects_left_out(ground, settings), " "));
+                       fmt::join(effects_left_out(studied, settings), " "));
 }
 
 }  // namespace culet

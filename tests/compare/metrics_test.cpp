@@ -270,7 +270,8 @@ TEST(ScoredPart, OfTheFrameGivesTheWholeFramesScores) {
     }
 }
 
-// Expected: keys are names in the JSON, and a perfect score is stretched beyond any other.
+// Expected: keys are names in the JSON, and the variance-stabilising transform of a better score is
+// not lower.
 TEST(ScoreTable, HasEachKeyOnceAndSaysWhichWayIsBetter) {
     std::set<std::string> keys;
     for (const ScoreKind& kind : score_kinds()) {

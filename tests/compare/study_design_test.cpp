@@ -12,17 +12,17 @@
 namespace culet {
 namespace {
 
-StudyGround ground_of(const Scene& scene) {
-    StudyGround ground;
-    ground.scene = scene;
+StudiedScene studied_scene(const Scene& scene) {
+    StudiedScene studied;
+    studied.scene = scene;
     Scene exact = scene;
     exact.settings = exact_settings(scene, 0.001, k_node_counts.back());
     const OpticalSetup setup = make_optical_setup(exact);
-    ground.exact.effects.assign(setup.effects.begin(), setup.effects.end());
-    ground.exact.wavelengths_nm = setup.wavelengths_nm;
-    ground.exact.depth = 30;
-    ground.tolerances = {0.1, 0.01};
-    return ground;
+    studied.exact.effects.assign(setup.effects.begin(), setup.effects.end());
+    studied.exact.wavelengths_nm = setup.wavelengths_nm;
+    studied.exact.depth = 30;
+    studied.tolerances = {0.1, 0.01};
+    return studied;
 }
 
 std::set<std::string> settings_of(const std::vector<StudyCandidate>& design,
@@ -53,8 +53,8 @@ TEST(StudyDesign, LeavesNothingOpenInTheReference) {
 }
 
 TEST(StudyDesign, VariesWhatTheSceneCallsFor) {
-    const StudyGround ground = ground_of(test::cube_scene());
-    const auto design = study_design(ground);
+    const StudiedScene studied = studied_scene(test::cube_scene());
+    const auto design = study_design(studied);
     EXPECT_EQ(settings_of(design, "automatic").size(), 2u);
     EXPECT_EQ(settings_of(design, "effects"),
               (std::set<std::string>{"without dispersion", "without polarization", "none"}));
@@ -69,29 +69,29 @@ TEST(StudyDesign, VariesWhatTheSceneCallsFor) {
 TEST(StudyDesign, OfACrystalHasItsWaves) {
     Scene scene = test::cube_scene();
     scene.stone.material = catalogue_material("zircon_high");
-    const auto design = study_design(ground_of(scene));
+    const auto design = study_design(studied_scene(scene));
     EXPECT_EQ(settings_of(design, "crystal beams"), (std::set<std::string>{"merged", "split"}));
     EXPECT_TRUE(settings_of(design, "effects").contains("without birefringence"));
 }
 
 TEST(StudyDesign, IsDrawnByTheReferenceWhereBeamsCannot) {
-    StudyGround ground = ground_of(test::cube_scene());
-    ground.beams = false;
-    for (const StudyCandidate& one : study_design(ground)) {
+    StudiedScene studied = studied_scene(test::cube_scene());
+    studied.beams = false;
+    for (const StudyCandidate& one : study_design(studied)) {
         EXPECT_TRUE(one.settings.engine == "reference" || one.automatic) << one.setting;
     }
 }
 
 TEST(StudyDesign, NeighboursDifferInOneThingEach) {
-    const StudyGround ground = ground_of(test::cube_scene());
-    RenderSettings settings = exact_settings(ground.scene, 0.01, 15);
+    const StudiedScene studied = studied_scene(test::cube_scene());
+    RenderSettings settings = exact_settings(studied.scene, 0.01, 15);
     settings.engine = "beams";
-    RenderStats drawn = ground.exact;
+    RenderStats drawn = studied.exact;
     drawn.wavelengths_nm = settings.wavelengths_nm;
-    const auto neighbours = cheaper_neighbours(ground, settings, drawn);
-    std::set<std::string> keys{key_of(ground, settings)};
+    const auto neighbours = cheaper_neighbours(studied, settings, drawn);
+    std::set<std::string> keys{key_of(studied, settings)};
     for (const StudyCandidate& one : neighbours) {
-        EXPECT_TRUE(keys.insert(key_of(ground, one.settings)).second) << one.setting;
+        EXPECT_TRUE(keys.insert(key_of(studied, one.settings)).second) << one.setting;
         EXPECT_GE(one.settings.tolerance, settings.tolerance);
         EXPECT_LE(one.settings.wavelengths_nm.size(), 15u);
     }
@@ -99,15 +99,15 @@ TEST(StudyDesign, NeighboursDifferInOneThingEach) {
 }
 
 TEST(StudyDesign, TellsSettingsThatDrawTheSame) {
-    const StudyGround ground = ground_of(test::cube_scene());
-    const RenderSettings settings = exact_settings(ground.scene, 0.01, 15);
+    const StudiedScene studied = studied_scene(test::cube_scene());
+    const RenderSettings settings = exact_settings(studied.scene, 0.01, 15);
     RenderSettings other = settings;
     // The stone is clear: nothing is absorbed with it or without.
     other.effects[static_cast<std::size_t>(Effects::absorption)] = false;
-    EXPECT_EQ(key_of(ground, settings), key_of(ground, other));
+    EXPECT_EQ(key_of(studied, settings), key_of(studied, other));
     other.effects[static_cast<std::size_t>(Effects::polarization)] = false;
-    EXPECT_NE(key_of(ground, settings), key_of(ground, other));
-    EXPECT_EQ(words_of(ground, other),
+    EXPECT_NE(key_of(studied, settings), key_of(studied, other));
+    EXPECT_EQ(words_of(studied, other),
               "reference, 15 wavelengths, tolerance 0.01, without polarization");
 }
 

@@ -18,8 +18,8 @@ Calibration calibration() {
     Calibration result;
     result.hash = "c0ffee";
     result.keys = {"zncc", k_facet_tilts};
-    result.draws = {{World::facet_error, "0.1 degrees", 0.1, {0.9, 0.11}},
-                    {World::light, "", 0, {0.2, std::nullopt}}};
+    result.draws = {{Alternative::facet_error, "0.1 degrees", 0.1, {0.9, 0.11}},
+                    {Alternative::light, "", 0, {0.2, std::nullopt}}};
     return result;
 }
 

@@ -34,7 +34,7 @@ double root_mean_square(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// Independent witnesses of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224, a little less where the
+// Independent scores of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224, a little less where the
 // errors drawn (uniform, deviation 1.29) tell something too. Four weights of 72 draws cost 3 %; the
 // root mean square of 2000 is known to 1.6 %, of 72 to 8 %: three of each.
 TEST(ErrorRegression, IsAsGoodAsItsIndependentScoresAndSaysHowGood) {

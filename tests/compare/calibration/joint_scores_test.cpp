@@ -32,10 +32,10 @@ JointDraws drawn_scores(int each, std::mt19937_64& random) {
     return draws;
 }
 
-// Independent witnesses of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224; taken for four independent
+// Independent scores of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224; taken for four independent
 // ones, the first three would outweigh the better fourth: 0.5 * 12 / 28 and 0.25 * 16 / 28 make
 // 0.258.
-TEST(JointScores, CopiesOfAScoreAreOneWitness) {
+TEST(JointScores, CopiesOfAScoreCountOnce) {
     std::mt19937_64 random(7);
     const JointScores joint(drawn_scores(40, random));
     double squares = 0;

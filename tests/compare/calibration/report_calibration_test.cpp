@@ -34,7 +34,7 @@ CalibratedVerdict calibrated_as_match() {
     Calibration calibration;
     calibration.keys = {"zncc"};
     calibration.notes = {k_hostile};
-    calibration.draws.push_back({World::light, "", 0, {0.2}});
+    calibration.draws.push_back({Alternative::light, "", 0, {0.2}});
     CalibratedVerdict verdict;
     verdict.calibration = calibration;
     verdict.headline =
@@ -52,7 +52,7 @@ CalibratedVerdict calibrated_as_match() {
     NullStatistics null;
     null.draws = 24;
     verdict.nulls = {null};
-    verdict.hypotheses = {{World::material, k_hostile, 0.9, verdict.equivalent}};
+    verdict.hypotheses = {{Alternative::material, k_hostile, 0.9, verdict.equivalent}};
     return verdict;
 }
 

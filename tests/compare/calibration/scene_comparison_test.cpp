@@ -213,8 +213,8 @@ TEST(Calibrate, UnderTheSameLightFromEverywhereHasNoWrongLight) {
     options.largest = 60;
     const Calibration calibration = calibrate(scene, renderer.picture(), renderer, options);
     for (const CalibrationDraw& draw : calibration.draws) {
-        EXPECT_NE(draw.world, World::light);
-        EXPECT_NE(draw.world, World::both);
+        EXPECT_NE(draw.alternative, Alternative::light);
+        EXPECT_NE(draw.alternative, Alternative::both);
     }
     EXPECT_FALSE(calibration.notes.empty());
 }

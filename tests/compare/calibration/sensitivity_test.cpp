@@ -28,13 +28,15 @@ Calibration synthetic_calibration(int draws = 8) {
     levels.push_back(0);
     for (const double deg : levels) {
         for (int k = 0; k < draws; ++k) {
-            calibration.draws.push_back({World::facet_error, "", deg, scores_near(deg, chance)});
+            calibration.draws.push_back(
+                {Alternative::facet_error, "", deg, scores_near(deg, chance)});
         }
     }
-    for (const World world : {World::light, World::pose, World::both}) {
+    for (const Alternative alternative :
+         {Alternative::light, Alternative::pose, Alternative::both}) {
         for (int k = 0; k < 24; ++k) {
             calibration.draws.push_back(
-                {world, "", 0, {0.2 + 0.1 * chance.normal(), 14 + chance.normal(), 0.4}});
+                {alternative, "", 0, {0.2 + 0.1 * chance.normal(), 14 + chance.normal(), 0.4}});
         }
     }
     return calibration;

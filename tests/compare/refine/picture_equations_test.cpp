@@ -41,14 +41,14 @@ PictureEquations equations(Chance& chance) {
     e.nuisances.col(0).setOnes();
     e.nuisances.col(1) = values(blurred_noise(chance));
     e.noise = Eigen::VectorXd::Constant(k_size * k_size, 0.01);
-    e.bent = Eigen::VectorXd::Zero(k_size * k_size);
+    e.nonlinearity = Eigen::VectorXd::Zero(k_size * k_size);
     e.spread = Eigen::VectorXd::Constant(8, 1.0);
     e.blur = k_blur;
     return e;
 }
 
-Eigen::VectorXd solved(const MovesTold& told) {
-    return told.rows.colPivHouseholderQr().solve(told.values);
+Eigen::VectorXd solved(const DeterminedMoves& determined) {
+    return determined.rows.colPivHouseholderQr().solve(determined.values);
 }
 
 // Normalised errors of 30 pictures: rows say that each is normal with deviation 1. Of 240 the root
@@ -64,8 +64,8 @@ TEST(PictureEquations, SayHowSureTheyAre) {
         for (double& m : moves) m = chance.normal();
         e.difference = e.changes * moves + 0.3 * e.nuisances.col(0) - 0.2 * e.nuisances.col(1) +
                        0.2 * values(blurred_noise(chance));
-        const MovesTold told = moves_told(e);
-        const Eigen::VectorXd off = told.rows * moves - told.values;
+        const DeterminedMoves determined = solved_moves(e);
+        const Eigen::VectorXd off = determined.rows * moves - determined.values;
         squares += off.squaredNorm();
         count += int(off.size());
     }
@@ -79,13 +79,13 @@ TEST(PictureEquations, AreBlindToNuisances) {
     Chance chance(5);
     PictureEquations e = equations(chance);
     e.difference = e.changes.col(2) + 0.1 * values(blurred_noise(chance));
-    const Eigen::VectorXd without = solved(moves_told(e));
+    const Eigen::VectorXd without = solved(solved_moves(e));
     e.difference += 7 * e.nuisances.col(0) + 3 * e.nuisances.col(1);
-    const MovesTold told = moves_told(e);
-    EXPECT_LT((solved(told) - without).norm(), 1e-6);
+    const DeterminedMoves determined = solved_moves(e);
+    EXPECT_LT((solved(determined) - without).norm(), 1e-6);
     // And their amounts are found beside the moves.
     const Eigen::VectorXd amounts =
-        nuisances_beside(e, told, solved(told), Eigen::VectorXd::Zero(2));
+        nuisances_beside(e, determined, solved(determined), Eigen::VectorXd::Zero(2));
     EXPECT_NEAR(amounts[0], 7, 0.05);
     EXPECT_NEAR(amounts[1], 3, 0.3);
 }
@@ -95,22 +95,22 @@ TEST(PictureEquations, OfEqualPicturesAreFinite) {
     Chance chance(11);
     PictureEquations e = equations(chance);
     e.difference = Eigen::VectorXd::Zero(k_size * k_size);
-    const MovesTold told = moves_told(e);
-    EXPECT_TRUE(told.rows.allFinite());
-    EXPECT_LT(solved(told).norm(), 1e-12);
-    EXPECT_TRUE(
-        nuisances_beside(e, told, Eigen::VectorXd::Zero(8), Eigen::VectorXd::Zero(2)).allFinite());
+    const DeterminedMoves determined = solved_moves(e);
+    EXPECT_TRUE(determined.rows.allFinite());
+    EXPECT_LT(solved(determined).norm(), 1e-12);
+    EXPECT_TRUE(nuisances_beside(e, determined, Eigen::VectorXd::Zero(8), Eigen::VectorXd::Zero(2))
+                    .allFinite());
 }
 
-// A move that changes nothing is not told.
+// A move that changes nothing is not determined.
 TEST(PictureEquations, TellNothingOfWhatDoesNotShow) {
     Chance chance(7);
     PictureEquations e = equations(chance);
     e.changes.col(4).setZero();
     e.difference = 0.2 * values(blurred_noise(chance));
-    const MovesTold told = moves_told(e);
-    EXPECT_EQ(told.rows.rows(), 7);
-    EXPECT_LT(told.rows.col(4).norm(), 1e-6 * told.rows.norm());
+    const DeterminedMoves determined = solved_moves(e);
+    EXPECT_EQ(determined.rows.rows(), 7);
+    EXPECT_LT(determined.rows.col(4).norm(), 1e-6 * determined.rows.norm());
 }
 
 TEST(PictureMisfit, FindsAFlashAndNoneInNoise) {

@@ -8,7 +8,7 @@
 namespace culet {
 
 /// What the design needs to know of a scene.
-struct StudyGround {
+struct StudiedScene {
     Scene scene;                     ///< at the studied size
     RenderStats exact;               ///< of the reference: effects, wavelengths, depth
     bool beams = true;               ///< they can draw it
