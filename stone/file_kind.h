@@ -1,5 +1,5 @@
 #pragma once
-// Which kind of file a name names.
+// Tells what kind of file a name stands for.
 
 #include <filesystem>
 #include <string>
@@ -9,10 +9,11 @@ namespace culet {
 
 enum class FileKind { solid, stone, scene, job, material, picture, table, unknown };
 
-/// By extension; TOML files by their tables. A TOML file that cannot be read throws InputError.
+/// Goes by the extension and, for TOML files, by their tables. Throws InputError for a TOML file
+/// that cannot be read.
 FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// What a file of this kind is, in words that follow "is": "a scene", "a job", ...
+/// The kind in words that follow "is": "a scene", "a job", ...
 const char* words_for(FileKind kind);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Any mesh or cut design, with all that its file says.
+// Reads any mesh or cut design, with all that its file says.
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@
 namespace culet {
 
 struct SolidInput {
-    Solid solid;         ///< with its design, of a cut or a mesh that culet wrote of one
+    Solid solid;         ///< with its design, for a cut or for a mesh that culet wrote of one
     std::string format;  ///< obj, off, ply, stl, asc, gem
     std::vector<std::string> notes;
     std::vector<std::string> details;  ///< as in ReadCut
@@ -24,16 +24,16 @@ struct SolidInput {
 /// True for the extensions that `load_solid` reads.
 bool is_solid_file(const std::filesystem::path& file);
 
-/// Every command gets its stone here. A mesh whose shape shows that its table faces another way
-/// than +z (`table_by_shape`) is turned about the origin until it does, and a note says so; another
-/// note says where the size is none of a stone in mm. glTF's metres become mm.
+/// Reads a stone; every command uses this. A mesh whose shape shows that its table does not face +z
+/// (`table_by_shape`) is turned about the origin until it does. Notes report the turn, and a size
+/// that no stone in mm has. glTF's metres become mm.
 ///
-/// Throws InputError for an extension that it does not know, naming those that it does, for
-/// coordinates beyond 1e50, and for a mesh less than 1e-50 across.
+/// Throws InputError for unknown extensions (the message lists the known ones), for coordinates
+/// beyond 1e50, and for a mesh less than 1e-50 across.
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
 
-/// Where the width is given besides, a mesh's own size is no question any more: takes what
-/// `load_solid` or `read_stone` noted on it (`doubtful_size`) out of `notes`.
+/// Removes from `notes` what `load_solid` or `read_stone` said about the mesh's size
+/// (`doubtful_size`). Call it when the width is given separately.
 void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes);
 
 }  // namespace culet

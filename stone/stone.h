@@ -1,6 +1,5 @@
 #pragma once
-// Front door of the room: what a stone is. One model, used by the fit, the renderer and the
-// comparison.
+// The stone: one model for the fit, the renderer and the comparison.
 
 #include <array>
 #include <filesystem>
@@ -17,7 +16,7 @@
 namespace culet {
 
 /// Orientation of the crystal in the stone's frame: the unit directions along which the principal
-/// rays vibrate. Uniaxial: [0] is the optic axis and the others are any two normal to it. Biaxial:
+/// rays vibrate. Uniaxial: [0] is the optic axis, the others are any two normal to it. Biaxial:
 /// alpha, beta, gamma. Isotropic: unused.
 struct CrystalFrame {
     std::array<Vec3, 3> axes{Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
@@ -26,43 +25,43 @@ struct CrystalFrame {
 struct Stone {
     std::string name;
     Solid solid;                       ///< in `unit`
-    LengthUnit unit = LengthUnit::mm;  ///< of the solid and of every length about it
+    LengthUnit unit = LengthUnit::mm;  ///< of the solid and of all lengths of the stone
     Material material;
     CrystalFrame crystal;
-    std::string up_facet;  ///< facet whose normal is up; empty: `up` is given as a vector
+    std::string up_facet;  ///< the facet whose normal is up; empty: `up` is given as a vector
     Vec3 up{0, 0, 1};      ///< unit; inclinations are measured from it
-    /// The unit direction of the mesh file that was turned to +z (upright.h). Directions and places
-    /// that a stone file states are the file's.
+    /// The unit direction of the mesh file that was turned to +z (upright.h). A stone file states
+    /// its directions and places in the mesh file's frame.
     Vec3 file_up{0, 0, 1};
     bool azimuth_from_mesh =
-        false;  ///< azimuths count from the mesh's +x (else their zero is free)
+        false;  ///< true: azimuths count from the mesh's +x; false: their zero is free
     bool convex = true;
-    /// Facets NAME, NAME.1, ... are facets of a tier (a cut design, or a mesh that culet wrote);
-    /// else they may be pieces of one facet that a hand drew.
+    /// True when facets NAME, NAME.1, ... are the facets of a tier (a cut design, or a mesh that
+    /// culet wrote). Otherwise they may be pieces of one facet that somebody drew by hand.
     bool facets_are_whole = false;
-    std::vector<Change> changed;  ///< of its mesh, against what was given
+    std::vector<Change> changed;  ///< what reading changed of its mesh
 };
 
-/// What `load_solid` (solid_input.h) reads, as a stone file takes it.
+/// What a stone file takes from `load_solid` (solid_input.h).
 struct SolidFile {
     Solid solid;
     std::vector<std::string> notes;
-    std::vector<std::string> details;  ///< of cut files, as in ReadCut
+    std::vector<std::string> details;  ///< for cut files, as in ReadCut
     bool facets_are_whole = false;     ///< see Stone
     Vec3 file_up{0, 0, 1};             ///< see Stone
     std::vector<Change> changed;       ///< see Stone
 };
 
-/// How a mesh is to stand: table up by its shape, or as the file has it.
+/// Whether reading turns a mesh so that its table is up, or leaves it as in the file.
 enum class Orientation { upright, as_given };
 SolidFile read_solid(const std::filesystem::path& file,
                      Orientation standing = Orientation::upright);
 
-/// What is odd about a mesh of this size if it is in mm, and what to do; empty: nothing.
+/// Says what is odd about this mesh's size if it is in mm, and what to do; empty: nothing is odd.
 std::string doubtful_size(const Solid& solid);
 
-/// Throws InputError when write_solid has no format for the name's ending: asked for before the
-/// work whose result is to be written.
+/// Throws InputError when write_solid has no format for this extension. Call it before long work
+/// whose result is to be written.
 void require_solid_name(const std::filesystem::path& file);
 
 /// Writes by extension: .obj .off .ply .stl .asc

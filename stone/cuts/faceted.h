@@ -1,5 +1,5 @@
 #pragma once
-// Cuts with straight sides.
+// Cuts with straight sides: step cuts and the princess.
 
 #include <vector>
 
@@ -9,20 +9,20 @@ namespace culet {
 
 struct StepTier {
     double angle = 0.7;  ///< of every facet of the tier, radians
-    double height = 1;   ///< mm that the tier climbs
+    double height = 1;   ///< mm, height of the tier
 };
 
 struct StepProportions {
     double length = 8, width = 6,
-           corner = 1;  ///< mm; `corner`: how much of each side the corner takes
+           corner = 1;  ///< mm; `corner`: how much each corner takes off a side
     double girdle = 0.15;
     std::vector<StepTier> crown,
-        pavilion;  ///< from the girdle outwards; the last pavilion tier runs to the keel
+        pavilion;  ///< from the girdle outwards; the last pavilion tier ends in the keel
 };
 
-/// Eight sides (four when `corner` is 0); within a tier all sides have one slope, so that tiers
-/// meet in level edges and the pavilion ends in a keel. Throws InputError when tiers close before
-/// the table.
+/// Eight sides (four when `corner` is 0). All sides of a tier have one slope, so tiers meet in
+/// level edges and the pavilion ends in a keel. Throws InputError when tiers close before the
+/// table.
 Solid step_cut(const StepProportions& proportions);
 
 struct PrincessProportions {

@@ -1,5 +1,5 @@
 #pragma once
-// Girdle outlines seen from above: where the mains and the breaks between them stand.
+// Girdle outlines seen from above, with the places of the mains and of the breaks between them.
 
 #include <glm/vec2.hpp>
 #include <vector>
@@ -8,21 +8,21 @@ namespace culet {
 
 using Vec2 = glm::dvec2;
 
-/// Points in turn, counter-clockwise: mains[0] (azimuth 0), breaks[0], mains[1], breaks[1], ...
-/// `tangents[i]` is the direction in which main i runs along the girdle.
+/// Points in counter-clockwise order: mains[0] (azimuth 0), breaks[0], mains[1], breaks[1], ...
+/// `tangents[i]` is the girdle's direction at main i.
 struct Outline {
     std::vector<Vec2> mains, breaks, tangents;
-    /// Further girdle corners from mains[i] to breaks[i] (arcs[2 i]) and on to mains[i + 1]
-    /// (arcs[2 i + 1]). Empty: the girdle runs straight there.
+    /// Further girdle corners between mains[i] and breaks[i] (arcs[2 i]), and between breaks[i] and
+    /// mains[i + 1] (arcs[2 i + 1]). Empty: the girdle is straight there.
     std::vector<std::vector<Vec2>> arcs;
     int notch = -1;  ///< the break that is a notch (heart); -1: the outline is convex
 };
 
-/// Each stretch between a main and a break gets `segments` (at least 1) girdle facets.
+/// Each stretch between a main and a break has `segments` (at least 1) girdle facets.
 Outline ellipse_outline(double length, double width, int mains, int segments = 1);
 /// Two circular arcs that meet in points at +x and -x.
 Outline marquise_outline(double length, double width);
-/// A half circle at -x, and two arcs that run from it without a break to a point at +x.
+/// A half circle at -x, and two arcs that continue it smoothly to a point at +x.
 Outline pear_outline(double length, double width);
 /// Three arcs; `bulge` is their sagitta as a fraction of the side. A corner at +x.
 Outline trillion_outline(double width, double bulge);

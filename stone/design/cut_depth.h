@@ -1,5 +1,5 @@
 #pragma once
-// Where cutting a tier stops.
+// Finds where the cutting of each tier stops.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace culet {
 
-/// Fills in the depth of every step. A corner stops a tier only where its facets would miss it if
-/// they were cut deeper: where they meet by symmetry at any depth it is no stop, and a length is
-/// given instead. `normals`: of each facet as its tier and index setting have it, so that the
-/// unevenness of a cut stone is not taken for a stop.
+/// Fills in the depth of every step. A corner stops a tier only if the tier's facets would miss it
+/// when cut deeper. Facets that meet by symmetry at every depth give no stop: the depth is a length
+/// then. `normals` are the facets' directions by tier and index setting, so that the unevenness of
+/// a cut stone does not look like a stop.
 void find_depths(const Solid& solid, const std::vector<Vec3>& normals,
                  std::vector<CuttingStep>& list);
 

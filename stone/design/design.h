@@ -1,7 +1,7 @@
 #pragma once
 // A cut design as its author gives it: tiers in the order of cutting, each with its angle, index
-// settings and instruction. A solid knows the design that it was cut by, and its facets are found
-// in it by their names: so a fitted, recut or converted stone keeps tier and index of every facet.
+// settings and instruction. A solid knows the design that it was cut by and finds its facets there
+// by name, so a fitted, recut or converted stone keeps the tier and index of every facet.
 
 #include <memory>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace culet {
 
-/// Where a facet is cut. Angle from the horizontal: 0 table, 90 girdle, both sides positive.
+/// Where a facet is cut. Angle from the horizontal: 0 table, 90 girdle, positive on both sides.
 struct CutSetting {
     double angle_deg = 0;
     bool pavilion = false;
@@ -22,19 +22,19 @@ struct CutSetting {
 };
 
 struct DesignFacet {
-    double index = 0;   ///< as it is given
+    double index = 0;   ///< as given
     std::string label;  ///< written beside it; empty: none
-    std::string facet;  ///< of the solid; empty: it bounds nothing, or repeats an earlier one
+    std::string facet;  ///< name in the solid; empty: it bounds nothing, or repeats an earlier one
 };
 
 struct DesignTier {
-    CutSetting setting;       ///< of all its facets, but for the index
+    CutSetting setting;       ///< of all its facets, except for the index
     std::string instruction;  ///< such as "Meet 1-2-G1"; empty: none
     std::vector<DesignFacet> facets;
 };
 
 struct Design {
-    double gear = 96;            ///< index teeth; negative counts the other way round
+    double gear = 96;            ///< index teeth; negative: they count the other way round
     bool gear_supposed = false;  ///< the file does not state it
     double gear_offset = 0;
     int symmetry = 1;
@@ -55,26 +55,26 @@ struct DesignPlace {
     int tier = -1, facet = -1;  ///< of the design; -1: it does not have the facet
 };
 
-/// Of each facet of the solid, by its name, in the solid's design.
+/// The place of each facet of the solid, by name, in the solid's design.
 std::vector<DesignPlace> places_of(const Solid& solid);
 
-/// What a cutter calls the tiers: the one label of a tier; what its labels have in common where no
-/// other tier has that too, else the first of them; P1, G1, C1, ... by side where it has none.
+/// A cutter's names of the tiers: the tier's one label; else what its labels have in common, if no
+/// other tier shares that; else the first label. Tiers without labels are P1, G1, C1, ... by side.
 std::vector<std::string> tier_titles(const Design& design);
 
-/// The design that a mesh shows: its tiers (tiers.h), pavilion before girdle before crown, the
-/// steepest first; their symmetry; index settings on a wheel of 96 teeth. z is up.
+/// The design that a mesh shows: its tiers (tiers.h) with pavilion before girdle before crown, the
+/// steepest first, their symmetry, and index settings on a wheel of 96 teeth. z is up.
 Design drawn_design(const Solid& solid);
 
-/// The solid's own, or else the drawn one.
+/// The solid's own design, or else the drawn one.
 Design cutting_design(const Solid& solid);
 
-/// Facets of one tier that a file gives line by line, because each has its own angle (a fitted
-/// stone), stand in one tier again: those of the same stem of a name (`C` of C1, `A` of A.1) that
-/// the solid's drawing has as one tier. Their tier has their mean angle and distance.
+/// Joins facets of one tier that a file gives one by one because each has its own angle (a fitted
+/// stone). Facets join when their names have one stem (`C` of C1, `A` of A.1) and the solid's
+/// drawing has them in one tier. The tier gets their mean angle and distance.
 void join_split_tiers(const Solid& solid, Design& design);
 
-/// As lines of GemCad's .asc, that tell facets' names besides; and back. Throws InputError.
+/// As lines of GemCad's .asc that hold the facets' names too, and back. Throws InputError.
 std::string design_text(const Design& design);
 Design design_in(std::string_view text);
 

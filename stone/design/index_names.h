@@ -1,6 +1,6 @@
 #pragma once
-// Facets as a cutter calls them: by tier and index setting, `A@76`. No spreadsheet takes that for a
-// number, as it does 1.10, and it tells which facet is meant.
+// Facets as a cutter calls them, by tier and index setting: `A@76`. Unlike 1.10, no spreadsheet
+// takes that for a number, and it tells which facet is meant.
 
 #include <string>
 #include <string_view>
@@ -10,19 +10,18 @@
 
 namespace culet {
 
-/// Of each facet the tooth of the index wheel under it, in (0, gear], as the solid's design has it
-/// (design.h); on another wheel, or without a design, as the facet stands. Nothing ("") of what
-/// lies level, and on a wheel of no teeth (0), which stands for one that nobody knows. To a
-/// hundredth of a tooth.
+/// For each facet its tooth of the index wheel, in (0, gear], to a hundredth of a tooth: by the
+/// solid's design (design.h), or by the facet's azimuth for another wheel or without a design.
+/// Empty ("") for level facets and for gear 0, which means that the wheel is not known.
 std::vector<std::string> index_teeth(const Solid& solid, double gear);
 
-/// `A@76` of a facet of the tier A (`tier_titles`) of the solid's design, on a wheel of 96 teeth;
-/// `A@12of64` on another. The facet's own name where it is of no tier, lies level, or where another
-/// facet would get the same name.
+/// `A@76` for a facet of tier A (`tier_titles`) of the solid's design on a wheel of 96 teeth;
+/// `A@12of64` on another. The facet's own name where it has no tier, lies level, or would share its
+/// index name with another facet.
 std::vector<std::string> index_names(const Solid& solid, double gear);
 
-/// The facets that such a name means: of this tier, or of this name, within half a tooth of the
-/// index. Empty: none. `name` without an @ means none.
+/// The facets of this tier, or of this name, within half a tooth of the index. Empty: none, or
+/// `name` has no @.
 std::vector<int> facets_at_index(const Solid& solid, std::string_view name);
 
 }  // namespace culet

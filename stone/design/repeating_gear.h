@@ -1,5 +1,5 @@
 #pragma once
-// The gear of a design that does not state it.
+// Guesses the gear of a design that does not state it.
 
 #include <optional>
 
@@ -7,12 +7,13 @@
 
 namespace culet {
 
-/// GemCad's own.
+/// GemCad's default.
 inline constexpr double k_usual_gear = 96;
 
 /// The one other gear of the trade on which the tiers repeat about the axis as the design's
-/// symmetry asks (where it states none, by any part of a turn from a half to a sixteenth) and no
-/// index is beyond it. Nothing where they do on the usual one, on none or on several.
+/// symmetry asks, with no index beyond the gear. Where the design states no symmetry, any turn from
+/// a half to a sixteenth counts. Returns nothing where the tiers repeat on the usual gear, on no
+/// gear, or on several.
 std::optional<double> repeating_gear(const Design& design);
 
 }  // namespace culet

@@ -9,38 +9,39 @@
 
 namespace culet {
 
-/// Level within 7 degrees and the largest such facet that looks up: table; such facets that look
-/// down: culet. Upright within 10 degrees: girdle.
+/// Table: the largest facet that faces up and is level within 7 degrees. Culet: facets that face
+/// down and are as level. Girdle: upright within 10 degrees.
 enum class StonePart { table, crown, girdle, pavilion, culet };
 
 StonePart part_of(const Solid& solid, int facet, int table, const Vec3& up);
 
-/// The table, or -1.
+/// Index of the table, or -1.
 int table_facet(const Solid& solid, const Vec3& up);
 
 /// Facets that reach from the girdle to the table (crown), or to the lowest corner or the culet
-/// (pavilion); where none does, those of the tier with the largest area. In the solid's order.
+/// (pavilion); where none does, the tier with the largest area. In the solid's order.
 std::vector<int> main_facets(const Solid& solid, const Vec3& up, bool crown);
 
-/// Facets of one tier of the solid's design (design.h), where it has one with all its facets. Else
-/// those of one part that belong together by the drawing itself: the symmetry about up that the
-/// drawing has takes them into each other (drawn_symmetry.h), or they have the same angle (to 0.02
-/// degrees, as designs are written) and distance, or name, or they have one name and the drawing
-/// comes near to a symmetry that takes them into each other. Names alone make no tier; they part
-/// one where they differ (see `tier_names_of`).
+/// Facets of one tier: of the solid's design (design.h), if it lists all facets. Otherwise facets
+/// of one part that the drawing itself puts together:
+/// - the drawing's symmetry about up maps them into each other (drawn_symmetry.h), or
+/// - they share the angle (to 0.02 degrees, as designs are written) and the distance, or the name,
+///   or
+/// - they share a name and the drawing comes near to a symmetry that maps them into each other.
+/// Names alone make no tier, but different names split one (see `tier_names_of`).
 struct FacetTier {
     StonePart part = StonePart::crown;
-    std::string name;  ///< see `tier_names_of`; empty: they have none in common
+    std::string name;  ///< see `tier_names_of`; empty: they share none
     std::vector<int> facets;
     double inclination = 0;  ///< mean, radians, 0 level .. pi/2 upright
-    double scatter = 0;      ///< by how much the drawing is off an inclination, one sigma, radians
-    std::string pattern;     ///< that matches these facets and no others (`C*`, `A.*`); or empty
+    double scatter = 0;      ///< the drawing's error of one inclination, one sigma, radians
+    std::string pattern;     ///< matches these facets and no others (`C*`, `A.*`); may be empty
 };
 
 /// In the order of their first facets.
 std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
 
-/// Of each of so many facets the index of its tier, whose `facets` list it; -1: it is of none.
+/// For each of `facets` facets the index of the tier that lists it; -1: none does.
 template <class Tier>
 std::vector<int> tier_of_each(const std::vector<Tier>& tiers, std::size_t facets) {
     std::vector<int> tier_of(facets, -1);
@@ -50,13 +51,13 @@ std::vector<int> tier_of_each(const std::vector<Tier>& tiers, std::size_t facets
     return tier_of;
 }
 
-/// What each facet's name has in common with those of its tier: `C` of C1; `A` of A.1, and of A
-/// where there is an A.1; `C1` of C1NE and `G` of GNE; nothing of f12, and of what facets above the
-/// girdle and below it have in common: an exporter's numbers.
+/// What each facet's name has in common with its tier's: `C` for C1; `A` for A.1, and for A where
+/// there is an A.1; `C1` for C1NE and `G` for GNE. Empty for f12, and for what facets above and
+/// below the girdle share, which are an exporter's numbers.
 std::vector<std::string> tier_names_of(const Solid& solid, const Vec3& up);
 
-/// `*` stands for any run of characters. `A.*` means the tier A of a cut design: A itself too,
-/// besides A.1, A.2, ...
+/// `*` matches any run of characters. `A.*` means the tier A of a cut design: A itself, A.1, A.2,
+/// ...
 bool name_matches(std::string_view pattern, std::string_view name);
 
 }  // namespace culet

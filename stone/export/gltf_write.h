@@ -1,5 +1,5 @@
 #pragma once
-// Stones for the web and for Blender: glTF 2.0.
+// Writes stones for the web and for Blender: glTF 2.0.
 
 #include <array>
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace culet {
 
-/// How the material looks, for the extensions KHR_materials_ior, _transmission, _volume and
-/// _dispersion. Nothing of it: a plain grey surface.
+/// The material's look, for the extensions KHR_materials_ior, _transmission, _volume and
+/// _dispersion. Without it the surface is plain grey.
 struct GltfLook {
     double index = 1.5;     ///< at 587.6 nm
     double dispersion = 0;  ///< 20 / Abbe number; 0: none
-    /// White light is this colour (linear sRGB, 0..1) after so many mm.
+    /// White light has this colour (linear sRGB, 0..1) after `attenuation_mm`.
     std::array<double, 3> attenuation_colour{1, 1, 1};
     std::optional<double> attenuation_mm;
 };
@@ -24,18 +24,18 @@ enum class GltfForm {
     text     ///< .gltf, with the buffer inside
 };
 
-/// A stone in the frame of `in_export_frame`. glTF's lengths are metres and its up is +y: both are
-/// written so, and the stone has its true size.
+/// `stone` is in the frame of `in_export_frame`. The file has glTF's metres and +y up, and the
+/// stone's true size.
 ///
-/// One mesh of one primitive, every facet flat with corners of its own (single precision). Extras
-/// of the mesh hold `facets`: name, first triangle and number of triangles, plane (`normal` in
-/// culet's frame, `offset_mm`), inclination and azimuth in degrees, area; extras of the node what
-/// is known of the stone: size, volume, weight, density, index, material. The same stone gives the
-/// same bytes. Throws InputError for a solid without facets.
+/// One mesh of one primitive; every facet is flat and has corners of its own (single precision).
+/// The mesh's extras hold `facets`: name, first triangle and number of triangles, plane (`normal`
+/// in culet's frame, `offset_mm`), inclination and azimuth in degrees, area. The node's extras hold
+/// what is known of the stone: size, volume, weight, density, index, material. The same stone gives
+/// the same bytes. Throws InputError for a solid without facets.
 std::string gltf_bytes(const Stone& stone, const std::optional<GltfLook>& look, GltfForm form);
 
-/// `GltfLook` of a material but for its colour, for which see render/export: mean index of the
-/// principal rays at the d line, and the dispersion from the F to the C line.
+/// The look of a material without its colour (see render/export): the principal rays' mean index at
+/// the d line, and the dispersion from the F to the C line.
 GltfLook gltf_look_of(const Material& material);
 
 }  // namespace culet

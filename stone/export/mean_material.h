@@ -1,12 +1,12 @@
 #pragma once
-// A material for programs that know no crystals.
+// Mean optical constants, for programs that do not know crystals.
 
 #include "stone/material/material.h"
 
 namespace culet {
 
-/// Mean over the directions of vibration, of a crystal as if it were none: uniaxial stones have two
-/// directions of the ordinary ray.
+/// Mean over the directions of vibration. In uniaxial crystals the ordinary ray has two of the
+/// three.
 template <class OfRay>
 double mean_over_rays(OpticCharacter optic, OfRay&& of_ray) {
     if (optic == OpticCharacter::isotropic) return of_ray(0);

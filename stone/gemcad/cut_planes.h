@@ -1,5 +1,5 @@
 #pragma once
-// The solid of a design's facets.
+// Builds the solid from a design's planes.
 
 #include <filesystem>
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace culet {
 
-/// A plane of a design's file: `name` may be empty; `place` tells people where it stands.
+/// A plane of a design's file. `name` may be empty; `place` tells people where it stands.
 struct CutPlane {
     Plane plane;
     std::string name, place;
     int tier = 0, facet = 0;  ///< of the design
 };
 
-/// Of each tier of the design its one label: that of all its facets, however many of them it
-/// stands at. Empty where a tier has none, or several: those are its facets' own.
+/// For each tier the one label of all its facets, if exactly one label stands in the tier. Empty
+/// where a tier has no label or several: those belong to single facets.
 std::vector<std::string> tier_labels(const Design& design);
 
-/// Fills in the solid with its design, notes and lists of planes. Throws InputError.
+/// Fills in `cut`: the solid with its design, notes and lists of planes. Throws InputError.
 void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& planes,
                  const CutReading& how, const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Lines of GemCad's .asc, in its Windows-1252.
+// Lines of GemCad's .asc, in Windows-1252 as GemCad writes them.
 
 #include <optional>
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace culet {
 
-/// A record of a keyword and text; control characters become blanks.
+/// A record: keyword and text. Control characters become blanks.
 std::string gemcad_line(char keyword, const std::string& text);
 
-/// A name is one word: blanks in it become `_`.
+/// A name as one word: blanks become `_`.
 std::string gemcad_word(const std::string& name);
 
-/// All before the first tier, and after the last.
+/// Everything before the first tier, and everything after the last.
 std::string gemcad_head(const Design& design, const std::optional<double>& refractive_index);
 std::string gemcad_feet(const Design& design);
 
