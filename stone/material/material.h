@@ -1,5 +1,5 @@
 #pragma once
-// What a stone is made of: refractive index and absorption of each principal ray, and density.
+// What a stone is made of: density, and refractive index and absorption of each principal ray.
 
 #include <array>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// Refractive index of one principal ray over wavelength.
+/// Refractive index of one principal ray as a function of wavelength.
 struct RefractiveIndex {
     enum class Form { constant, cauchy, sellmeier, table };
     Form form = Form::constant;
@@ -19,7 +19,7 @@ struct RefractiveIndex {
     /// n^2 = a0 + sum_i B_i L^2/(L^2 - C_i) + d L^2, L in micrometres, C_i in micrometres squared
     double a0 = 1, d = 0;
     std::vector<double> B, C;
-    Spectrum table;  ///< n over nm
+    Spectrum table;  ///< n by nm
 
     double at(double wavelength_nm) const;
     bool is_constant() const { return form == Form::constant; }

@@ -1,5 +1,6 @@
 #pragma once
-// A quantity over wavelength: piecewise linear between samples, held constant beyond its ends.
+// A quantity as a function of wavelength: linear between samples, constant beyond the first and
+// last.
 
 #include <vector>
 
@@ -10,8 +11,8 @@ public:
     Spectrum() = default;
     /// The same value at every wavelength.
     explicit Spectrum(double constant) : values_{constant} {}
-    /// `wavelengths_nm` strictly increasing and as many as `values`; throws InternalError
-    /// otherwise.
+    /// `wavelengths_nm` must increase strictly and have the length of `values`; throws
+    /// InternalError otherwise.
     Spectrum(std::vector<double> wavelengths_nm, std::vector<double> values);
 
     double at(double wavelength_nm) const;
@@ -28,7 +29,7 @@ private:
     std::vector<double> values_{0.0};
 };
 
-/// Sodium's line, at which handbooks and the trade state indices.
+/// The sodium line, at which handbooks and the trade state indices.
 inline constexpr double k_d_line_nm = 589.3;
 
 /// CIE 1931 2-degree observer, 360-830 nm in steps of 1 nm (CIE 15 tables).

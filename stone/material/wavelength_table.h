@@ -1,5 +1,6 @@
 #pragma once
-// Tables of a quantity by wavelength: two columns, as instruments, databases and people write them.
+// Reads tables of a quantity by wavelength: two columns, as instruments, databases and people write
+// them.
 
 #include <filesystem>
 #include <string>
@@ -9,15 +10,15 @@
 
 namespace culet {
 
-/// Reads lines of wavelength and value, split by commas, semicolons, tabs or blanks, with one
-/// header line or none, from short to long wavelengths or the other way. `quantity` (refractive
-/// index) is for messages.
+/// Reads lines of wavelength and value, separated by commas, semicolons, tabs or blanks, with at
+/// most one header line, in ascending or descending order. `quantity` (refractive index) is for
+/// messages.
 ///
-/// The unit of the wavelengths is the header's (nm, um, Angstrom) or else the one of nm, um,
-/// Angstrom, in this order, in which the table covers a part of the visible (380 to 780 nm). A
-/// value per cm (so says the header) becomes one per mm. What was told by the range, or converted,
-/// is said in `notes`. Throws InputError with the line of what is no number, of a wavelength given
-/// twice, and of a second table below the first; and where no unit, or more than one, can be meant.
+/// The wavelengths' unit is the header's (nm, um, Angstrom). Without one it is the first of nm, um,
+/// Angstrom in which the table covers a part of the visible (380 to 780 nm). A value per cm (by the
+/// header) becomes one per mm. `notes` report a guessed unit and conversions. Throws InputError
+/// with the line of what is not a number, of a repeated wavelength, and of a second table; and
+/// where no unit or several fit.
 Spectrum read_wavelength_table(const std::filesystem::path& file, const char* quantity,
                                std::vector<std::string>& notes);
 

@@ -1,12 +1,12 @@
 #pragma once
-// Which way round the faces of a surface run, told by their neighbours alone.
+// Makes the faces of a surface run the same way round, judged by their neighbours alone.
 
 #include <optional>
 #include <vector>
 
 namespace culet {
 
-/// A side of a face, from corner `low` to `high` where it runs `forward`.
+/// A side of a face between corners `low` and `high`; the face runs from low to high if `forward`.
 struct FaceSide {
     int low = -1, high = -1, face = -1;
     bool forward = true;
@@ -15,12 +15,12 @@ struct FaceSide {
 void add_sides(const std::vector<int>& corners, int face, std::vector<FaceSide>& sides);
 
 struct FacesToTurn {
-    std::vector<bool> turn;  ///< by face; of each part the fewer
-    int parts = 0;           ///< that do not hang together
+    std::vector<bool> turn;  ///< by face; in each part the minority
+    int parts = 0;           ///< number of connected parts
 };
 
-/// So that all faces 0 .. count - 1 that hang together run alike. Nothing where an edge has not two
-/// faces, or the surface has one side only.
+/// Which faces to turn so that all faces 0 .. count - 1 of a connected part run the same way round.
+/// Nothing where an edge does not have two faces, or the surface has only one side.
 std::optional<FacesToTurn> faces_to_turn(std::size_t count, std::vector<FaceSide> sides);
 
 }  // namespace culet

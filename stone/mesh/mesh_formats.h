@@ -1,5 +1,5 @@
 #pragma once
-// One reader and one writer a format; all read from memory. `file` is for messages only.
+// One reader and one writer per format; all read from memory. `file` is for messages only.
 
 #include <filesystem>
 #include <string>
@@ -14,10 +14,10 @@ FaceSoup parse_obj(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_off(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
-/// That of the format.
+/// Calls the format's parser.
 FaceSoup soup_of(std::string_view bytes, MeshFormat format, const std::filesystem::path& file);
 
-/// `with_planes`: facet planes in comments.
+/// `with_planes`: write the facets' planes in comments.
 std::string obj_text(const Solid& solid, bool with_planes = true);
 std::string off_text(const Solid& solid, bool with_planes = true);
 std::string ply_text(const Solid& solid, bool with_planes = true);

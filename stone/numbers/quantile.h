@@ -1,13 +1,13 @@
 #pragma once
-// The value below which a part of numbers lies.
+// Quantiles of a list of numbers.
 
 #include <algorithm>
 #include <vector>
 
 namespace culet {
 
-/// `share` of all but one, rounded down, are no larger: 0 the least, 1 the largest. There must be
-/// some.
+/// The number of rank floor(share (n - 1)): 0 the smallest, 1 the largest. `values` must not be
+/// empty.
 template <class Number>
 Number quantile(std::vector<Number> values, double share) {
     const auto rank =

@@ -1,6 +1,6 @@
 #pragma once
-// The only place where units are converted. Inside culet angles are radians and lengths are in the
-// stone's own unit; a name that carries another unit says so (`tilt_deg`, `depth_mm`).
+// The only place where units are converted. Inside culet, angles are radians and lengths are in the
+// stone's own unit; a name with another unit says so (`tilt_deg`, `depth_mm`).
 
 #include <numbers>
 #include <optional>

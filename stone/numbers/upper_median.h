@@ -1,12 +1,12 @@
 #pragma once
-// The middle one of numbers, for a usual size among sizes some of which are far off.
+// Median of a list, for a typical size where some are far off.
 
 #include <algorithm>
 #include <vector>
 
 namespace culet {
 
-/// Of an even count the upper one of the two in the middle. There must be some.
+/// For an even count the upper of the two middle values. `values` must not be empty.
 template <class Number>
 Number upper_median(std::vector<Number> values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

@@ -1,6 +1,6 @@
 #pragma once
-// Stops that are asked for in the middle of long work: steps deep down, to which no progress is
-// handed, ask by `heed_stop`.
+// Lets functions deep inside long work react to a stop although nobody hands them the progress:
+// they call `heed_stop`.
 
 #include "stone/progress/progress.h"
 
@@ -14,7 +14,7 @@ public:
     StopsHeeded(const StopsHeeded&) = delete;
     StopsHeeded& operator=(const StopsHeeded&) = delete;
 
-    /// To be handed on in place of `progress`: remembers the fraction that was told last.
+    /// Pass this on in place of `progress`: it remembers the last fraction reported.
     Progress progress();
 
 private:
@@ -24,7 +24,7 @@ private:
     StopsHeeded* outer_;
 };
 
-/// Throws Interrupted when the work around it was asked to stop.
+/// Throws Interrupted when the surrounding work was asked to stop.
 void heed_stop();
 
 }  // namespace culet

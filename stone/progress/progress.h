@@ -1,5 +1,5 @@
 #pragma once
-// How long work reports back. Libraries never print.
+// How long work reports its progress. Libraries never print.
 
 #include <functional>
 

@@ -1,5 +1,5 @@
 #pragma once
-// How near metal comes to a stone.
+// Distances between metal and stone.
 
 #include <array>
 #include <vector>
@@ -11,16 +11,16 @@ namespace culet {
 using Triangle = std::array<Vec3, 3>;
 
 /// Least distance between two triangles; 0 where they meet. After Ericson, Real-Time Collision
-/// Detection (2005), 5.1: of triangles apart it is that of two edges, or of a corner and a face.
+/// Detection (2005), 5.1: it is the distance of two edges, or of a corner and a face.
 double distance_between(const Triangle& a, const Triangle& b);
 
-/// The surface of a stone, asked for its distance from shells.
+/// The surface of a stone, for measuring its distance from shells.
 class StoneSurface {
 public:
     explicit StoneSurface(const Solid& solid);
 
-    /// From the shell's surface; 0 where they meet. A shell all inside is not told from one
-    /// outside. `up_to`: no distance above this is looked for.
+    /// Distance to the shell's surface; 0 where they meet. Does not tell a shell wholly inside from
+    /// one outside. Distances above `up_to` are not searched.
     double distance_to(const Shell& shell, double up_to) const;
 
 private:

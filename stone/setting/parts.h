@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a mounting, in the frame of a stone whose z is up.
+// The parts of a mounting. Frame: that of a stone with z up.
 
 #include <functional>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// What all parts are made from.
+/// The common inputs of all parts.
 struct SettingPlan {
     const Solid& solid;
     const StoneSurface& surface;
@@ -19,21 +19,20 @@ struct SettingPlan {
     double wire = 0;        ///< diameter
     double clearance = 0;   ///< least distance from the stone
     int sides = 0;          ///< of a round wire
-    PlanOutline base = {};  ///< middle line of the lowest rail of the gallery
+    PlanOutline base = {};  ///< centre line of the lowest rail of the gallery
     double base_height = 0;
 
-    /// Distances further than this are all the same: nothing is held so far off.
+    /// Distances above this need not be told apart: nothing is held so far off.
     double far() const { return 4 * wire; }
 };
 
-/// The shell that `make` makes for a distance from the stone, at the distance for which it comes as
-/// near as the clearance to within a thousandth of the wire. Throws InputError, with `what`, where
-/// none does.
+/// The shell of `make`, at the distance from the stone where its gap is the clearance to within a
+/// thousandth of the wire. Throws InputError, with `what`, where there is no such distance.
 Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& make,
                    const std::string& what);
 
-/// A place, and how far from it, against its outward direction, the base lies. Where the outline's
-/// normal misses the base (near sharp points) the direction is that to the base's middle.
+/// A place, with the distance to the base against its outward direction. Where the outline's normal
+/// misses the base (near sharp points), the direction is changed to that of the base's middle.
 struct FootedPlace {
     GirdlePlace place;
     double to_base = 0;
@@ -43,7 +42,7 @@ FootedPlace on_base(const SettingPlan& plan, GirdlePlace place);
 struct Prong {
     Shell shell;
     GirdlePlace place;
-    /// Its path below the girdle, in the section through the place.
+    /// The path below the girdle, in the section through the place.
     PlanPoint foot{0, 0}, shoulder{0, 0};
 };
 
@@ -55,11 +54,11 @@ struct Bezel {
 };
 Bezel make_bezel(const SettingPlan& plan);
 
-/// A rail round all prongs between base and girdle, as high as the stone leaves room for; nothing
+/// A rail around all prongs between base and girdle, as high as the stone leaves room for; nothing
 /// where it leaves none.
 std::optional<Shell> make_rail(const SettingPlan& plan, const std::vector<Prong>& prongs);
 
-/// A point of the section through a place.
+/// A point of the section through a place, in space.
 inline Vec3 in_space(const GirdlePlace& place, const PlanPoint& point) {
     const PlanPoint plan = place.at + point.x * place.outward;
     return {plan.x, plan.y, point.y};

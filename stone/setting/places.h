@@ -1,5 +1,5 @@
 #pragma once
-// Where prongs stand round a girdle.
+// Where prongs stand around a girdle.
 
 #include <vector>
 
@@ -7,14 +7,14 @@
 
 namespace culet {
 
-/// A place on the girdle's outline and the unit normal there.
+/// A place on the girdle's outline, with the unit normal there.
 struct GirdlePlace {
     PlanPoint at{0, 0}, outward{1, 0};
 };
 
-/// What of an outline may be gripped from outside: its convex hull, without the stretches that
-/// bridge a notch, and the corners on it. A corner is where the outline turns by 40 degrees or more
-/// within a fortieth of its length; two of them that one short side joins (a cut corner) are one.
+/// The parts of an outline that can be gripped from outside: its convex hull, except for the sides
+/// that bridge a notch, and the corners on it. A corner is where the outline turns by 40 degrees or
+/// more within a fortieth of its length; two that one short side joins (a cut corner) count as one.
 class GripOutline {
 public:
     explicit GripOutline(const PlanOutline& outline);
@@ -22,14 +22,14 @@ public:
     const PlanOutline& hull() const { return hull_; }
     int corners() const { return static_cast<int>(corners_.size()); }
 
-    /// As the trade has it: a prong at every corner, and as many beside as hold the stone. Of
-    /// outlines without corners rounded rectangles have 4, others 6.
+    /// The trade's number: a prong at every corner, and as many more as hold the stone. Without
+    /// corners: 4 for rounded rectangles, else 6.
     int usual_prongs() const;
 
-    /// `count` places, at least 2, counter-clockwise from azimuth 0. First the corners are taken
-    /// (spread evenly where there are more of them than prongs), then the rest stands between them
-    /// at even distances. Without corners they stand evenly about the x axis. Normals are means
-    /// over `width` of outline.
+    /// `count` places, at least 2, counter-clockwise from azimuth 0. Corners come first (evenly
+    /// chosen if there are more corners than prongs); the others stand at even distances between
+    /// them. Without corners all stand evenly about the x axis. Normals are means over `width` of
+    /// outline.
     std::vector<GirdlePlace> places(int count, double width) const;
 
 private:
@@ -44,8 +44,8 @@ private:
     double way_to(const PlanPoint& direction) const;
 
     PlanOutline hull_;
-    std::vector<double> ways_;   // of the hull's corners, round it from the first
-    std::vector<bool> bridges_;  // sides of the hull that lie off the outline
+    std::vector<double> ways_;   // arc lengths to the hull's corners, from the first
+    std::vector<bool> bridges_;  // sides of the hull that are not on the outline
     std::vector<double> corners_;
     double length_ = 0;
 };

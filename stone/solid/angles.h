@@ -1,11 +1,11 @@
 #pragma once
-// Where a facet faces.
+// The direction in which a facet faces.
 
 #include "stone/solid/solid.h"
 
 namespace culet {
 
-/// Inclination of a facet, radians, 0 (table or culet) .. pi/2 (girdle), from an up direction.
+/// Inclination of a facet against an up direction, radians: 0 (table or culet) .. pi/2 (girdle).
 double inclination(const Vec3& normal, const Vec3& up);
 
 /// Azimuth of a normal about +z, radians in [0, 2 pi), counter-clockwise from +x seen from above.

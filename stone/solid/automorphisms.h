@@ -1,7 +1,7 @@
 #pragma once
-// In how many ways a solid's facets, edges and corners may be exchanged so that who meets whom
-// stays the same. Purely combinatorial and exact: no length, no angle and no tolerance plays a
-// part, so that the answer is the same for a rough mesh and for a perfect stone.
+// The symmetries of a solid's combinatorics: ways to permute facets, edges and corners that keep
+// neighbours. No length, angle or tolerance enters, so the answer is the same for a rough mesh and
+// for a perfect stone.
 
 #include <vector>
 
@@ -9,37 +9,37 @@
 
 namespace culet {
 
-/// facets[f] and vertices[v] are where facet f and vertex v go.
+/// Facet f goes to facets[f], vertex v to vertices[v].
 struct Automorphism {
     std::vector<int> facets, vertices;
-    bool turns_over = false;  ///< a mirroring: loops that ran counter-clockwise run clockwise
+    bool turns_over = false;  ///< a mirroring: counter-clockwise loops become clockwise
 
     bool operator==(const Automorphism&) const = default;
 };
 
-/// All of them, the identity first, then in the order of the images of one edge. The surface must
-/// be closed (InternalError, see `find_faults`); of several pieces only the identity is given. Each
-/// is found by following the neighbours of one edge's image all over the surface (flag propagation;
-/// the map of a connected surface is fixed by the image of one flag), so there are at most 4 for
-/// each edge. Cost: edges x edges of the rarest shape of neighbourhood, at worst.
+/// All automorphisms, the identity first, then in the order of the images of one edge. The surface
+/// must be closed (InternalError, see `find_faults`); of several pieces only the identity is
+/// returned. Each is found by following the neighbours of one edge's image over the surface (flag
+/// propagation: the image of one flag fixes the map of a connected surface), so there are at most 4
+/// per edge. Worst-case cost: edges x edges with the rarest neighbourhood.
 std::vector<Automorphism> automorphisms(const Solid& solid);
 
-/// Those of `all` that leave facet `pole` where it is: turns about it and mirrorings through it.
+/// Those of `all` that keep facet `pole` in place: turns about it and mirrorings through it.
 std::vector<Automorphism> that_keep(const std::vector<Automorphism>& all, int pole);
 
-/// first, then second.
+/// Applies first, then second.
 Automorphism followed_by(const Automorphism& first, const Automorphism& second);
 
-/// How often it must be repeated until everything is back in its place.
+/// The number of repetitions that give the identity.
 int order_of(const Automorphism& automorphism);
 
-/// By how many of its own corners facet `pole`, which stays in its place, is turned
-/// counter-clockwise; its corner 0 goes to corner `steps`. Of n corners that is steps / n of a full
-/// turn, if the turned stone looks as before.
+/// By how many of its corners facet `pole`, which stays in place, is turned counter-clockwise: its
+/// corner 0 goes to corner `steps`. With n corners that is steps / n of a full turn, if the turned
+/// stone looks the same.
 int steps_of_turn(const Solid& solid, int pole, const Automorphism& automorphism);
 
-/// The facets that the maps take into each other, each orbit in the order in which repeated
-/// maps reach its members, orbits by their lowest facet.
+/// The orbits of the facets. Members are in the order in which repeated maps reach them, orbits in
+/// the order of their lowest facet.
 std::vector<std::vector<int>> facet_orbits(const std::vector<Automorphism>& group,
                                            std::size_t facets);
 

@@ -1,6 +1,7 @@
 #pragma once
-// The turns about up and the mirrorings through it under which a stone looks more or less like
-// itself: candidates from who meets whom (stone/solid/automorphisms.h), told apart by geometry.
+// The turns about up and mirrorings through it under which a stone looks more or less the same. The
+// candidates come from the combinatorics (stone/solid/automorphisms.h); geometry selects among
+// them.
 
 #include <string>
 #include <vector>
@@ -10,15 +11,15 @@
 
 namespace culet {
 
-/// An automorphism as a motion about +z: a turn by `turn`, or a mirroring that takes azimuth a to
-/// `turn` - a.
+/// An automorphism as a motion about +z: a turn by `turn`, or a mirroring of azimuth a to `turn` -
+/// a.
 struct AxisMotion {
     Automorphism map;
-    double turn = 0;  ///< radians; the one that fits the points best (Kabsch 1976, about one axis)
-    double misfit = 0;  ///< root mean square distance of moved points from where they should be
+    double turn = 0;    ///< radians; best fit to the points (Kabsch 1976, about one axis)
+    double misfit = 0;  ///< rms distance of the moved points from their images
 };
 
-/// All automorphisms as motions about +z. Those that turn the axis over have a large misfit.
+/// All automorphisms as motions about +z. Those that turn the axis over get a large misfit.
 std::vector<AxisMotion> motions_about_z(const std::vector<Automorphism>& all,
                                         const std::vector<Vec3>& points);
 
@@ -26,35 +27,36 @@ std::vector<AxisMotion> motions_about_z(const std::vector<Automorphism>& all,
 struct AxisGroup {
     int order = 1;
     bool mirrors = false;
-    /// Of mirrorings: azimuth a goes to 2 `plane` - a (then in steps of a full turn / order).
+    /// Mirrorings take azimuth a to 2 `plane` - a, followed by turns of full turn / order.
     double plane = 0;
     struct Element {
         std::vector<int> facets;
-        int steps = 0;  ///< of a full turn / order
+        int steps = 0;  ///< turn in units of full turn / order
         bool mirrored = false;
     };
     std::vector<Element> elements;  ///< the identity first
 
     bool is_trivial() const { return order == 1 && !mirrors; }
-    /// C8, C8v; Cs for a single mirror.
+    /// C8, C8v, ...; Cs for a single mirror.
     std::string name() const;
 };
 
-/// The largest group of motions with a misfit up to `largest_misfit` (in the points' unit).
+/// The largest group of motions with misfits up to `largest_misfit` (in the points' unit).
 AxisGroup largest_group(const std::vector<AxisMotion>& motions, double largest_misfit);
 
-/// All subgroups but the trivial one, the largest first; the group itself included. Subgroups that
-/// a turn of the whole takes into each other stand side by side (C4v has two in C8v).
+/// All subgroups except the trivial one, the largest first, including the group itself. Subgroups
+/// that a turn of the group maps into each other are listed separately (C8v contains C4v twice).
 std::vector<AxisGroup> subgroups_of(const AxisGroup& group);
 
-/// Orbits of its facets: members with the element that takes the first one there.
+/// An orbit of the group's facets.
 struct FacetOrbit {
     std::vector<int> facets;
-    std::vector<AxisGroup::Element> from_first;  ///< one for each
-    /// Index of a mirroring that leaves the first facet in its place, or -1.
+    std::vector<AxisGroup::Element> from_first;  ///< takes the first facet to each member
+    /// Index of a mirroring that keeps the first facet in place, or -1.
     int own_mirror = -1;
     AxisGroup::Element mirror;
-    bool stays = false;  ///< a single facet that all turns leave in its place, order > 1: level
+    bool stays = false;  ///< a single facet that all turns keep in place (order > 1), so it is
+                         ///< level
 };
 std::vector<FacetOrbit> orbits_of(const AxisGroup& group, std::size_t facets);
 

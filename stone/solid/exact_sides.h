@@ -1,5 +1,5 @@
 #pragma once
-// On which side: exact answers for points given in doubles (CGAL's
+// Exact side tests for points given in doubles (CGAL's
 // Exact_predicates_inexact_constructions_kernel). All points must be finite.
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace culet {
 
-/// +1 when d lies above the plane through a, b, c (on the side from which they run
-/// counter-clockwise), -1 below, 0 exactly on it or when a, b, c lie on one line.
+/// +1 when d lies above the plane through a, b, c (from where they appear counter-clockwise), -1
+/// below, 0 exactly on it or when a, b, c lie on one line.
 int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 using Vec2 = std::array<double, 2>;
@@ -17,7 +17,7 @@ using Vec2 = std::array<double, 2>;
 /// +1 when a, b, c turn counter-clockwise, -1 clockwise, 0 when they lie on one line.
 int turn(const Vec2& a, const Vec2& b, const Vec2& c);
 
-/// Whether two closed segments have a point in common.
+/// True if two closed segments have a common point.
 bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 }  // namespace culet

@@ -1,5 +1,6 @@
 #pragma once
-// Who meets whom on a solid: the half-edge mesh (OpenMesh) of its facets, as plain tables.
+// The neighbours of facets, edges and corners: the half-edge mesh (OpenMesh) of a solid as plain
+// tables.
 
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace culet {
 
-/// An edge runs from corner `from` to `to` with facet `left` on its left as seen from outside, and
+/// An edge from corner `from` to `to`, with facet `left` on its left as seen from outside and
 /// `right` on the other side. Each edge appears once, with from < to.
 struct Edge {
     int from = -1, to = -1;
@@ -17,7 +18,7 @@ struct Edge {
 struct HalfEdges {
     std::vector<Edge> edges;  ///< sorted by (from, to)
     std::vector<std::vector<int>>
-        facets_of_vertex;  ///< round each vertex, counter-clockwise from outside
+        facets_of_vertex;  ///< around each vertex, counter-clockwise from outside
 };
 
 /// Throws InternalError when the facets are not a closed manifold: run `find_faults` first.

@@ -1,5 +1,5 @@
 #pragma once
-// The rotation that turns one direction into another and nothing else.
+// The least rotation that turns one direction into another.
 
 #include <glm/geometric.hpp>
 
@@ -8,17 +8,19 @@
 
 namespace culet {
 
-/// `v` after the least rotation that turns the unit `from` into the unit `to`. Where they are
-/// opposite there is no such rotation: half a turn about some axis across them.
+/// `v` after the least rotation that turns the unit `from` into the unit `to`. Opposite directions
+/// have no such rotation; then it is half a turn about some axis perpendicular to them.
 ///
-/// As two reflections (Householder 1958), in `from` and in half of the way: lengths and angles are
-/// kept to rounding however near to opposite the two are, where Rodrigues' formula loses them.
+/// It is two reflections (Householder 1958), in `from` and in the half-way direction. They keep
+/// lengths and angles to rounding even where the two are nearly opposite and Rodrigues' formula
+/// loses digits.
 inline Vec3 turned_with(const Vec3& from, const Vec3& to, const Vec3& v) {
     const Vec3 sum = from + to, apart = from - to;
     const double length = glm::length(sum);
     Vec3 half_way = length > 0 ? sum / length : perpendicular_to(from);
-    // Across what parts them, were their lengths the same to the last digit: where little is left
-    // of the sum, that digit turns it. Twice is enough (Kahan, in Parlett 1980, 6.9).
+    // Make half_way orthogonal to `apart`, as it would be if both lengths were exactly 1. Where
+    // `sum` is small, the last digit of the lengths turns it. Twice is enough (Kahan, in Parlett
+    // 1980, 6.9).
     for (int time = 0; time < 2 && glm::dot(apart, apart) > length * length; ++time) {
         half_way -= glm::dot(half_way, apart) / glm::dot(apart, apart) * apart;
         const double left = glm::length(half_way);

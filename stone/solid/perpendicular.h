@@ -1,5 +1,5 @@
 #pragma once
-// A direction beside another, where any will do.
+// Any direction perpendicular to a given one.
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// The geometry of a cut stone: planar facets with names that bound a solid.
+// The geometry of a cut stone: named planar facets that bound a solid.
 // Frame: right-handed, z up through the table, x to azimuth 0.
 
 #include <array>
@@ -16,7 +16,7 @@ using Vec3 = glm::dvec3;
 
 struct Design;  // design.h
 
-/// The plane normal . x = offset; the normal has unit length and points out of the stone.
+/// The plane normal . x = offset; the unit normal points out of the stone.
 struct Plane {
     Vec3 normal{0, 0, 1};
     double offset = 0;
@@ -25,52 +25,51 @@ struct Plane {
 /// Signed distance of a point: positive outside.
 double height_above(const Plane& plane, const Vec3& point);
 
-/// One polished face. The plane is the truth; the corners are the meets of planes, so that a
-/// corner of a design with near-miss meets may lie off the plane by as much as the meet misses.
+/// One polished face. The plane is authoritative. Corners are the meets of planes; where a design's
+/// meets miss, a corner may be off the plane by as much.
 struct Facet {
     std::string name;
     Plane plane;
     std::vector<int> corners;  ///< indices into Solid::vertices, counter-clockwise from outside
 };
 
-/// A closed polyhedron of named facets. Plain data: any function may be given a broken one, and
+/// A closed polyhedron of named facets. Plain data: functions may be given a broken one;
 /// `find_faults` (checks.h) says what is wrong with it.
 struct Solid {
     std::vector<Vec3> vertices;
     std::vector<Facet> facets;
-    /// What its facets were cut by, or are to be; null: not known. Facets keep their names.
+    /// The design that its facets were cut by, or are to be; null: unknown. Facets are found by
+    /// name.
     std::shared_ptr<const Design> design = nullptr;
 };
 
 /// Index of the facet of that name, or -1.
 int find_facet(const Solid& solid, std::string_view name);
 
-/// Largest distance from the middle of the bounding box to a vertex, twice. 0 without vertices.
+/// Twice the largest distance from the bounding box's middle to a vertex. 0 without vertices.
 double diameter(const Solid& solid);
 
-/// Extent along a direction (need not be unit): distance between caliper jaws.
+/// Distance between caliper jaws along a direction of any length.
 double width_along(const Solid& solid, const Vec3& direction);
 
-/// Volume by the divergence theorem over the facets' corner fans; negative when inside-out.
+/// By the divergence theorem over the facets' corner fans; negative when inside-out.
 double volume(const Solid& solid);
 
-/// Middle of the solid's volume.
 Vec3 centroid(const Solid& solid);
 
 double area(const Solid& solid, const Facet& facet);
-/// Area over the longest diagonal: of a slender facet about its width; 0 where all corners are one.
+/// Area / longest diagonal: about the width of a slender facet. 0 where all corners coincide.
 double narrow_width(const Solid& solid, const Facet& facet);
 
-/// Of two directions of any length, radians in [0, pi]; also of nearly parallel ones to the last
-/// digits.
+/// Angle between two directions of any length, radians in [0, pi]; accurate also for nearly
+/// parallel ones.
 double angle_between(const Vec3& a, const Vec3& b);
 
-/// The mean of a facet's corners.
 Vec3 corner_mean(const Solid& solid, const Facet& facet);
 
-/// Best-fitting plane through a loop of points by Newell's method (Newell 1972): the normal follows
-/// the loop counter-clockwise and the offset is that of the mean point. The normal is (0,0,0) when
-/// the loop has no area.
+/// Best-fitting plane through a loop of points (Newell 1972): the loop is counter-clockwise about
+/// the normal, and the offset is that of the mean point. The normal is (0,0,0) when the loop has no
+/// area.
 Plane plane_through(std::span<const Vec3> loop);
 
 /// Largest distance of a corner from its facet's plane.
@@ -93,15 +92,15 @@ struct HalfSpaceSolid {
     bool empty = false;                ///< true: no point satisfies all of them; solid is empty
 };
 
-/// The convex solid normal . x <= offset of all planes. All decisions are exact for the given
-/// doubles (CGAL's exact kernel), so meets that miss by rounding come out as short edges; see
-/// `contract_near_meets`. Cost about planes x vertices exact side tests.
+/// The convex solid of all points with normal . x <= offset. All decisions are exact for the given
+/// doubles (CGAL's exact kernel), so meets that miss by rounding give short edges; see
+/// `contract_near_meets`. Cost: about planes x vertices exact side tests.
 HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes);
 
-/// Contracts edges no longer than `tolerance` (a length; 0 joins corners that coincide), shortest
-/// first, so that meets that miss by
-/// no more become one corner. A merged corner lies at the least-squares meet of its planes, and the
-/// facets keep their planes. A facet that shrinks to nothing is left out and named in `vanished`.
+/// Contracts edges up to `tolerance` long (a length; 0 merges coincident corners), shortest first,
+/// so that meets that nearly meet become one corner. A merged corner lies at the least-squares meet
+/// of its planes; the facets keep their planes. A facet that vanishes is removed and named in
+/// `vanished`.
 struct ContractedSolid {
     Solid solid;
     int contracted_edges = 0;

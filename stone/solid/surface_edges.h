@@ -1,6 +1,6 @@
 #pragma once
-// How the facets of a solid hang together, for solids that may be broken in any way. Sound ones
-// have `half_edges`.
+// How the facets of a solid are connected, for solids that may be broken in any way. For sound ones
+// use `half_edges`.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// One side of an edge: facet `facet` runs along it from `low` to `high`, or back.
+/// One side of an edge: `facet` runs along it from `low` to `high` if `forward`, else back.
 struct EdgeSide {
     int low = -1, high = -1;
     bool forward = true;
@@ -17,20 +17,20 @@ struct EdgeSide {
     bool same_edge(const EdgeSide& other) const { return low == other.low && high == other.high; }
 };
 
-/// All sides of all facets, those of one edge together.
+/// All sides of all facets; those of one edge are adjacent.
 std::vector<EdgeSide> sorted_sides(const Solid& solid);
 
-/// All corners are vertices of the solid.
+/// True if all corners are vertices of the solid.
 bool has_valid_corners(const Solid& solid);
 
-/// At least three corners, none twice.
+/// True for at least three corners, none of them twice.
 bool has_distinct_corners(const Facet& facet);
 
-/// Vertices whose facets form more than one fan: facets are in one fan when they share an edge that
+/// Vertices whose facets form more than one fan. Facets are in one fan when they share an edge that
 /// ends there.
 std::vector<int> pinched_vertices(const Solid& solid, const std::vector<EdgeSide>& sides);
 
-/// Numbers that fall into groups as pairs of them are joined (Tarjan 1975).
+/// Disjoint sets of numbers (union-find, Tarjan 1975).
 class Groups {
 public:
     explicit Groups(std::size_t count);

@@ -1,5 +1,5 @@
 #pragma once
-// What was changed of an input against what was given, as reports list it.
+// What reading changed of an input, for reports.
 
 #include <string>
 
@@ -8,14 +8,14 @@ namespace culet {
 struct Change {
     std::string what, why;
     double before = 0, after = 0;
-    std::string measure;  ///< what `before` and `after` are
+    std::string measure;  ///< what `before` and `after` measure
 };
 
 inline Change facets_turned_round(const std::string& why, int count) {
     return {"facets turned round", why, double(count), 0, "facets inside out"};
 }
 
-/// For nlohmann's JSON of any kind.
+/// For any JSON type of nlohmann's.
 template <class Json>
 void to_json(Json& json, const Change& change) {
     json = Json{{"what", change.what},

@@ -1,5 +1,5 @@
 #pragma once
-// Tables as spreadsheets and people write them.
+// Reads tables as spreadsheets and people write them.
 
 #include <filesystem>
 #include <string>
@@ -9,19 +9,19 @@ namespace culet {
 
 struct CsvRow {
     std::vector<std::string> fields;  ///< without blanks at both ends
-    long line = 0;                    ///< where it begins, from 1
+    long line = 0;                    ///< where the row begins, from 1
 
     bool is_blank() const;
 };
 
 struct CsvTable {
-    std::vector<CsvRow> rows;  ///< the header first; neither blank rows nor comments (#)
-    char separator = ',';      ///< comma, semicolon or tab: told by the header
+    std::vector<CsvRow> rows;  ///< the header first; without blank rows and comments (#)
+    char separator = ',';      ///< comma, semicolon or tab, as in the header
 };
 
-/// RFC 4180 for any of the separators: fields may be quoted, a quote inside is doubled, a quoted
-/// field may run over lines. Excel's `sep=;` is passed over. Throws InputError: not
-/// readable, over 64 MB, no text (text_decoding.h), a quoted field that does not end well.
+/// RFC 4180 with any of the separators: fields may be quoted, a quote inside is doubled, a quoted
+/// field may contain line breaks. Excel's `sep=;` is skipped. Throws InputError if the file is not
+/// readable, is over 64 MB, is not text (text_decoding.h), or a quoted field does not end properly.
 CsvTable read_csv(const std::filesystem::path& file);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Writing without leaving halves: a file appears whole under its name, or not at all.
+// Writes files so that they appear complete under their name, or not at all.
 
 #include <filesystem>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// A temporary neighbour of `target`, moved into place by `commit()`; removed if it never is.
-/// Throws InputError when the folder is missing, cannot be written, or the target is a folder.
+/// A temporary file beside `target`. `commit()` moves it into place; otherwise it is removed.
+/// Throws InputError when the folder is missing or not writable, or the target is a folder.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path target);
@@ -16,7 +16,7 @@ public:
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// Where to write. Has the target's extension, so that format-by-name libraries work.
+    /// Where to write. It has the target's extension, for libraries that choose the format by it.
     const std::filesystem::path& path() const { return temporary_; }
     void commit();
 
@@ -25,20 +25,20 @@ private:
     bool committed_ = false;
 };
 
-/// Throws InputError when `target` could not be written; nothing for an empty name or `-`. Asked
-/// before long work, and before the first of several outputs, so that a failure leaves none of
-/// them.
+/// Throws InputError when `target` could not be written; does nothing for an empty name or `-`.
+/// Call it before long work and before the first of several outputs, so that a failure leaves none
+/// of them.
 void require_writable(const std::filesystem::path& target);
 
-/// Writes `text` to `target` whole or not at all; `-` is stdout.
+/// Writes `text` to `target`, complete or not at all; `-` is stdout.
 void write_text(const std::filesystem::path& target, std::string_view text);
 
-/// The whole file. Throws InputError when it is missing, a folder, not readable, or larger than
-/// `limit_bytes`.
+/// Reads the whole file. Throws InputError when it is missing, a folder, not readable, or larger
+/// than `limit_bytes`.
 std::string read_text(const std::filesystem::path& file, std::size_t limit_bytes = 256u << 20);
 
-/// What a file's first bytes say that it is (foreign_kind, text_decoding.h); empty where it cannot
-/// be read.
+/// What the file's first bytes say that it is (foreign_kind, text_decoding.h); empty where it
+/// cannot be read.
 std::string foreign_kind_of(const std::filesystem::path& file);
 
 }  // namespace culet

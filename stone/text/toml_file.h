@@ -1,5 +1,5 @@
 #pragma once
-// A TOML file as culet reads it: typed values, and errors that name the file, the line and the key.
+// A TOML file as culet reads it: typed values, and errors with file, line and key.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,10 +16,10 @@
 
 namespace culet {
 
-/// Files that came with a text, by the names that it calls them.
+/// Files that came with a text, under the names that the text uses.
 using HeldFiles = std::map<std::string, std::string, std::less<>>;
 
-/// One table of a file. A missing key gives nothing; a value of the wrong type, NaN or Inf throws
+/// One table of a file. A missing key gives nothing. A value of the wrong type, NaN or Inf throws
 /// InputError with file, line, what was found and what was expected.
 class TomlTable {
 public:
@@ -40,18 +40,18 @@ public:
     enum class Kind { missing, number, boolean, text, list, table, other };
     Kind kind(std::string_view key) const;
 
-    /// A path given in the file, seen from the file's folder.
+    /// A path given in the file, resolved against the file's folder.
     std::optional<std::filesystem::path> path(std::string_view key) const;
-    /// The bytes of a file that came with the text; nothing: it is to be read.
+    /// The bytes of a file that came with the text; null: read it from disk.
     const std::string* held_file(std::string_view key) const;
 
-    /// Throws InputError for the first key that is none of `known`, with the nearest known one.
+    /// Throws InputError for the first key that is not in `known`, with the nearest known one.
     void refuse_unknown(const std::vector<std::string_view>& known) const;
     /// Throws InputError at the line of `key` (or of the table when the key is missing).
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
     const std::filesystem::path& file() const;
-    long line() const;  ///< of the table, 0 when it came from the command line
+    long line() const;  ///< of the table; 0 when it came from the command line
 
 private:
     struct Content;
@@ -68,37 +68,37 @@ private:
                                   const std::vector<std::string>&, HeldFiles);
 };
 
-/// Parses a file and applies `key.path=value` overrides: the value is TOML (a number, "text",
-/// [list]) or, when it is none, taken as text. `reading.2.sigma=0.1` reaches into a list, counted
+/// Parses a file and applies `key.path=value` overrides. The value is TOML (a number, "text",
+/// [list]); otherwise it is taken as text. `reading.2.sigma=0.1` addresses a list item, counted
 /// from 0. Throws InputError.
 TomlTable read_toml(const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
-/// The same with `texts`, keys and values, in place of the file's own.
+/// The same with `texts`, keys and values, replacing the file's own.
 TomlTable read_toml_with(const std::filesystem::path& file,
                          const std::vector<std::pair<std::string, std::string>>& texts,
                          const std::vector<std::string>& overrides);
 
-/// A table that no file holds: `texts` are its keys and values. Paths in it are seen from the
+/// A table without a file: `texts` are its keys and values. Paths in it are resolved against the
 /// folder of `file`, and errors name `file`, which is not read. Throws InputError.
 TomlTable toml_beside(const std::filesystem::path& file,
                       const std::vector<std::pair<std::string, std::string>>& texts,
                       const std::vector<std::string>& overrides = {});
 
-/// The same of a text that is no file, with the files that it names; errors call it `name`. Throws
+/// The same for a text without a file, with the files that it names; errors call it `name`. Throws
 /// InputError.
 TomlTable toml_of_text(std::string_view text, const std::filesystem::path& name,
                        const std::vector<std::string>& overrides = {}, HeldFiles files = {});
 
-/// A file's text with `overrides` applied and the keys `without` (camera.fov) left out, to be kept
-/// in `folder`: texts that name files, as seen from the file's folder, name them from there.
-/// Comments are lost and keys sorted. Throws InputError.
+/// A file's text with `overrides` applied and the keys `without` (camera.fov) removed, to be stored
+/// in `folder`: relative file names are changed to be valid from there. Comments are lost and keys
+/// sorted. Throws InputError.
 std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides,
                            const std::vector<std::string>& without,
                            const std::filesystem::path& folder);
 
-/// The same of a text that is no file, whose paths stay as they are; errors call it `name`.
+/// The same for a text without a file; its paths stay as they are and errors call it `name`.
 std::string rewritten_text(std::string_view text, const std::filesystem::path& name,
                            const std::vector<std::string>& overrides,
                            const std::vector<std::string>& without);

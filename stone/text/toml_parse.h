@@ -1,5 +1,5 @@
 #pragma once
-// From text to toml++'s tables, and back. Private to the folder: shows toml++.
+// Converts text to toml++'s tables and back. Private to the folder: shows toml++.
 
 #include <toml++/toml.h>
 
@@ -23,9 +23,10 @@ toml::table parse_toml(std::string_view text, const std::filesystem::path& file,
                        const std::vector<std::string>& overrides);
 void apply_override(toml::table& root, const std::string& setting);
 
-/// Keys are paths with dots between their parts.
+/// Keys are dotted paths.
 void erase_keys(toml::table& root, const std::vector<std::string>& keys);
-/// Every text below `node` that names a file in `from` names it as seen from `to`.
+/// Rewrites every text below `node` that names a file relative to `from` so that it is relative to
+/// `to`.
 void move_paths(toml::node& node, const std::filesystem::path& from,
                 const std::filesystem::path& to);
 std::string formatted_toml(const toml::table& root);

@@ -1,27 +1,28 @@
 #pragma once
-// Numbers as people write them: with a decimal comma, with a unit.
+// Numbers as people write them, with a decimal comma or a unit.
 
 #include <string>
 #include <string_view>
 
 namespace culet {
 
-/// A unit that stands beside a number.
+/// A unit written beside a number.
 struct WrittenUnit {
     enum class Of { none, length, angle, weight, volume, percent, teeth } of = Of::none;
-    double factor = 1;  ///< to mm, degrees, carat or mm3; of a tooth, how many its wheel has
+    double factor = 1;  ///< to mm, degrees, carat or mm3; for a tooth, the number of teeth of its
+                        ///< wheel
     std::string word;   ///< as written
 };
 
-/// `text` as a number with an optional unit: 34.5; 33,8; 6.52mm; 33.8 deg; 33 degrees
-/// and 48 minutes by their signs; 12 of 96 or 12/96, a tooth of an index wheel.
-/// `problem` says what is wrong, for people; empty: nothing is.
+/// `text` as a number with an optional unit: 34.5; 33,8; 6.52mm; 33.8 deg; 33 degrees and 48
+/// minutes by their signs; 12 of 96 or 12/96, a tooth of an index wheel. `problem` says what is
+/// wrong, for people; empty: nothing.
 struct WrittenNumber {
     double value = 0;
     WrittenUnit unit;
     std::string problem;
 };
-/// `comma_separates`: the file's fields are split by commas, so that 1,234 may be a thousand.
+/// `comma_separates`: the file's fields are separated by commas, so 1,234 may be a thousand.
 WrittenNumber written_number(std::string_view text, bool comma_separates);
 
 }  // namespace culet
