@@ -14,7 +14,7 @@ FileKind kind_of_toml(const std::filesystem::path& file,
     if (root.has("fit") && !root.has("stone")) return FileKind::job;
     if (root.has("camera") || root.has("light")) return FileKind::scene;
     if (root.kind("stone") == TomlTable::Kind::table) return FileKind::stone;
-    // [render] of a job names a scene; of a scene, settings.
+    // A job's [render] names a scene; a scene's [render] holds settings.
     if (root.kind("render") == TomlTable::Kind::table && root.table("render")->has("scene"))
         return FileKind::job;
     if (root.has("render")) return FileKind::scene;
@@ -29,7 +29,7 @@ FileKind kind_of(const std::filesystem::path& file, const std::vector<std::strin
     const std::string extension = extension_of(file);
     if (extension == "toml") return kind_of_toml(file, overrides);
     if (extension == "csv") return FileKind::table;
-    // Formats that are not read are pictures as well: their reader says so.
+    // Include pictures that culet cannot read: the picture reader reports them.
     for (const char* picture : {"exr", "hdr", "pfm", "png", "jpg", "jpeg", "tif", "tiff", "heic",
                                 "heif", "avif", "webp", "gif", "bmp", "jxl", "jp2", "psd", "ppm"}) {
         if (extension == picture) return FileKind::picture;

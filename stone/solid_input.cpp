@@ -18,9 +18,8 @@ namespace culet {
 
 namespace {
 
-// Areas go with the fourth power before a root is taken, and edges may be 1e-13 of the whole: what
-// is larger or smaller runs out of a double's exponents, and is no unit that a stone is measured
-// in.
+// Areas are raised to the fourth power before a root is taken, and edges may be 1e-13 of the whole.
+// Beyond these bounds that overflows a double; no stone is measured in such units.
 constexpr double k_largest_coordinate = 1e50, k_smallest_extent = 1e-50;
 
 void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
@@ -39,7 +38,7 @@ void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
     }
 }
 
-// glTF counts metres in single precision (specification, 3.4 and 3.6.2); a stone, millimetres.
+// glTF has metres in single precision (specification, 3.4 and 3.6.2); a stone has millimetres.
 ReadSolid solid_of_gltf(const std::filesystem::path& file) {
     TriangleMesh mesh = read_triangle_mesh(file);
     FaceSoup soup;
@@ -54,7 +53,7 @@ ReadSolid solid_of_gltf(const std::filesystem::path& file) {
     return solid_from_faces(std::move(soup));
 }
 
-// Turns a mesh whose table faces another way than +z, and says so.
+// Turns a mesh whose table does not face +z, and adds a note.
 void stand_up(SolidInput& input) {
     const std::optional<int> table = table_by_shape(input.solid);
     if (!table) return;

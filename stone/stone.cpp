@@ -10,7 +10,7 @@
 namespace culet {
 
 std::string doubtful_size(const Solid& solid) {
-    // The least stones that are cut are half a millimetre wide, the largest below 0.2 m.
+    // The smallest cut stones are half a millimetre wide, the largest below 0.2 m.
     constexpr double k_least_mm = 0.3, k_largest_mm = 200, k_mm_per_m = 1000;
     const double across = diameter(solid);
     if (!(across > 0) || (across >= k_least_mm && across <= k_largest_mm)) return {};

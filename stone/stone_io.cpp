@@ -20,8 +20,8 @@ namespace {
 constexpr const char* k_no_material =
     "has no material: name one of the catalogue (material = \"diamond\") or add a [material] table";
 
-// What `up = "table"` means in a mesh whose facets have no names: the table by its shape, or else
-// the largest of the facets that look up more than sideways, or -1.
+// The facet that `up = "table"` means in a mesh without facet names: the table by its shape, else
+// the largest facet that faces up more than sideways, else -1.
 int table_of(const Solid& solid) {
     if (const auto table = table_by_shape(solid)) return *table;
     int best = -1;
@@ -45,8 +45,8 @@ Vec3 unit_vector(const TomlTable& table, const char* key, const Vec3& value) {
     return value / length;
 }
 
-// Turns the stone so that its `up` faces +z, and what the file says of the mesh's frame with it. A
-// facet that names `up` may be tilted as tables are.
+// Turns the stone so that its `up` faces +z, together with what the file states in the mesh's
+// frame. A facet named by `up` may be tilted as tables are.
 void stand_as_stated(bool crystal_is_given, StoneFile& file) {
     Stone& stone = file.stone;
     const Vec3 up = stone.up_facet.empty() ? stone.up : axis_near(stone.up);
@@ -88,8 +88,7 @@ CrystalFrame crystal_frame_in(const TomlTable& table, OpticCharacter optic) {
         }
         std::array<Vec3, 3> given;
         for (int i = 0; i < 3; ++i) given[i] = unit_vector(table, "principal_axes", (*axes)[i]);
-        // Axes typed with a few digits are made orthonormal; axes that are not meant to be are
-        // refused.
+        // Axes typed with a few digits are made orthonormal; axes that are far from it are refused.
         for (int i = 0; i < 3; ++i) {
             const double cosine = glm::dot(given[i], given[(i + 1) % 3]);
             if (std::abs(cosine) > std::sin(radians(1.0))) {
@@ -122,7 +121,7 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
     table.fail("", k_no_material);
 }
 
-// Tiers, index settings and words for the facets of a mesh, by their names.
+// Finds tiers, index settings and instructions for a mesh's facets by their names.
 void take_design(const TomlTable& table, Solid& solid) {
     const auto file = table.path("design");
     if (!file) return;

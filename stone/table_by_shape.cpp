@@ -15,18 +15,17 @@ namespace culet {
 
 namespace {
 
-// A table is among the largest facets: of the pieces of a stone that was scanned or triangulated
-// the others are smaller.
+// A table is among the largest facets; the pieces of a scanned or triangulated facet are smaller.
 constexpr std::size_t k_most_tables = 16;
-// Of the outline's area: tables of standard cuts take 0.2 to 0.7; the flat base of a rose, a
+// Share of the outline's area: tables of standard cuts take 0.2 to 0.7; the flat base of a rose, a
 // cabochon or a pyramid takes nearly all.
 constexpr double k_least_share = 0.1, k_most_share = 0.85;
-// What ends the other side: a point, an edge, or a culet this large against the table.
+// The other side ends in a point, an edge, or a culet of at most this share of the table's area.
 constexpr double k_largest_culet = 0.4;
-// Heights, of the depth: how far the corners of the outline lie from one plane, and how far below
-// the table that is.
+// Shares of the depth: how far the corners of the outline lie from one plane, and how far that
+// plane is below the table.
 constexpr double k_girdle_band = 0.2, k_least_crown = 0.02, k_most_crown = 0.45;
-// The table's middle off the outline's, in square roots of the outline's area.
+// Distance of the table's middle from the outline's, in square roots of the outline's area.
 constexpr double k_off_middle = 0.2;
 
 struct PlanCorner {
@@ -75,7 +74,7 @@ public:
 private:
     const Facet& facet_at(int facet) const { return solid_.facets[std::size_t(facet)]; }
 
-    // The area of all facets that face a direction to within `tilt`.
+    // The area of all facets that face `direction` to within `tilt`.
     double facing(const Vec3& direction, double tilt) const {
         double sum = 0;
         for (std::size_t f = 0; f < solid_.facets.size(); ++f) {

@@ -18,7 +18,7 @@ glm::dmat3 turn_upright(const Vec3& up) {
     if (up == -z) return {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
     glm::dmat3 turn(turned_with(up, z, {1, 0, 0}), turned_with(up, z, {0, 1, 0}),
                     turned_with(up, z, {0, 0, 1}));
-    // Along an axis no rounding is left.
+    // For a coordinate axis the rotation is exact.
     if (std::abs(up.x) + std::abs(up.y) + std::abs(up.z) == 1) {
         for (int k = 0; k < 3; ++k) turn[k] = glm::round(turn[k]);
     }

@@ -17,12 +17,12 @@ double cross(const Vec2& a, const Vec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Where the lines of two neighbouring mains cross.
+// Intersection of the lines of two neighbouring mains.
 Vec2 crossing(const Vec2& p, const Vec2& u, const Vec2& q, const Vec2& v) {
     return p + (cross(q - p, v) / cross(u, v)) * u;
 }
 
-// How far the ray from the axis through `y` runs inside the girdle p - q - r.
+// Length of the ray from the axis through `y` inside the girdle p - q - r.
 double radius_at(const Vec2& y, const Vec2& p, const Vec2& q, const Vec2& r) {
     const Vec2 ray = glm::normalize(y);
     const bool before = cross(ray, q) > 0;  // the ray meets p - q, else q - r
@@ -44,14 +44,15 @@ struct Builder {
     }
 };
 
-// The upper and the lower corners of the girdle from a main to a break or on to the next main.
+// The upper and lower corners of the girdle from a main to a break, or from a break to the next
+// main.
 struct GirdleStretch {
     std::vector<int> up, low;
     GirdleStretch(int up_from, int up_to, int low_from, int low_to)
         : up{up_from, up_to}, low{low_from, low_to} {}
 };
 
-// Beyond the chord of a stretch the halves run on towards each other: the girdle is thinnest in
+// Beyond the chord of a stretch the halves continue towards each other. The girdle is thinnest in
 // the middle of a stretch ("valley") and has its full height at mains and breaks ("hills").
 void add_scallops(Builder& b, GirdleStretch& stretch, const std::vector<Vec2>& arc, int star_meet,
                   int lower_meet) {
@@ -83,7 +84,7 @@ std::string numbered(const char* letter, std::size_t i) {
     return fmt::format("{}{}", letter, i + 1);
 }
 
-// A culet facet replaces the point: the pavilion mains are cut off level.
+// Replaces the point by a culet facet: cuts the pavilion mains off level.
 Solid cut_culet(const Solid& solid, double level) {
     std::vector<NamedPlane> planes;
     for (const Facet& facet : solid.facets) planes.push_back({facet.name, facet.plane});
@@ -125,8 +126,8 @@ Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
     for (std::size_t i = 0; i < k; ++i) {
         const std::size_t next = (i + 1) % k;
         const bool notch = static_cast<int>(i) == outline.notch;
-        // The edge between two mains runs over the line from the table's crossing to the girdle's,
-        // which is its enlargement; seen from above both lie on a ray from the axis.
+        // The edge between two mains lies over the line from the table's crossing to the girdle's.
+        // The girdle's is the table's enlarged, so seen from above both lie on a ray from the axis.
         const Vec2 y = crossing(outline.mains[i], outline.tangents[i], outline.mains[next],
                                 outline.tangents[next]);
         const double y_radius = glm::length(y);
@@ -208,7 +209,7 @@ Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
     }
     if (!(p.culet > 0)) return b.solid;
 
-    double deepest = 0;  // of the lower halves' meets, over the pavilion's depth
+    double deepest = 0;  // depth of the lower halves' meets / the pavilion's depth
     for (std::size_t i = 0; i < k; ++i) {
         deepest =
             std::max(deepest, 1 - (b.solid.vertices[lower_meet[i]].z - z_culet) / p.pavilion_depth);

@@ -23,8 +23,8 @@ const CutParameter k_azimuth{"azimuth", 0,     -360,
                              360,       "deg", "turns the stone about its axis, counter-clockwise"};
 const CutParameter k_girdle{"girdle", 3.5, 0.1, 20, "%", "girdle thickness, of the width"};
 
-// With one girdle facet a half the girdle is a polygon of even thickness; with more it follows the
-// circle and shows the trade's scallops, and `girdle` is its thickness at the mains.
+// With one girdle facet per half the girdle is a polygon of even thickness. With more it follows
+// the circle and shows the trade's scallops; `girdle` is then its thickness at the mains.
 const CutParameter k_girdle_segments{
     "girdle-segments", 1, 1, 16, "", "girdle facets under each upper half; 2 and more: scallops"};
 
@@ -53,7 +53,8 @@ CutParameter width_parameter() {
     return {"width", 5, 1e-3, 1e4, "mm", "width, along y"};
 }
 
-// Angles are those of the mains at the width's end, as a goniometer across the stone reads them.
+// Angles are those of the mains at the ends of the width, as a goniometer across the stone measures
+// them.
 BrilliantProportions proportions_of(const Values& v, double width) {
     BrilliantProportions p;
     p.table = v.at("table") / 100;
@@ -66,7 +67,7 @@ BrilliantProportions proportions_of(const Values& v, double width) {
     return p;
 }
 
-// The flattest step of a tier must still climb.
+// The flattest step of a tier must still rise.
 void require_rising_steps(const Values& v, const std::string& part) {
     const double angle = v.at(part + "-angle"), spread = v.at(part + "-spread");
     if (!(angle - spread >= 1)) {
@@ -92,12 +93,11 @@ Solid step_of(const Values& v) {
     p.length = p.width * v.at("ratio");
     p.corner = p.width * v.at("corner") / 100;
     p.girdle = p.width * v.at("girdle") / 100;
-    // The crown's height follows from its angles and the table.
     const auto unit = crown_tiers(v, 1);
     double inset = 0;
     for (const StepTier& tier : unit) inset += tier.height / std::tan(tier.angle);
     p.crown = crown_tiers(v, 0.5 * p.width * (1 - v.at("table") / 100) / inset);
-    // Of the way to the keel the steps take 30, 30 and 40 %.
+    // The steps take 30, 30 and 40 % of the way to the keel.
     const double share[] = {0.3, 0.3, 0.4};
     for (int t = 0; t < 3; ++t) {
         const double angle = radians(v.at("pavilion-angle") + (1 - t) * v.at("pavilion-spread"));
@@ -118,7 +118,8 @@ Solid princess_of(const Values& v) {
     return princess_cut(p);
 }
 
-// Round stones and their stretched images count the star as the trade does (star_of_length).
+// For round stones and their stretched images the star is measured as in the trade
+// (star_of_length).
 std::vector<CutParameter> with_star_length(std::vector<CutParameter> parameters) {
     for (CutParameter& p : parameters) {
         if (p.name == "star")
@@ -205,7 +206,7 @@ const std::vector<Recipe>& recipes() {
               35, 41, 35, 70)},
          [](const Values& v) {
              const double w = v.at("width");
-             // Mains stand on sides and corners; angles are those of the sides.
+             // Mains stand on sides and corners; the angles are those on the sides.
              const Outline outline = trillion_outline(w, v.at("bulge") / 100);
              return brilliant(outline, proportions_of(v, 2 * glm::length(outline.mains[1])));
          }},

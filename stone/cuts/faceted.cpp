@@ -35,8 +35,8 @@ std::vector<Side> sides_of(const StepProportions& p) {
     return sides;
 }
 
-// Tiers offset the outline inwards: each of the eight sides shortens by 2 tan(22.5 deg) times the
-// inset, so that the last tier that starts with eight sides sets how large a corner may be.
+// Tiers offset the outline inwards. Each of the eight sides shortens by 2 tan(22.5 deg) times the
+// inset, so the last tier that starts with eight sides limits the size of a corner.
 void require_eight_sides(const StepProportions& p) {
     double inset = 0;
     for (const std::vector<StepTier>* tiers : {&p.crown, &p.pavilion}) {
@@ -57,7 +57,7 @@ void require_eight_sides(const StepProportions& p) {
     }
 }
 
-// Planes -> solid, with every plane in it.
+// The solid of the planes; every plane must have a facet.
 Solid solid_of(const std::vector<NamedPlane>& planes, const char* what) {
     const HalfSpaceSolid raw = intersect_half_spaces(planes);
     const ContractedSolid clean = contract_near_meets(raw.solid, 1e-9 * diameter(raw.solid));
@@ -120,8 +120,8 @@ Solid princess_cut(const PrincessProportions& p) {
     const auto plane = [](const Vec3& a, const Vec3& b, const Vec3& c) {
         return plane_through(std::array<Vec3, 3>{a, b, c});
     };
-    // The crown: half of its height in two thirds of the way from table to girdle is the upper,
-    // flatter tier.
+    // The upper, flatter crown tier takes 60 % of the way from table to girdle and 45 % of the
+    // height.
     const double middle_scale = p.table + (1 - p.table) * 0.6,
                  middle_height = z_up + 0.55 * p.crown_height;
     for (const char* tier : {"C1", "C2", "G", "P"}) {
@@ -143,8 +143,8 @@ Solid princess_cut(const PrincessProportions& p) {
                                               corner(next, middle_scale, middle_height),
                                               corner(next, p.table, z_table))});
             } else {
-                // The profile in the side's middle bulges out from the straight line to the culet;
-                // each chevron is the triangle between two of its points and the girdle's corner.
+                // The profile in the middle of the side bulges out from the straight line to the
+                // culet. Each chevron is the triangle of two of its points and the girdle's corner.
                 std::vector<Vec3> profile;
                 for (int j = 1; j <= p.chevrons; ++j) {
                     const double t = static_cast<double>(j) / p.chevrons;
@@ -165,7 +165,7 @@ Solid princess_cut(const PrincessProportions& p) {
             }
         }
     }
-    // Planes through three points look either way: turn them outwards.
+    // Planes through three points may face inwards: turn them.
     for (NamedPlane& named : planes) {
         if (named.plane.offset < 0) named.plane = {-named.plane.normal, -named.plane.offset};
     }

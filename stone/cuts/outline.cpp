@@ -10,8 +10,8 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-// Even points are mains, odd ones breaks; a main runs parallel to the chord of its two breaks, so
-// that both lie inside its line on any convex outline.
+// Even points are mains, odd ones breaks. A main is parallel to the chord of its two breaks, so
+// both lie inside its line on any convex outline.
 Outline outline_of(const std::vector<Vec2>& points) {
     Outline outline;
     const std::size_t count = points.size();
@@ -23,14 +23,14 @@ Outline outline_of(const std::vector<Vec2>& points) {
     return outline;
 }
 
-// The lower half as the mirror image of points[1] .. points[last - 1] (points[0] and points[last]
-// on the axis).
+// Adds the mirror images of points[1] .. points[last - 1] (points[0] and points[last] lie on the
+// axis).
 std::vector<Vec2> mirrored(std::vector<Vec2> upper) {
     for (std::size_t i = upper.size() - 2; i >= 1; --i) upper.push_back({upper[i].x, -upper[i].y});
     return upper;
 }
 
-// On the arc from (tip, 0) to (0, half) that is level at (0, half); t = 0 at the tip.
+// The arc from (tip, 0), t = 0, to (0, half), where it is level.
 Vec2 tail_point(double tip, double half, double t) {
     const double radius = (tip * tip + half * half) / (2 * half);
     const double angle = (1 - t) * std::asin(tip / radius);
@@ -79,7 +79,7 @@ Outline pear_outline(double length, double width) {
 }
 
 Outline trillion_outline(double width, double bulge) {
-    // Corners on a circle; the extent across (y) is the side of the triangle.
+    // The corners lie on a circle; the extent along y is the triangle's side.
     const double corner = width / std::sqrt(3.0);
     std::vector<Vec2> points;
     for (int side = 0; side < 3; ++side) {
@@ -109,7 +109,7 @@ Outline cushion_outline(double length, double width, double exponent) {
     };
     std::vector<Vec2> points;
     for (int j = 0; j < 16; ++j) {
-        // Sines of multiples of a quarter turn must be exact zeros.
+        // Sines of multiples of a quarter turn must be exactly zero.
         static const double sines[] = {0, std::sin(k_pi / 8), std::sqrt(0.5), std::cos(k_pi / 8),
                                        1};
         const auto sine = [](int k) {
@@ -125,7 +125,8 @@ Outline cushion_outline(double length, double width, double exponent) {
 Outline heart_outline(double length, double width) {
     const double half = width / 2;
     const double lobe = 0.55 * half,
-                 off_axis = 0.45 * half;  // radius of a lobe, its middle beside the axis
+                 off_axis = 0.45 * half;  // radius of a lobe, and distance of its centre from the
+                                          // axis
     const double tip = length - lobe;
     std::vector<Vec2> upper;
     for (int j = 0; j <= 3; ++j) upper.push_back(tail_point(tip, half, j / 3.0));
@@ -138,7 +139,7 @@ Outline heart_outline(double length, double width) {
     upper.push_back({notch_x, 0});
     Outline outline = outline_of(mirrored(upper));
     outline.notch = 3;
-    // Beside the notch a main follows its lobe.
+    // Beside the notch the mains follow their lobes.
     for (const std::size_t main : {std::size_t{3}, std::size_t{4}}) {
         const Vec2 middle{0, main == 3 ? off_axis : -off_axis};
         const Vec2 out = glm::normalize(outline.mains[main] - middle);

@@ -15,9 +15,9 @@ namespace culet {
 
 namespace {
 
-// Facets that stop at a corner miss it by at least so much of what they are cut deeper: the girdle
-// of a standard brilliant, whose mains and halves differ by a degree, by 0.006; what meets by
-// symmetry by what is left of the index settings' digits, 1e-5.
+// Least rate at which facets miss the corner that stops them, per length that they are cut deeper.
+// The girdle of a standard brilliant, whose mains and halves differ by a degree, has 0.006; facets
+// that meet by symmetry have 1e-5, from the rounding of the index settings.
 constexpr double k_least_miss = 1e-3;
 // Cosine: opposite within 2 degrees.
 constexpr double k_opposite = -0.9994;
@@ -60,8 +60,7 @@ private:
         return solid_.facets[std::size_t(cut.facets.front())];
     }
 
-    // The axis of the index wheel: the design's, or the middle of the outline; at the height of the
-    // girdle.
+    // The axis of the index wheel: the design's, or the outline's middle; at the girdle's height.
     void find_middle() {
         Vec3 low(std::numeric_limits<double>::max()), high = -low;
         double sum = 0;
@@ -83,7 +82,7 @@ private:
         });
     }
 
-    // Height of the girdle's edge on the side of crown or pavilion.
+    // Height of the girdle's edge towards the crown or the pavilion.
     double rim(StonePart part) const {
         double rim = middle_.z;
         bool any = false;
@@ -102,8 +101,8 @@ private:
                plane.normal.z;
     }
 
-    // Whether the facets meet over the middle, or would if nothing else were cut: as real designs
-    // miss.
+    // True if the facets would meet over the middle if nothing else were cut, as nearly as in real
+    // designs.
     bool meet_over_the_middle(const std::vector<int>& facets) const {
         double least = 0, most = 0;
         for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -114,8 +113,8 @@ private:
         return facets.size() >= 3 && most - least <= k_largest_miss * diameter(solid_);
     }
 
-    // How far the planes at a corner come to miss each other at best when those of `step` are cut
-    // one unit deeper.
+    // By how much the planes at a corner miss each other (least squares) when those of `step` are
+    // cut one unit deeper.
     double miss_of(std::size_t corner, std::size_t step) const {
         glm::dmat3 normal_matrix(0.0);
         Vec3 right(0);
@@ -137,7 +136,7 @@ private:
         return std::sqrt(squares);
     }
 
-    // The corner of most facets cut before that stops the tier.
+    // Of the corners that stop the tier, the one with most facets cut before.
     CutDepth stop_of(std::size_t step) const {
         CutDepth best;
         std::size_t most = 0;
@@ -174,7 +173,7 @@ private:
         return {CutDepth::To::distance, {}, std::abs(height_above(plane, middle_))};
     }
 
-    // To the point across, where that is cut already.
+    // Height to the point on the other side, if that is cut already.
     CutDepth height(std::size_t step) const {
         const Plane& plane = facet_of(list_[step]).plane;
         double most = 0;
@@ -189,8 +188,8 @@ private:
         return cut_before ? CutDepth{CutDepth::To::height, {}, most} : CutDepth{};
     }
 
-    // What is left of a facet cut before, from the edge with this tier to its farthest corner,
-    // where that is cut already. The girdle is looked at first.
+    // The remaining width of a facet cut before, from its edge with this tier to its farthest
+    // corner, if that is cut already. Girdle facets are tried first.
     CutDepth left_of_a_neighbour(std::size_t step) const {
         const Facet& facet = facet_of(list_[step]);
         CutDepth best;
@@ -213,7 +212,7 @@ private:
         return best;
     }
 
-    // From the edge a b of a facet to its farthest corner; 0 where that is not cut yet.
+    // From edge a b of a facet to its farthest corner; 0 where that is not cut yet.
     double width_from(const Facet& facet, std::size_t a, std::size_t b, std::size_t step) const {
         const Vec3 along = glm::normalize(solid_.vertices[b] - solid_.vertices[a]);
         double most = 0;

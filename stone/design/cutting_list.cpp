@@ -14,7 +14,7 @@ namespace {
 
 // Designs give angles to 0.01 degrees.
 constexpr double k_same_deg = 0.005;
-// Teeth: what a design's own planes are off its index settings by rounding.
+// Teeth: the rounding error between a design's own planes and its index settings.
 constexpr double k_exact_index = 1e-3;
 
 double median_of(std::vector<double> values) {
@@ -33,7 +33,7 @@ public:
           teeth_(gear_of(solid, options)),
           shown_teeth_(options.shown_deg * teeth_ / 360),
           table_(table_facet(solid, {0, 0, 1})) {
-        // On the wheel that is asked for.
+        // Convert to the requested wheel.
         const double factor = teeth_ / std::abs(design_.gear);
         design_.gear *= factor;
         design_.gear_offset *= factor;
@@ -64,7 +64,7 @@ public:
                 normals[std::size_t(f)] = plane_of(cut, design_).normal;
             }
         }
-        // What was cut into the stone after its design.
+        // Facets cut into the stone after its design.
         for (std::size_t f = 0; f < done.size(); ++f) {
             if (done[f]) continue;
             const Facet& facet = solid_.facets[f];
@@ -90,7 +90,7 @@ private:
         return setting_of(solid_.facets[std::size_t(f)].plane, design_);
     }
 
-    // By which most facets stand turned against the design.
+    // Finds the turn against the design that most facets share.
     void find_turn() {
         std::vector<double> off;
         double most = 0;
@@ -142,7 +142,8 @@ private:
             double cheater = 0;
             IndexSetting::Tooth tooth;
         };
-        // A turn about the axis tilts a facet by its sine: what is told apart is a tilt.
+        // A turn about the axis tilts a facet by its sine, and what the machine can resolve is a
+        // tilt.
         constexpr double k_flattest_deg = 5;
         const double limit = shown_teeth_ / std::sin(radians(std::max(angle_deg, k_flattest_deg)));
         std::vector<Cut> cuts;

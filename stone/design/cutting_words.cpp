@@ -1,4 +1,4 @@
-// A cutting list in words.
+// Puts a cutting list into words.
 
 #include <fmt/format.h>
 

@@ -25,9 +25,8 @@ struct SinCos {
     double sin = 0, cos = 1;
 };
 
-/// Of part / whole of a full turn. Reduced to an eighth of a turn about the nearest quarter,
-/// without rounding, so that settings that mirror each other give values that mirror each other
-/// exactly.
+/// Of part / whole of a full turn. Reduced exactly to an eighth of a turn about the nearest
+/// quarter, so that settings that mirror each other give values that mirror each other exactly.
 SinCos of_turn(double part, double whole) {
     part = std::fmod(part, whole);
     const double rest = std::remainder(4 * part, whole);
@@ -57,7 +56,7 @@ bool digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// C of C1 and C12; A of A and A.1; C1 of C1NE and C1SW; empty: nothing.
+// C for C1 and C12; A for A and A.1; C1 for C1NE and C1SW; empty: nothing in common.
 std::string common_stem(const std::vector<std::string>& labels) {
     std::string stem = labels.front();
     for (const std::string& label : labels) {
@@ -75,7 +74,7 @@ std::string common_stem(const std::vector<std::string>& labels) {
     return stem;
 }
 
-// The letters before what tells the facets of a standard cut, or of one tier, apart.
+// The letters before the part of a name that tells facets of a standard cut, or of one tier, apart.
 std::string stem_of(const std::string& label) {
     const std::size_t point = label.rfind('.');
     if (point != std::string::npos && point > 0 && point + 1 < label.size() &&
@@ -103,7 +102,7 @@ int turn_of(StonePart part) {
     return 4;
 }
 
-// Without what rounding of planes leaves behind the digits that a design is given with.
+// Rounds to the digits of a design where the difference is the planes' rounding error.
 double without_rounding(double value) {
     constexpr double k_step = 1e-4, k_rounding = 1e-9;
     const double near = k_step * std::round(value / k_step);
@@ -144,7 +143,7 @@ CutSetting setting_of(const Plane& plane, const Design& design) {
     setting.distance = plane.offset;
     const double teeth = std::abs(design.gear);
     double index = design.gear_offset;
-    // A table has every index; the offset's is as good as any.
+    // A level table has no index of its own; any will do.
     if (level > 0) index += std::atan2(n.x, n.y) / (2 * std::numbers::pi) * design.gear;
     index = std::fmod(index, teeth);
     if (index <= 0) index += teeth;
@@ -228,7 +227,7 @@ void join_split_tiers(const Solid& solid, Design& design) {
             });
         return all ? own : std::string();
     };
-    // An author's tiers of one setting are meant to be apart.
+    // Tiers of one setting that an author lists separately are meant to be separate.
     const auto differ = [](const CutSetting& a, const CutSetting& b) {
         constexpr double k_digits = 1e-6;
         return std::abs(a.angle_deg - b.angle_deg) > k_digits ||

@@ -15,25 +15,26 @@ namespace culet {
 
 namespace {
 
-// A round stone misses its symmetry by 1 % (root mean square of corners, half diameter 1), an oval
-// of 1.2 to 1 the round one's by 9 %.
+// A round stone misses its symmetry by 1 % (rms of corners, half diameter 1), an oval of 1.2 to 1
+// misses the round one's by 9 %.
 constexpr double k_near = 0.05;
-// What two decimals of a degree leave open at a facet's reach of a quarter of the diameter.
+// The error of angles with two decimals of a degree, over a facet's reach of a quarter of the
+// diameter.
 constexpr double k_digits = 1e-4;
-// Facets share their corners, so that F scatters more than of independent ones: of 40 brilliants
-// with corners off by 0.01 of 6.5 mm, 14 lose their mirrors at a level of 1 %, 4 at this one.
+// Facets share corners, so F scatters more than for independent ones. Of 40 brilliants with corners
+// off by 0.01 of 6.5 mm, 14 lose their mirrors at a level of 1 %, and 4 at this one.
 constexpr double k_level = 1e-4;
-// Beyond so many sigmas of its corners a motion is none that a rough drawing was meant to have.
+// A motion that moves corners by more sigmas than this was not meant, even in a rough drawing.
 constexpr double k_rough = 4;
 
-// What facets of one orbit have alike, with the weights of corners that are all as uncertain.
+// What the facets of one orbit share, with weights for corners of equal uncertainty.
 struct Place {
     double tilt = 0, radius = 0, height = 0;
     double tilt_weight = 0, weight = 0;
 };
 
-// How much corners' errors along the normal tilt a facet: one over the variance, for a variance of
-// one (least squares plane; slender facets are told well along, badly across).
+// Inverse variance of a facet's tilt when its corners have errors of variance one along the normal
+// (least-squares plane; the tilt of slender facets is well known along them, badly across).
 double tilt_weight(const Solid& solid, const Facet& facet, const Vec3& up) {
     const Vec3& n = facet.plane.normal;
     const Vec3 level = glm::cross(up, n);
@@ -67,7 +68,7 @@ struct Misfit {
     double variance() const { return freedom > 0 ? squares / freedom : 0; }
 };
 
-// How far the facets of the group's orbits differ.
+// How much the facets of the group's orbits differ.
 Misfit misfit_of(const AxisGroup& group, const std::vector<Place>& places) {
     Misfit misfit;
     const auto add = [&](const FacetOrbit& orbit, double Place::*what, double Place::*weight) {
@@ -94,7 +95,7 @@ Misfit misfit_of(const AxisGroup& group, const std::vector<Place>& places) {
     return misfit;
 }
 
-// Of k corners k - 3 show how far they lie off their facet's plane.
+// k corners have k - 3 degrees of freedom off their facet's plane.
 Misfit curvature_misfit(const Solid& solid) {
     Misfit bends;
     for (const Facet& facet : solid.facets) {

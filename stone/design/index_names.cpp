@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-// Level facets have no index: below this a machine does not tell where they look.
+// Level facets have no index. Below this tilt a machine does not show where they face.
 constexpr double k_no_index_deg = 0.05;
 
 std::optional<double> index_number(std::string_view text) {
@@ -25,7 +25,7 @@ std::optional<double> index_number(std::string_view text) {
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// What a cutter calls the facets of a solid: its design's tier, and the tooth under each.
+// What a cutter calls the facets of a solid: the tier in its design, and the tooth of each.
 class Places {
 public:
     Places(const Solid& solid, double gear)
@@ -33,13 +33,13 @@ public:
         if (solid.design) titles_ = tier_titles(*solid.design);
     }
 
-    /// Empty: of no tier.
+    /// Empty: no tier.
     std::string tier(std::size_t f) const {
         return places_[f].tier < 0 ? std::string() : titles_[std::size_t(places_[f].tier)];
     }
 
-    /// As the design has it, which a fit leaves; of other facets, and on another wheel, as it
-    /// stands.
+    /// The design's tooth, which a fit keeps. For other facets and on another wheel, the facet's
+    /// azimuth.
     std::optional<double> tooth(std::size_t f) const {
         if (gear_ == 0) return std::nullopt;
         Design wheel;
@@ -56,7 +56,6 @@ public:
         return tooth > 0 ? tooth : tooth + teeth;
     }
 
-    /// Empty: none.
     std::string told_tooth(std::size_t f) const {
         const auto number = tooth(f);
         return number ? fmt::format("{:g}", *number) : std::string();

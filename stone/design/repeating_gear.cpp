@@ -9,9 +9,10 @@ namespace culet {
 namespace {
 
 constexpr double k_same_index = 0.01;        // of a tooth; files give two decimals or more
-constexpr std::size_t k_most_facets = 1000;  // of whom all pairs of a tier are looked at
+constexpr std::size_t k_most_facets = 1000;  // larger tiers are not tested: the test compares all
+                                             // pairs
 
-// Whether a turn by so many teeth takes the facets of the tier to one another.
+// True if a turn by this many teeth maps the tier's facets onto each other.
 bool tier_repeats(const DesignTier& tier, double gear, double teeth) {
     if (tier.setting.angle_deg == 0) return true;
     return std::all_of(tier.facets.begin(), tier.facets.end(), [&](const DesignFacet& one) {

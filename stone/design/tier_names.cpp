@@ -1,4 +1,4 @@
-// What facets' names say of tiers.
+// What facets' names tell about tiers.
 
 #include <map>
 #include <set>
@@ -9,7 +9,7 @@ namespace culet {
 
 namespace {
 
-// G of GNE: what stands before the side that a facet looks to; empty where no side is named.
+// G for GNE: the part before the side that a facet faces; empty where the name has no side.
 std::string before_side(const std::string& name) {
     for (const std::string_view side : {"NE", "NW", "SE", "SW", "N", "E", "S", "W"}) {
         if (name.size() > side.size() && name.ends_with(side)) {
@@ -19,14 +19,14 @@ std::string before_side(const std::string& name) {
     return {};
 }
 
-// A of A.1; empty for any other name.
+// A for A.1; empty for any other name.
 std::string repeated_name(const std::string& name) {
     const std::size_t digits = name.find_last_not_of("0123456789") + 1;
     const bool numbered = digits > 1 && digits < name.size() && name[digits - 1] == '.';
     return numbered ? name.substr(0, digits - 1) : std::string();
 }
 
-// What each name has before its number.
+// The part of each name before its number.
 std::vector<std::string> stems_of(const Solid& solid) {
     std::set<std::string> repeated;
     std::map<std::string, int> sides;
@@ -47,7 +47,7 @@ std::vector<std::string> stems_of(const Solid& solid) {
             names.push_back(name.substr(0, digits));
             continue;
         }
-        // C1NE, P2Ea: a tier's number before the letters of the side; GNE: no number.
+        // C1NE, P2Ea have a tier's number before the letters of the side; GNE has none.
         const std::size_t letters = name.find_last_of("0123456789") + 1;
         const auto side = sides.find(before_side(name));
         if (letters > 0) {

@@ -17,14 +17,15 @@ namespace culet {
 
 namespace {
 
-// The tables of real designs are tilted by up to a few degrees; the flattest tiers stand at 8.
+// The tables of real designs are tilted by up to a few degrees; the flattest tiers are at 8.
 constexpr double k_level_deg = 7;
 constexpr double k_girdle_deg = 80;
 // Designs give angles to 0.01 degrees.
 constexpr double k_same_angle_deg = 0.02;
-// Distances, to five decimals of the width and what meets miss by.
+// Distances have five decimals of the width, and meets miss.
 constexpr double k_same_distance = k_largest_miss;
-// As near as a drawing comes to its symmetry (drawn_symmetry.h): radians, and of half the diameter.
+// How near a drawing comes to its symmetry (drawn_symmetry.h): radians, and share of half the
+// diameter.
 constexpr double k_near_drawing = 0.05;
 
 bool touches(const Facet& facet, const std::set<int>& corners) {
@@ -32,7 +33,7 @@ bool touches(const Facet& facet, const std::set<int>& corners) {
                        [&](int corner) { return corners.contains(corner); });
 }
 
-// Where the mains of a side end: the corners of the table, or the lowest one and the culet's.
+// Where the mains of a side end: the table's corners, or the lowest corner and the culet's corners.
 std::set<int> far_end(const Solid& solid, const Vec3& up, bool crown, int table) {
     std::set<int> end;
     if (crown && table >= 0) {
@@ -61,7 +62,7 @@ double tilt(const Solid& solid, int facet, const Vec3& up) {
     return inclination(solid.facets[facet].plane.normal, up);
 }
 
-// `prefix*` or `prefix.*` when it matches these facets and no others.
+// `prefix*` or `prefix.*` if that matches these facets and no others.
 std::string pattern_of(const Solid& solid, const std::string& name,
                        const std::vector<int>& facets) {
     if (facets.size() < 2) return {};
@@ -146,7 +147,7 @@ public:
         for (const std::string& name : names_) ++named_[name];
     }
 
-    // Of most of them: a girdle drawn by hand does not stand upright everywhere.
+    // The part of most of them: a girdle drawn by hand is not upright everywhere.
     StonePart part(const std::vector<int>& facets) const {
         std::map<StonePart, int> count;
         for (const int f : facets) ++count[part(f)];
@@ -165,7 +166,7 @@ public:
         });
         return common ? first : std::string();
     }
-    // Each sorted, in the order of their first facets.
+    // Each is sorted; tiers are in the order of their first facets.
     std::vector<std::vector<int>> tiers() const {
         std::vector<int> root = roots_by_design(places_of(solid_));
         if (root.empty()) root = roots_by_drawing();
@@ -179,7 +180,7 @@ public:
     }
 
 private:
-    // The first facet of each one's tier; none where the design does not have them all.
+    // For each facet the first facet of its tier; empty where the design does not have all facets.
     static std::vector<int> roots_by_design(const std::vector<DesignPlace>& places) {
         std::map<int, int> first;
         std::vector<int> root;
@@ -205,7 +206,7 @@ private:
                 }
             }
         }
-        // Where the drawing alone would part them, a name in common confirms them.
+        // A common name confirms what the drawing alone would separate.
         for (const FacetOrbit& orbit : orbits_of(drawn_.near, solid_.facets.size())) {
             for (const int f : orbit.facets) {
                 for (const int other : orbit.facets) {
@@ -222,7 +223,7 @@ private:
     }
 
     StonePart part(int facet) const { return part_of(solid_, facet, table_, up_); }
-    // Names of several facets each tell tiers apart.
+    // Names that each belong to several facets separate tiers.
     bool may_belong(int a, int b) const {
         const std::string& one = names_[static_cast<std::size_t>(a)];
         const std::string& other = names_[static_cast<std::size_t>(b)];
@@ -239,13 +240,13 @@ private:
         const Plane& p = solid_.facets[static_cast<std::size_t>(f)].plane;
         return p.offset - glm::dot(p.normal, middle_);
     }
-    // Where facets meet in no symmetric way, because one is askew, a name confirms what is near.
+    // If one askew facet spoils the symmetry, a common name confirms facets that are near to it.
     bool are_one_name_and_near(int a, int b) const {
         return drawn_.near.is_trivial() && have_one_name(a, b) && part(a) == part(b) &&
                std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) < k_near_drawing &&
                std::abs(from_middle(a) - from_middle(b)) < near_limit_;
     }
-    // In one setting of the machine but for the index; a name stands for the same distance.
+    // Same angle, and same distance or name: one setting of the machine apart from the index.
     bool are_cut_alike(int a, int b) const {
         if (std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) > radians(k_same_angle_deg) ||
             part(a) != part(b) || !may_belong(a, b)) {

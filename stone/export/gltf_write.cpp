@@ -1,4 +1,4 @@
-// glTF 2.0 (Khronos, ISO/IEC 12113:2022), through tinygltf.
+// glTF 2.0 (Khronos, ISO/IEC 12113:2022), by tinygltf.
 
 #include "stone/export/gltf_write.h"
 
@@ -23,7 +23,7 @@ using tinygltf::Value;
 
 constexpr double k_metres_per_mm = 1e-3;
 
-// +y of glTF is up, as +z is here.
+// glTF's up is +y; ours is +z.
 std::array<float, 3> turned_up(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.z), static_cast<float>(0 - v.y)};
 }
@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    // Bytes of elements that begin at a multiple of four.
+    // Elements begin at a multiple of four bytes.
     template <class T>
     int add_view(const std::vector<T>& elements, int target) {
         std::vector<unsigned char>& data = model_.buffers[0].data;
@@ -127,7 +127,7 @@ private:
 
     int add_indices(const std::vector<std::uint32_t>& indices, std::size_t corners) {
         const int target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-        // The largest number of each type means "none".
+        // The largest number of each type is reserved (primitive restart).
         if (corners < 0xffff) {
             const std::vector<std::uint16_t> narrow(indices.begin(), indices.end());
             return add_accessor(add_view(narrow, target), TINYGLTF_TYPE_SCALAR,
@@ -164,7 +164,7 @@ private:
 
     void add_extension(tinygltf::Material& material, const char* name, Value::Object values) {
         material.extensions[name] = Value(std::move(values));
-        // Drawn without it where it is not known, so none is required.
+        // Readers that do not know the extension may draw without it, so it is not required.
         model_.extensionsUsed.emplace_back(name);
     }
 
@@ -240,7 +240,7 @@ std::string gltf_bytes(const Stone& stone, const std::optional<GltfLook>& look, 
 }
 
 GltfLook gltf_look_of(const Material& material) {
-    // Fraunhofer's d, F and C, by which KHR_materials_dispersion has the Abbe number.
+    // Fraunhofer's d, F and C lines, which define the Abbe number of KHR_materials_dispersion.
     constexpr double k_d_nm = 587.56, k_f_nm = 486.13, k_c_nm = 656.27;
     const double n_d = mean_index(material, k_d_nm);
     const double spread = mean_index(material, k_f_nm) - mean_index(material, k_c_nm);

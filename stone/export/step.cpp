@@ -1,5 +1,5 @@
-// Reference: ISO 10303-21 (the text), 10303-42 (geometry and topology), 10303-214 (which of them
-// make a product).
+// References: ISO 10303-21 (the text), 10303-42 (geometry and topology), 10303-214 (the entities of
+// a product).
 
 #include "stone/export/step.h"
 
@@ -21,12 +21,12 @@ namespace culet {
 
 namespace {
 
-// CAD programs take points nearer than this as one (OCCT's Precision::Confusion, in mm).
+// CAD programs merge points that are nearer than this (OCCT's Precision::Confusion, in mm).
 constexpr double k_least_uncertainty_mm = 1e-7;
-// A tenth of what the coarsest of usual CAD kernels tell apart (1e-4 mm).
+// A tenth of the resolution of the coarsest usual CAD kernels (1e-4 mm).
 constexpr double k_most_uncertainty_mm = 1e-5;
 
-// A real number of part 21 has a point.
+// Part 21 requires a point in real numbers.
 std::string real(double value) {
     std::string text = fmt::format("{}", value == 0 ? 0.0 : value);
     const std::size_t exponent = text.find('e');
@@ -35,14 +35,14 @@ std::string real(double value) {
     return exponent == std::string::npos ? digits : digits + "E" + text.substr(exponent + 1);
 }
 
-// A string of part 21: quotes and backslashes are doubled, what is beyond ASCII is \X4\, control
-// characters are gone.
+// A string of part 21: doubles quotes and backslashes, writes what is beyond ASCII as \X4\, drops
+// control characters.
 std::string step_string(std::string_view text) {
     std::string result = "'";
     for (std::size_t i = 0; i < text.size();) {
         const std::size_t start = i;
         std::int32_t code = next_code_point(text, i);
-        // A byte that begins no character stands for itself.
+        // A byte that is not UTF-8 stands for itself.
         if (code < 0) code = static_cast<unsigned char>(text[start]);
         if (code == '\'' || code == '\\') {
             result.append(2, static_cast<char>(code));
@@ -107,7 +107,7 @@ private:
         for (const Facet& facet : solid_.facets) {
             StepFace face{facet.name, facet.plane, facet.corners};
             if (largest_miss(solid_, face) > k_most_uncertainty_mm) {
-                // The plane of a drawn facet may be stated otherwise than its corners lie.
+                // A drawn facet's stated plane may differ from that of its corners.
                 face.plane = plane_of(solid_, facet.corners);
             }
             if (largest_miss(solid_, face) <= k_most_uncertainty_mm) {
@@ -127,14 +127,14 @@ private:
                 "{} of {} facets are not plane to {:g} mm: written as triangles of their names",
                 cut, solid_.facets.size(), k_most_uncertainty_mm));
         }
-        // The next power of ten.
+        // Round up to a power of ten.
         result_.uncertainty_mm = k_least_uncertainty_mm;
         while (result_.uncertainty_mm < miss) result_.uncertainty_mm *= 10;
     }
 
     void header() {
-        // No date, so that the same stone gives the same bytes: the standard's empty one is not
-        // read everywhere.
+        // No date, so that the same stone gives the same bytes. Some programs do not read the
+        // standard's empty date.
         result_.text = fmt::format(
             "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('faceted stone, mm'),'2;1');\n"
             "FILE_NAME({},'1970-01-01T00:00:00',(''),(''),'culet','culet','');\n"
@@ -165,7 +165,7 @@ private:
         return vertices_[corner] = entity("VERTEX_POINT('',#{})", at);
     }
 
-    // Runs from its first corner to its second; the other face goes against it.
+    // The edge runs from its first corner to its second; the other face uses it reversed.
     int edge(int from, int to) {
         const std::pair<int, int> key{std::min(from, to), std::max(from, to)};
         const auto known = edges_.find(key);
@@ -188,7 +188,7 @@ private:
         }
         const int loop = entity("EDGE_LOOP('',({}))", list(bound));
         const int outer = entity("FACE_OUTER_BOUND('',#{},.T.)", loop);
-        // The corner, moved into the plane, and any direction in it.
+        // A point of the plane (the corner, projected) and any direction in it.
         const Vec3& normal = face.plane.normal;
         const Vec3 first = vertex(face.corners[0]);
         Vec3 along = vertex(face.corners[1]) - first;
@@ -205,7 +205,7 @@ private:
         return entity("MANIFOLD_SOLID_BREP({},#{})", step_string(name_), shell);
     }
 
-    // What makes of a solid a part with millimetres.
+    // The entities that make the solid a part in millimetres.
     void product(int solid) {
         const int origin = placement({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
         const int mm = entity("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
@@ -249,8 +249,8 @@ private:
     const Solid& solid_;
     std::string name_;
     std::vector<StepFace> faces_;
-    std::map<int, int> vertices_, points_;      // entities of corners
-    std::map<std::pair<int, int>, int> edges_;  // of corners, the smaller first
+    std::map<int, int> vertices_, points_;      // entities by corner
+    std::map<std::pair<int, int>, int> edges_;  // by corners, the smaller first
     StepFile result_;
     int last_ = 0;
 };

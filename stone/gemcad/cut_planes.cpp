@@ -14,11 +14,11 @@ namespace culet {
 
 namespace {
 
-/// Planes this close are one plane given twice: files give angles to 1e-6 degrees (2e-8 rad) and
-/// distances to 1e-8, so two that agree to this were meant to be the same.
+/// Planes this close are one plane given twice. Files give angles to 1e-6 degrees (2e-8 rad) and
+/// distances to 1e-8, so two that agree this well were meant to be equal.
 constexpr double k_same_plane = 1e-9;
 
-/// More planes than any stone has facets; the exact intersection takes seconds at this many.
+/// More planes than any stone has facets; the exact intersection takes seconds for this many.
 constexpr std::size_t k_most_planes = 5000;
 
 }  // namespace
@@ -87,7 +87,7 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
         cut.unused_planes.push_back(origin[std::stoul(vanished)]->place);
     }
 
-    // The facets still carry the numbers of their planes.
+    // Facets still have their planes' numbers as names.
     const std::vector<std::string> tiers = tier_labels(design);
     std::vector<std::string> names, of_tier;
     std::vector<const CutPlane*> of_facet;
@@ -105,7 +105,7 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
     join_split_tiers(cut.solid, design);
     cut.solid.design = std::make_shared<const Design>(std::move(design));
 
-    // A meet that rounding alone keeps apart is exact.
+    // Only meets that miss by more than rounding are reported.
     const double missed = planarity(cut.solid) / width;
     if (cut.contracted_edges > 0 && missed > k_same_plane) {
         cut.details.push_back(fmt::format(

@@ -1,5 +1,5 @@
-// GemCad .asc: records of a keyword and words; a line that begins with no keyword goes on with the
-// tier before it. Lines that begin with `;` or `#` are comments.
+// GemCad .asc: records of a keyword and words. A line that does not begin with a keyword continues
+// the tier before it. Lines that begin with `;` or `#` are comments.
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 class AscParser {
 public:
-    /// A mesh's lines say with `N NAME` what a facet is called that is not called by its label.
+    /// In a mesh's lines, `N NAME` gives the name of a facet that is not called by its label.
     AscParser(std::string_view text, const std::filesystem::path& file, bool of_a_mesh = false)
         : lines_(text), file_(file), of_a_mesh_(of_a_mesh) {}
 
@@ -43,7 +43,7 @@ public:
         if (!has_gear_) suppose_gear();
     }
 
-    ReadCut cut;  // what is noted
+    ReadCut cut;  // collects the notes
     Design design;
     std::vector<CutPlane> planes;
 
@@ -78,7 +78,7 @@ private:
         } else if (in_tier_) {
             read_settings(words, line);
         } else if (number_in(keyword)) {
-            // A gear line that has lost its g.
+            // A gear line without its g.
             read_gear(words);
         } else if (keyword != "GemCad") {
             throw InputError(
@@ -87,8 +87,8 @@ private:
         }
     }
 
-    /// An instruction may run over lines, and the next may begin with a word that is a keyword: it
-    /// is a record only where the record's number follows. Indices cannot stand there.
+    /// An instruction may take several lines, and one of them may begin with a keyword's letter. It
+    /// is a record only if the record's number follows: indices cannot stand there.
     bool goes_on_with_instruction(const std::vector<std::string_view>& words) const {
         if (!in_tier_ || !instruction_) return false;
         const std::string_view keyword = words[0];
@@ -115,7 +115,7 @@ private:
     }
 
     void read_gear(std::span<const std::string_view> values) {
-        // Tiers before it would have been laid out on another gear.
+        // Earlier tiers would have been computed with another gear.
         if (tier_number_ > 0) {
             throw InputError(file_, lines_.line(), "the gear must stand before the first tier");
         }
@@ -164,7 +164,7 @@ private:
         read_settings(values.subspan(2), line);
     }
 
-    /// A horizontal facet has no index, or any: its tier may go without.
+    /// A horizontal facet may have any index or none, so its tier needs none.
     void end_tier() {
         if (!in_tier_) return;
         const bool has_facet = !design.tiers.back().facets.empty();
@@ -178,7 +178,7 @@ private:
         in_tier_ = awaits_name_ = instruction_ = false;
     }
 
-    /// `words` are the last of `line`.
+    /// `words` are the last ones of `line`.
     void read_settings(std::span<const std::string_view> words, std::string_view line) {
         for (const std::string_view word : words) {
             if (awaits_name_) {

@@ -33,7 +33,7 @@ public:
         settle_tiers();
     }
 
-    ReadCut cut;  // what is noted
+    ReadCut cut;  // collects the notes
     Design design;
     std::vector<CutPlane> planes;
 
@@ -66,7 +66,7 @@ private:
 
     void read_facet(double x) {
         where_ = fmt::format("facet {}", planes.size());
-        // The unit normal over the plane's distance.
+        // The unit normal divided by the plane's distance.
         const double y = number(), z = number();
         const double length = std::hypot(x, y, z);
         if (!std::isfinite(length) || !(length > 0) || !std::isfinite(1 / length)) {
@@ -90,7 +90,7 @@ private:
         if (own.instruction.empty())
             own.instruction = utf8_from_windows1252(trimmed(label.substr(tab)));
         planes.push_back(std::move(plane));
-        // The corners that follow are the meets of the planes, which are found afresh.
+        // Skip the corners: the meets are computed from the planes.
         while (integer() == 1) take(3 * 8);
     }
 
@@ -119,7 +119,7 @@ private:
         }
     }
 
-    /// Angles and indices, once the gear is known: without what is lost in rounding planes.
+    /// Computes angles and indices once the gear is known, and removes the planes' rounding error.
     void settle_tiers() {
         constexpr double k_step = 1e-4, k_rounding = 1e-6;
         const auto plain = [](double value) {

@@ -1,4 +1,4 @@
-// Writing GemCad .asc.
+// Writes GemCad .asc.
 
 #include <fmt/format.h>
 
@@ -20,17 +20,18 @@ namespace culet {
 
 namespace {
 
-/// A plane must read back this well: the direction in radians, the distance by the size.
+/// Accuracy with which a plane must read back: the direction in radians, the distance relative to
+/// the size.
 constexpr double k_reads_back = 2e-13;
-/// Quartz, as GemCad begins a design.
+/// Quartz, GemCad's default.
 constexpr double k_gemcads_index = 1.54;
 
 double difference(const Plane& a, const Plane& b, double size) {
     return std::max(glm::length(a.normal - b.normal), std::abs(a.offset - b.offset) / size);
 }
 
-/// The shortest decimal form, from `places` on in steps, that still means the number to within
-/// what `good` accepts; all digits if none does.
+/// The shortest decimal form, with at least `places` digits, that `good` accepts; all digits if
+/// none is good.
 template <class Good>
 std::string short_decimal(double value, int places, Good good) {
     for (int p = places; p <= 15; p += 2) {
@@ -45,7 +46,7 @@ struct Line {
     CutSetting setting;  // as it reads back from the text
     std::string angle, distance;
     std::vector<std::string> indices, labels;
-    std::vector<int> facets;  // of the solid; -1: of the design alone
+    std::vector<int> facets;  // of the solid; -1: only in the design
     std::string instruction;
     int named_at = -1;  // the one facet whose name is the tier's; -1: each has its own
 };
@@ -88,7 +89,7 @@ private:
     static std::string text_of(const Line& tier) {
         std::string out, line = fmt::format("a {} {}", tier.angle, tier.distance);
         const auto add = [&](const std::string& word) {
-            // A line that begins with a number goes on with the tier.
+            // A line that begins with a number continues the tier.
             if (line.size() + word.size() > 100) {
                 out += line + "\n";
                 line.clear();
@@ -130,7 +131,8 @@ private:
         if (lines_.size() > first) lines_.back().instruction = tier.instruction;
     }
 
-    // A plane of the design that the solid has no facet of: beyond it, it may stay.
+    // True for a design's plane that lies outside the solid, which has no facet of it: it may stay
+    // in the design.
     bool bounds_nothing(const Plane& plane) const {
         return std::all_of(solid_.vertices.begin(), solid_.vertices.end(), [&](const Vec3& v) {
             return height_above(plane, v) <= k_largest_miss * size_;
@@ -153,7 +155,7 @@ private:
         line.facets.push_back(facet);
     }
 
-    // By its plane, on a line from `first` on.
+    // Adds a facet by its plane, to a line from `first` on.
     void add_facet(int f, std::size_t first, const std::string& label = {}) {
         const Plane& plane = solid_.facets[std::size_t(f)].plane;
         const CutSetting wanted = setting_of(plane, design_);
@@ -168,7 +170,7 @@ private:
         line.facets.push_back(f);
     }
 
-    // Whether the labels that the design has give every facet its name again.
+    // True if the design's labels give every facet its name when read back.
     bool labels_read_back() const {
         std::vector<std::string> own, of_tier, wanted;
         for (const Line& line : lines_) {
@@ -184,7 +186,7 @@ private:
         return told_apart(std::move(own), of_tier) == wanted;
     }
 
-    // A tier A, A.1, A.2, ... is named once, as GemCad does, wherever all names read back so.
+    // Names a tier A, A.1, A.2, ... once, as GemCad does, if all names read back the same.
     void name_tiers_once() {
         for (Line& tier : lines_) tier.named_at = named_at(tier.labels);
         for (bool again = true; again;) {
@@ -211,7 +213,7 @@ private:
         }
     }
 
-    // Which facet has the name that the others repeat: .1, .2, ... in their order; -1: none.
+    // The facet whose name the others repeat with .1, .2, ... in order; -1: none.
     static int named_at(const std::vector<std::string>& names) {
         if (names.size() < 2) return -1;
         const auto base = std::min_element(
@@ -241,7 +243,7 @@ private:
             return good();
         });
         tier.setting.distance = read_back(tier.distance);
-        // Girdle facets stand with the pavilion, as GemCad writes them.
+        // GemCad writes girdle facets with the pavilion.
         if (wanted.pavilion || tier.setting.angle_deg == 90) tier.angle = "-" + tier.angle;
         return tier;
     }

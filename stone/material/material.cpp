@@ -115,7 +115,7 @@ Material pure_material(const std::string& id, const Json& entry) {
 
 constexpr std::size_t k_longest_query = 200, k_most_suggested = 8;
 
-// A variety's own title, else that of its host.
+// A variety's own title, else its host's.
 std::string title_of(const std::string& id) {
     const auto colour = catalogue().at("absorption").find(id);
     if (colour == catalogue().at("absorption").end())
@@ -125,7 +125,7 @@ std::string title_of(const std::string& id) {
                        : own;
 }
 
-// What a search of the catalogue looks at: names, kind, colour.
+// The text that a search of the catalogue looks at: names, kind, colour.
 std::string about(const std::string& id) {
     const Json& absorptions = catalogue().at("absorption");
     const auto colour = absorptions.find(id);
@@ -135,7 +135,7 @@ std::string about(const std::string& id) {
                 : text_of(*colour, "material"));
 }
 
-// The one that is called so, empty where none or several are (topaz).
+// The one material with that title; empty where none or several have it (topaz).
 std::string titled(const std::string& name) {
     std::string found;
     for (const std::string& id : catalogue_names()) {
@@ -165,7 +165,7 @@ Material catalogue_material(const std::string& name) {
     const auto plain = materials.find(name);
     if (plain != materials.end() && colour == absorptions.end()) return pure_material(name, *plain);
     if (colour != absorptions.end()) {
-        // A coloured variety: the host's indices and the absorption of one stone of its kind. A
+        // A coloured variety has the host's indices and the absorption of one stone of its kind. A
         // name that is both (emerald, peridot) means the coloured stone, which is what people own.
         const std::string host = colour->at("material");
         Material material = pure_material(host, materials.at(host));
@@ -175,7 +175,7 @@ Material catalogue_material(const std::string& name) {
         material.absorption_confidence = text_of(*colour, "confidence");
         material.absorption_depth = text_of(*colour, "scale_reason");
         material.usual_colour.clear();
-        // How deep the stone of this name is, over the one that was measured.
+        // Colour depth of stones of this name relative to the one that was measured.
         const double depth = colour->value("scale", 1.0);
         const auto nm = colour->at("wavelength_nm").get<std::vector<double>>();
         const Json& rays = colour->at("rays");
@@ -195,7 +195,7 @@ Material catalogue_material(const std::string& name) {
     }
     const std::string meant = name.size() > k_longest_query ? std::string() : titled(name);
     if (!meant.empty()) return catalogue_material(meant);
-    // Those that have the word itself before those that have it in another (beryl, chrysoberyl).
+    // Prefer names with the word itself to those with it inside another (beryl, chrysoberyl).
     std::vector<std::string> like = catalogue_names_like(name);
     const auto others = std::stable_partition(
         like.begin(), like.end(),

@@ -167,7 +167,7 @@ Material material_of(const TomlTable& table) {
                 absorption_of(table, "absorption", material.optic, ray, material);
         }
     }
-    // A table that serves several rays says its part once.
+    // A table that serves several rays gives its notes several times.
     std::vector<std::string>& notes = material.notes;
     std::sort(notes.begin(), notes.end());
     notes.erase(std::unique(notes.begin(), notes.end()), notes.end());

@@ -20,7 +20,7 @@ constexpr double k_visible_from_nm = 380, k_visible_to_nm = 780;
 struct WavelengthUnit {
     const char* name;
     double nm;
-    std::initializer_list<std::string_view> words;  ///< in headers, in small letters
+    std::initializer_list<std::string_view> words;  ///< in headers, in lower case
 };
 
 // In the order in which they are tried.
@@ -37,8 +37,8 @@ bool holds_any(const std::string& text, std::initializer_list<std::string_view> 
                        [&](std::string_view part) { return text.find(part) != std::string::npos; });
 }
 
-// True when a word behind the first (so that a column may be called `a`), or the only one, is one
-// of `units`, or begins with one that is written out. `wl_um` and `wavelength (nm)` have two words.
+// True when a word after the first (a column may be called `a`), or the only word, is one of
+// `units` or begins with one that is written out. `wl_um` and `wavelength (nm)` have two words.
 bool names_unit(std::string header, std::initializer_list<std::string_view> units) {
     constexpr std::size_t k_longest_sign = 3;
     for (char& c : header) {
@@ -56,7 +56,7 @@ bool names_unit(std::string header, std::initializer_list<std::string_view> unit
     return false;
 }
 
-// The cells of a row. A table whose columns are split by blanks has one field a row.
+// The cells of a row. In a table with blanks between columns, a row is one field.
 std::vector<std::string> cells_of(const CsvRow& row) {
     std::vector<std::string> cells;
     const bool by_blanks = row.fields.size() == 1;
@@ -111,7 +111,7 @@ private:
         const WrittenNumber wavelength = written_number(cells[0], comma_separates);
         if (!wavelength.problem.empty()) {
             if (header_.empty() && points_.empty()) {
-                // Of columns split by blanks: the unit stands apart from the name.
+                // With blanks between columns, the unit is separate from the name.
                 for (const std::string& cell : cells) {
                     if (!header_.empty() && (cell[0] == '(' || cell[0] == '[')) {
                         header_.back() += ' ' + cell;
@@ -178,7 +178,7 @@ private:
         for (const WavelengthUnit& unit : k_wavelength_units) {
             if (found == nullptr && is_visible(unit)) found = &unit;
         }
-        // Numbers in the thousands may count waves in a centimetre.
+        // Numbers in the thousands may be wavenumbers per centimetre.
         const double first = points_.front().wavelength, last = points_.back().wavelength;
         const bool waves_per_cm = first <= 1e7 / k_visible_from_nm && last >= 1e7 / k_visible_to_nm;
         if (found == nullptr || (found->nm < 1 && waves_per_cm)) {

@@ -1,5 +1,5 @@
-// Which faces of a mesh belong to one facet: faces that are joined by edges and whose corners lie
-// in one plane, as well as the coordinates can tell.
+// Decides which faces of a mesh form one facet: those joined by edges whose corners lie in one
+// plane, within the accuracy of the coordinates.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ namespace culet {
 
 namespace {
 
-/// A facet that grows: the sum of its faces' area vectors is the area vector of its outline, so
-/// its direction is as good as if the whole outline had been measured at once.
+/// A facet that grows. The sum of its faces' area vectors is the area vector of its outline, so its
+/// direction is as good as one computed from the whole outline.
 struct GrowingFacet {
     Vec3 area_vector{0, 0, 0};
     Vec3 corner_sum{0, 0, 0};
@@ -29,7 +29,7 @@ struct GrowingFacet {
 
 struct FaceShape {
     GrowingFacet share;   // relative to the mesh's first vertex
-    bool sliver = false;  // too thin for its corners to fix a direction
+    bool sliver = false;  // too thin for its corners to define a direction
     bool normal_agrees = false;
 };
 
@@ -44,7 +44,7 @@ public:
 
     std::vector<int> grow_all() {
         facet_.assign(soup_.faces.size(), -1);
-        // Largest faces first: their directions are the surest.
+        // Largest faces first: their directions are the most certain.
         std::vector<int> seeds(soup_.faces.size());
         std::iota(seeds.begin(), seeds.end(), 0);
         std::vector<double> area;
@@ -56,7 +56,7 @@ public:
         for (const int seed : seeds) {
             if (facet_[seed] < 0) grow(seed);
         }
-        // Numbers in the order of the file.
+        // Number facets in the file's order.
         std::vector<int> number(soup_.faces.size(), -1);
         int next = 0;
         for (int& facet : facet_) {
@@ -83,7 +83,7 @@ private:
         }
         shape.share.corner_count = static_cast<double>(n);
         const double area = glm::length(shape.share.area_vector);
-        // Corners that are free by the tolerance turn a face by that over its width.
+        // Corners that are off by the tolerance turn a face by the tolerance over its width.
         shape.sliver = !(2 * area > 8 * tolerance_ * reach) || !(area > 0);
         const double given = glm::length(face.given_normal);
         shape.normal_agrees =
@@ -114,7 +114,7 @@ private:
                           sides[end].high == sides[i].high;) {
                 ++end;
             }
-            // Only across a sound edge: two faces that run along it in opposite ways.
+            // Only across a sound edge: two faces that run along it in opposite directions.
             if (end - i != 2 || sides[i].forward == sides[i + 1].forward) continue;
             neighbours_[sides[i].face].push_back(sides[i + 1].face);
             neighbours_[sides[i + 1].face].push_back(sides[i].face);
@@ -127,12 +127,12 @@ private:
         });
     }
 
-    // Whether `face` may join the facet that grows from `seed`.
+    // True if `face` may join the facet that grows from `seed`.
     bool fits(const GrowingFacet& facet, const GrowingFacet& joined, int seed, int face) const {
         const SoupFace &first = soup_.faces[seed], &other = soup_.faces[face];
         if (first.name != other.name) return false;
-        // A writer that gives a facet's own normal to each of its triangles tells us which belong
-        // together even where near-miss meets bend the facet.
+        // A writer that gives each triangle its facet's own normal tells which ones belong
+        // together, even where near-miss meets bend the facet.
         if (trust_normals_ && shapes_[seed].normal_agrees && shapes_[face].normal_agrees &&
             first.given_normal == other.given_normal) {
             const Vec3 normal = glm::normalize(first.given_normal);
@@ -149,7 +149,7 @@ private:
 
     void grow(int seed) {
         facet_[seed] = seed;
-        // A sliver alone has no plane that others could lie in.
+        // Nothing can be coplanar with a sliver, which has no plane of its own.
         if (shapes_[seed].sliver) return;
         GrowingFacet facet = shapes_[seed].share;
         std::vector<int> members{seed};
@@ -169,7 +169,7 @@ private:
                 members.push_back(face);
             }
         }
-        // Each face fitted when it joined; the whole must fit the plane that came out.
+        // Each face fitted when it joined; all must also fit the final plane.
         if (!by_plane || members.size() == 1) return;
         const Plane plane = facet.plane();
         const bool planar = std::all_of(members.begin(), members.end(), [&](int face) {
@@ -197,7 +197,7 @@ double size_of(const FaceSoup& soup) {
 }
 
 double merging_tolerance(const FaceSoup& soup, double size) {
-    // Coarse digits are no licence to merge what a cutter would tell apart.
+    // Coarse digits must not merge what a cutter would tell apart.
     const double rounding = std::min(soup.precision.rounding(), 1e-4 * size);
     return std::max(4 * rounding, 1e-11 * size);
 }

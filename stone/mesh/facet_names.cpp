@@ -28,7 +28,7 @@ std::vector<std::string> told_apart(std::vector<std::string> names,
     const auto inherits = [&](std::size_t i) {
         return names[i].empty() && i < of_tier.size() && !of_tier[i].empty();
     };
-    // Names that the file gives come first: they stay what they are whatever a tier is called.
+    // Names from the file have precedence over names from tiers.
     std::vector<std::size_t> heirs;
     int unnamed = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -125,14 +125,14 @@ void read_comment(FaceSoup& soup, std::string_view comment) {
         NamedPlane plane;
         plane.plane.normal = {numbers[0], numbers[1], numbers[2]};
         plane.plane.offset = numbers[3];
-        // A plane of another hand may come unnormalised; one without direction says nothing.
+        // Another program's plane may not be normalised; one without direction is ignored.
         const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
         if (!(length > 0) || !std::isfinite(length)) return;
         if (std::abs(length - 1) > 1e-15) {
             plane.plane.normal /= length;
             plane.plane.offset /= length;
         }
-        // The name is what stands between; it may hold blanks.
+        // The name is what stands between and may contain blanks.
         if (words.size() > 6) {
             const char* const start = words[2].data();
             const std::string_view last = words[words.size() - 5];

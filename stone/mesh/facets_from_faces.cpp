@@ -1,4 +1,4 @@
-// From the faces of a mesh file to named planar facets.
+// Turns the faces of a mesh file into named planar facets.
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@ namespace culet {
 
 namespace {
 
-/// Planes from comments without a hash count when no corner lies further off them than this, as a
-/// fraction of the diameter: a little more than the meets of real designs miss by.
+/// Planes from comments without a hash are used if no corner is further off them than this share of
+/// the diameter, a little more than the meets of real designs miss by.
 constexpr double k_plane_agrees = 1e-3;
 
 struct Outline {
@@ -44,7 +44,7 @@ double largest_miss(const FaceSoup& soup, const std::vector<int>& corners, const
 
 enum class StatedPlanes { none, names_only, all };
 
-/// Whether the planes that the file states in comments are those of its faces.
+/// Checks whether the planes in the file's comments belong to its faces.
 StatedPlanes judge_stated_planes(FaceSoup& soup) {
     if (soup.planes.empty()) return StatedPlanes::none;
     if (soup.planes.size() != soup.faces.size()) {
@@ -88,7 +88,7 @@ void name_faces_by_planes(FaceSoup& soup) {
     }
 }
 
-/// Corners that come twice in a row, and faces that have no area left because of it.
+/// Removes corners that repeat the one before, and faces without area because of that.
 void drop_collapsed_faces(FaceSoup& soup) {
     const std::size_t before = soup.faces.size();
     for (SoupFace& face : soup.faces) {
@@ -103,7 +103,7 @@ void drop_collapsed_faces(FaceSoup& soup) {
     }
 }
 
-/// The outline of faces that were merged; nothing when it is no single loop.
+/// The outline of merged faces; empty when it is not a single loop.
 std::vector<int> outline_of(const FaceSoup& soup, const std::vector<int>& members) {
     std::vector<std::pair<int, int>> sides;
     for (const int f : members) {
@@ -151,7 +151,7 @@ std::vector<Outline> merge_faces(FaceSoup& soup, double tolerance) {
             outlines.push_back({std::move(outline), first.name, first.given_normal, turned});
             continue;
         }
-        // With a hole, or touching itself in a corner: not one loop, so no facet.
+        // It has a hole, or touches itself in a corner, so it cannot be one facet.
         ++holed;
         for (const int f : faces) {
             outlines.push_back(
@@ -169,7 +169,7 @@ std::vector<Outline> merge_faces(FaceSoup& soup, double tolerance) {
     return outlines;
 }
 
-/// A corner where two facets meet in a straight line is none.
+/// Removes corners where two facets meet in a straight line.
 void drop_straight_corners(const FaceSoup& soup, std::vector<Outline>& outlines, double tolerance) {
     std::vector<std::vector<int>> facets_at(soup.vertices.size());
     for (std::size_t f = 0; f < outlines.size(); ++f) {
@@ -201,14 +201,14 @@ void drop_straight_corners(const FaceSoup& soup, std::vector<Outline>& outlines,
     }
 }
 
-/// The plane of a facet: through its corners, unless the file gives the direction to more digits
-/// than corners can (the ASCII STL that culet writes).
+/// A facet's plane: through its corners, unless the file gives the direction to more digits than
+/// corners can (the ASCII STL that culet writes).
 Plane facet_plane(const FaceSoup& soup, const Outline& outline, bool precise_normals, double size) {
     const Plane own = plane_through(loop_of(soup, outline.corners));
     const double length = glm::length(outline.given_normal);
     if (!precise_normals || !(length > 0)) return own;
     Plane given{outline.given_normal / length, 0};
-    // Corners at near-miss meets scatter about the plane: the middle of their heights.
+    // Corners at near-miss meets scatter about the plane: take the middle of their heights.
     double low = INFINITY, high = -INFINITY;
     for (const int corner : outline.corners) {
         const double height = glm::dot(given.normal, soup.vertices[corner]);

@@ -1,4 +1,4 @@
-// glTF 2.0, through tinygltf.
+// Reads glTF 2.0, by tinygltf.
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
@@ -23,9 +23,9 @@ namespace culet {
 namespace {
 
 constexpr int k_deepest_node = 64;
-// A mesh may be placed many times: what a hostile file of a few lines may grow to.
+// A mesh may be placed many times, so a hostile file of a few lines could grow without this limit.
 constexpr std::size_t k_most_triangles = 50'000'000;
-// Elements of an accessor that takes no room in the file.
+// Limit for the elements of an accessor that takes no room in the file.
 constexpr std::size_t k_most_zeros = 1'000'000;
 
 class Reader {
@@ -42,7 +42,7 @@ public:
             for (const int node : entry(model_.scenes, chosen, "scene").nodes)
                 walk(node, glm::dmat4(1.0), 0);
         }
-        // +y of glTF is up, as +z is here.
+        // glTF's up is +y; ours is +z.
         for (Vec3& v : mesh_.vertices) v = {v.x, -v.z, v.y};
         return std::move(mesh_);
     }
@@ -110,7 +110,7 @@ private:
         }
     }
 
-    // EXT_mesh_gpu_instancing: one placement for each element of the accessors that it names.
+    // EXT_mesh_gpu_instancing: one placement per element of the accessors that it names.
     std::vector<glm::dmat4> instances_of(const tinygltf::Node& node) const {
         const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
         if (extension == node.extensions.end()) return {glm::dmat4(1.0)};
@@ -138,7 +138,7 @@ private:
         return placed;
     }
 
-    // `size` bytes for each element, all of which lie in the buffer.
+    // `size` bytes per element; all elements lie in the buffer.
     struct Elements {
         const unsigned char* first = nullptr;
         std::size_t stride = 0;
@@ -157,8 +157,8 @@ private:
         return {buffer.data.data() + view.byteOffset + offset, stride};
     }
 
-    // A number of an accessor; integers that are normalized stand for 0 .. 1 or -1 .. 1
-    // (specification, 3.6.2.2). Little-endian, as the file and the machine are.
+    // A number of an accessor. Normalized integers stand for 0 .. 1 or -1 .. 1 (specification,
+    // 3.6.2.2). File and machine are both little-endian.
     template <class T>
     static double as(const unsigned char* raw, bool normalized) {
         T value;
@@ -194,8 +194,8 @@ private:
         return static_cast<std::size_t>(size);
     }
 
-    // All numbers of an accessor with so many for each element: those of its buffer view, or
-    // zeros, and over them those that its sparse part replaces (specification, 3.6.2.3).
+    // All numbers of an accessor, `components` per element: those of its buffer view, or zeros,
+    // with the replacements of its sparse part (specification, 3.6.2.3).
     std::vector<double> numbers(int index, int components) const {
         const tinygltf::Accessor& accessor = entry(model_.accessors, index, "accessor");
         if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) !=
@@ -285,13 +285,13 @@ private:
     TriangleMesh mesh_;
 };
 
-// Pictures on a surface are not drawn.
+// Textures are not used.
 bool pass_over_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
                      const unsigned char*, int, void*) {
     return true;
 }
 
-// What does not say where a surface lies, or is read.
+// Extensions that are read, or that do not change where a surface lies.
 bool is_extension_known(const std::string& name) {
     if (name == "KHR_mesh_quantization" || name == "EXT_mesh_gpu_instancing") return true;
     for (const char* of_looks : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_",
@@ -301,7 +301,8 @@ bool is_extension_known(const std::string& name) {
     return false;
 }
 
-// Before tinygltf looks: of what it does not know it tells other faults, or none.
+// Checked before tinygltf reads the file, since it reports unknown extensions as other errors or
+// not at all.
 void require_known_extensions(std::string_view json, const std::filesystem::path& file) {
     const auto root = nlohmann::json::parse(json, nullptr, false);
     if (!root.is_object() || !root.contains("extensionsRequired")) return;
@@ -336,8 +337,7 @@ std::string_view json_of(std::string_view bytes, bool binary) {
     return chunk_at(bytes, 12);
 }
 
-// A buffer whose length is stated too short is taken as long as it is in the file, as other
-// programs take it.
+// If a buffer's stated length is too short, use its length in the file, as other programs do.
 void take_whole_buffer(std::string_view bytes, tinygltf::Model& model) {
     if (model.buffers.empty() || !model.buffers[0].uri.empty()) return;
     const std::string_view whole = chunk_at(bytes, 20 + chunk_at(bytes, 12).size());
@@ -364,7 +364,7 @@ TriangleMesh read_gltf(const std::filesystem::path& file) {
                                              size, folder)
                : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder);
     if (!read) {
-        // The first line of what tinygltf says; it may quote the file.
+        // Only the first line of tinygltf's message, which may quote the file.
         throw InputError(file, "is no glTF that can be read: " + error.substr(0, error.find('\n')));
     }
     if (binary) take_whole_buffer(bytes, model);

@@ -83,7 +83,7 @@ void write_design(const Solid& solid, const std::string& design,
     const auto format = mesh_format(file);
     if (!format || *format == MeshFormat::stl) return write_mesh(solid, file);
     std::string text = mesh_text(solid, *format);
-    // Comments of the other formats come after the lines that say what format it is.
+    // In OFF and PLY, comments follow the lines that state the format.
     const std::size_t lines = *format == MeshFormat::obj ? 0 : *format == MeshFormat::off ? 1 : 2;
     std::size_t at = 0;
     for (std::size_t i = 0; i < lines; ++i) at = text.find('\n', at) + 1;
@@ -110,7 +110,7 @@ std::optional<std::string> design_of(const std::filesystem::path& file) {
             return std::string(line.substr(at + k_design.size()));
         }
     } catch (const InputError&) {
-        // No text, no comments.
+        // The file is not text, so it has no comments.
     }
     return std::nullopt;
 }

@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices, faces and group names; all else (normals, textures, materials, lines,
-// curves) is passed over.
+// Wavefront OBJ: reads vertices, faces and group names; skips all else (normals, textures,
+// materials, lines, curves).
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ public:
     }
 
 private:
-    /// The statement of the next line without its comment, with the lines that it is continued on
-    /// by a backslash. Text that ends in one (mtllib C:\gems\) and comments go no further.
+    /// The next line without its comment, joined with the lines that a backslash continues it on.
+    /// Text that ends in a backslash (mtllib C:\gems\) and comments are not continued.
     std::optional<std::string_view> statement() {
         auto line = lines_.next();
         first_line_ = lines_.line();
@@ -78,7 +78,7 @@ private:
     }
 
     void read(std::string_view line) {
-        // Keywords of one letter only (vn, vt, ... are passed over); `g` may stand alone.
+        // Only keywords of one letter (vn, vt, ... are skipped); `g` may stand alone.
         if (line.empty() || (line.size() == 1 && line != "g")) return;
         if (line.size() > 1 && trimmed(line.substr(1)).size() + 1 == line.size()) return;
         if (line[0] == 'v') {
@@ -162,7 +162,7 @@ std::string obj_text(const Solid& solid, bool with_planes) {
     for (const Vec3& v : solid.vertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
     const Facet* before = nullptr;
     for (const Facet& facet : solid.facets) {
-        // A group goes on until the next one.
+        // A group lasts until the next one.
         if (!before || before->name != facet.name)
             text += fmt::format("g {}\n", writable_name(facet.name));
         before = &facet;

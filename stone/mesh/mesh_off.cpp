@@ -1,6 +1,6 @@
-// Object File Format (Geomview): a header line, the counts, a vertex a line, a face a line. Of the
-// variants the prefixes ST, C and N are known, in any order; what they add follows the coordinates.
-// The keyword may be missing (Geomview's manual, "OFF": optional).
+// Object File Format (Geomview): a header line, the counts, one vertex per line, one face per line.
+// The prefixes ST, C and N are known, in any order; their values follow the coordinates. The
+// keyword is optional (Geomview's manual, "OFF").
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ public:
     FaceSoup parse() {
         std::vector<std::string_view> words = next_words("the word OFF");
         read_keyword(words);
-        // The counts may stand on the line of the keyword.
+        // The counts may follow the keyword on its line.
         if (words.empty()) words = next_words("the counts of vertices and faces");
         const auto vertices = words.size() < 2 ? std::nullopt : integer_in(words[0]);
         const auto faces = words.size() < 2 ? std::nullopt : integer_in(words[1]);
@@ -28,7 +28,7 @@ public:
             throw InputError(file_, lines_.line(),
                              "expected the counts of vertices, faces and edges");
         }
-        // `0 0 0` and a line end are the least that a vertex takes.
+        // A vertex takes at least `0 0 0` and a line end.
         const auto room = static_cast<std::int64_t>(text_.size() / 6 + 1);
         if (*vertices > room || *faces > room) {
             throw InputError(file_, lines_.line(),
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    /// Takes the keyword off `words`. It may be missing: then they are the counts.
+    /// Removes the keyword from `words`. Without a keyword the words are the counts.
     void read_keyword(std::vector<std::string_view>& words) {
         if (words.size() >= 2 && words.size() <= 3 && integer_in(words[0]) && integer_in(words[1]))
             return;
@@ -95,7 +95,7 @@ private:
 
     void read_vertex(std::int64_t i, std::int64_t count) {
         const auto words = next_words(fmt::format("vertex {} of {}", i, count));
-        // Coordinates, a normal, a colour and a place in a texture.
+        // Coordinates, a normal, a colour and texture coordinates.
         constexpr std::size_t k_most_words = 3 + 3 + 4 + 2;
         if (words.size() > k_most_words) {
             throw InputError(file_, lines_.line(),

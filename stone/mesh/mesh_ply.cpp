@@ -1,7 +1,7 @@
 // PLY (Turk 1994): a text header that declares elements and their properties, then the elements as
-// text or in binary of either byte order. Vertices need x, y, z; faces a list vertex_indices (or
-// vertex_index), and so do triangle strips (element tristrips, as Stanford's scans have them, where
-// -1 ends a strip); everything else is passed over, whatever it holds.
+// text or in binary of either byte order. Vertices need x, y, z. Faces need a list vertex_indices
+// (or vertex_index); so do triangle strips (element tristrips, as in Stanford's scans; -1 ends a
+// strip). Everything else is skipped.
 
 #include <fmt/format.h>
 
@@ -71,12 +71,12 @@ public:
     FaceSoup parse() {
         read_header();
         position_ = std::min(lines_.position(), bytes_.size());
-        // Where lines end in CR alone, a LF behind the last is the first byte of the data.
+        // If lines end in CR alone, a LF after the last CR is the first byte of the data.
         if (ends_in_cr_ && bytes_[position_ - 1] == '\n') --position_;
         bool has_vertices = false, has_faces = false;
         for (const Element& element : elements_) {
             check_room(element);
-            // An element without properties takes no room, however many there are.
+            // An element without properties takes no room, whatever its count.
             if (element.properties.empty()) continue;
             has_vertices |= element.name == "vertex";
             has_faces |= element.name == "face" || element.name == "tristrips";
@@ -165,7 +165,7 @@ private:
         elements_.back().properties.push_back(std::move(property));
     }
 
-    // A count that the rest of the file cannot hold is a lie or the file is cut short: found out
+    // If the rest of the file cannot hold the stated count, the file is wrong or cut short. Checked
     // before anything is stored.
     void check_room(const Element& element) const {
         std::size_t least = 0;
@@ -180,7 +180,7 @@ private:
         }
     }
 
-    // Of a value that nobody needs it does not matter what it is.
+    // Skips a value without checking it.
     void pass_over(Scalar type) {
         if (form_ == Form::text) {
             find_word();

@@ -65,9 +65,9 @@ public:
     AsciiStlParser(std::string_view text, const std::filesystem::path& file)
         : lines_(text), file_(file) {}
 
-    // Words without regard to lines or to small and capital letters, as writers differ in both, and
-    // in `endloop` and `end loop`. A solid's name is the rest of its line and is passed over, as
-    // are lines that begin with `;` or `#`.
+    // Reads words without regard to line breaks and case, since writers differ in both and in
+    // `endloop` and `end loop`. A solid's name is the rest of its line and is skipped, like lines
+    // that begin with `;` or `#`.
     FaceSoup parse() {
         while (next_word()) {
             if (is("solid") || is("endsolid")) {
@@ -134,7 +134,7 @@ private:
         bool finite = true;
         for (int axis = 0; axis < 3; ++axis) {
             if (!next_word()) fail("three numbers of a normal");
-            // Some writers leave `nan` for a triangle without area.
+            // Some writers put `nan` for a triangle without area.
             const auto value = number_in(word_);
             finite &= value.has_value();
             normal[axis] = value.value_or(0);
@@ -163,12 +163,12 @@ private:
     std::vector<std::string_view> words_;
     std::size_t at_ = 0;
     std::string_view word_;
-    std::string end_of_;  // `endloop` of `end loop`
+    std::string end_of_;  // `endloop` in `end loop`
     FaceSoup soup_;
 };
 
-/// By content, for many a binary file begins with the word `solid` too, and many a text file with
-/// something else.
+/// Decided by content: many binary files begin with the word `solid` too, and many text files do
+/// not.
 bool looks_like_text(std::string_view bytes) {
     if (is_utf16(bytes)) return true;
     const std::string start = lower_case(std::string(trimmed(bytes.substr(0, 1024))));
@@ -185,7 +185,7 @@ bool is_binary(std::string_view bytes) {
 }  // namespace
 
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
-    // Some program has put the mark of UTF-8 before the header.
+    // Some programs write a UTF-8 byte order mark before the header.
     if (bytes.starts_with(k_utf8_mark) && is_binary(bytes.substr(k_utf8_mark.size())))
         bytes.remove_prefix(k_utf8_mark.size());
     const std::size_t count =
@@ -218,8 +218,8 @@ FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
 }
 
 std::string stl_text(const Solid& solid) {
-    // Every triangle carries its facet's normal to all digits, so that readers can tell which
-    // triangles are one facet.
+    // Every triangle has its facet's normal with all digits, so that readers can tell which
+    // triangles form one facet.
     std::string text = "solid culet\n";
     for (const Facet& facet : solid.facets) {
         const Vec3& n = facet.plane.normal;

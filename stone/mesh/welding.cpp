@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-/// Half-edges without one that runs the other way.
+/// Number of half-edges without one in the opposite direction.
 std::size_t open_edges(const FaceSoup& soup, const std::vector<int>& welded) {
     std::vector<std::pair<int, int>> edges;
     for (const SoupFace& face : soup.faces) {
@@ -48,7 +48,7 @@ std::vector<int> weld_equal(const std::vector<Vec3>& vertices) {
     return welded;
 }
 
-/// Joins vertices within `reach` of each other, chains included, on top of `welded`.
+/// Merges vertices within `reach` of each other (also along chains), in addition to `welded`.
 std::vector<int> weld_close(const std::vector<Vec3>& vertices, std::vector<int> welded,
                             double reach) {
     using Cell = std::array<std::int64_t, 3>;
@@ -85,7 +85,7 @@ void weld_vertices(FaceSoup& soup) {
     if (soup.vertices.empty()) return;
     std::vector<int> welded = weld_equal(soup.vertices);
     const std::size_t open = open_edges(soup, welded);
-    // Two roundings of one place differ by at most twice the rounding in each coordinate.
+    // Two roundings of one place differ by at most twice the rounding error in each coordinate.
     const double reach = merging_tolerance(soup, size_of(soup));
     if (open > 0 && reach > 0) {
         std::vector<int> closer = weld_close(soup.vertices, welded, reach);

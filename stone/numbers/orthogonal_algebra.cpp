@@ -1,5 +1,5 @@
-// Of stone/numbers/dense_algebra.h what finds orthonormal bases, in a file of its own so that both
-// compile side by side.
+// The parts of stone/numbers/dense_algebra.h that find orthonormal bases. They have their own file
+// so that both compile in parallel.
 
 #include <Eigen/QR>
 #include <cmath>

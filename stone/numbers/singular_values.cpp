@@ -1,5 +1,5 @@
-// Of stone/numbers/dense_algebra.h singular values, in a file of its own so that all compile side
-// by side.
+// The singular values of stone/numbers/dense_algebra.h, in their own file so that they compile in
+// parallel.
 
 #include <Eigen/SVD>
 

@@ -1,5 +1,5 @@
-// Of stone/numbers/dense_algebra.h eigenvalues, in a file of its own so that all
-// compile side by side.
+// The eigenvalues of stone/numbers/dense_algebra.h, in their own file so that they compile in
+// parallel.
 
 #include <Eigen/Eigenvalues>
 

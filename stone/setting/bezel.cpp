@@ -11,15 +11,15 @@ namespace culet {
 
 namespace {
 
-// Thickness of the wall, how far its lip and its seat reach inside the outline, thickness of the
-// lip's edge, and height below the seat: of the wire.
+// In wire diameters: thickness of the wall, how far its lip and seat reach inside the outline,
+// thickness of the lip's edge, and height below the seat.
 constexpr double k_wall = 0.5, k_lip = 0.3, k_lip_edge = 0.12, k_below_seat = 0.6;
-constexpr double k_longest_lip = 0.2;  // of the stone's inner radius
-constexpr double k_leg = 0.4;          // radius, of the wire; at most of the collar's foot
+constexpr double k_longest_lip = 0.2;  // share of the stone's inner radius
+constexpr double k_leg = 0.4;          // radius, in wire diameters
 constexpr int k_usual_legs = 4;
 
-// All of the stone beside its outline: x outward from it, y up. The distance inside grows no faster
-// than straight along an edge of the stone, so that corners are enough.
+// The whole stone beside its outline: x outward from it, y up. Along an edge of the stone x is at
+// most its linear interpolation, so the corners suffice.
 std::vector<PlanPoint> hull_of_stone(const SettingPlan& plan) {
     std::vector<PlanPoint> points;
     for (const Vec3& vertex : plan.solid.vertices)
@@ -34,7 +34,7 @@ std::vector<PlanPoint> section_of(const std::vector<PlanPoint>& inner, const Set
     const double wall = outside + k_wall * plan.wire;
     const PlanPoint seat = inner.front(), lip = inner.back();
     const double top = lip.y + k_lip_edge * plan.wire;
-    // Where the line leaves the girdle for the crown the wall begins to bend over it.
+    // The wall begins to bend over the crown where the line leaves the girdle.
     double shoulder = seat.y;
     for (const PlanPoint& point : inner) {
         if (point.x > outside - 1e-9 * plan.wire) shoulder = std::max(shoulder, point.y);

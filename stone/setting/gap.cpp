@@ -38,7 +38,7 @@ double between_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
     return nearest;
 }
 
-// Squared distance from a corner to the face, where it stands over the face; else infinite.
+// Squared distance from a corner to the face if the corner is over the face; else infinite.
 double over_face(const Vec3& p, const Triangle& t) {
     const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double length = squared(normal);

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Sections with less area than this part of the largest belong to the girdle no more.
+// Sections with less area than this share of the largest are not part of the girdle.
 constexpr double k_girdle_area = 0.998;
 constexpr std::size_t k_most_levels = 200;
 constexpr int k_levels_between = 32;
@@ -19,11 +19,11 @@ constexpr int k_levels_between = 32;
 using EdgeName = std::pair<int, int>;
 
 struct SectionSide {
-    EdgeName from, to;  // edges of the solid that it runs from and to
+    EdgeName from, to;  // edges of the solid where it begins and ends
     PlanPoint start{0, 0}, end{0, 0};
 };
 
-// The sides of the section at `z`, each with the solid on its left.
+// The sides of the section at `z`; each has the solid on its left.
 std::vector<SectionSide> section(const Solid& solid, double z) {
     std::vector<SectionSide> sides;
     struct Crossing {
@@ -44,7 +44,7 @@ std::vector<SectionSide> section(const Solid& solid, double z) {
                  PlanPoint(low.x + t * (high.x - low.x), low.y + t * (high.y - low.y)),
                  solid.vertices[b].z >= z});
         }
-        // Along the section, which has the solid on its left, falling edges come first.
+        // Order along the section, which has the solid on its left. Falling edges come first.
         const PlanPoint along{-facet.plane.normal.y, facet.plane.normal.x};
         std::stable_sort(crossings.begin(), crossings.end(),
                          [&](const Crossing& a, const Crossing& b) {
@@ -83,7 +83,7 @@ std::vector<double> levels_of(const Solid& solid) {
     return levels;
 }
 
-// Between two levels the area is a quadratic: found from three sections.
+// Between two levels the area is a quadratic, found from three sections.
 struct Stretch {
     double low = 0, high = 0, at_middle = 0, slope = 0, bend = 0;
 
@@ -120,7 +120,7 @@ double height_of_girdle(const Solid& solid) {
     return 0.5 * (*low + *high);
 }
 
-// Without corners that are nearly one, and without those on straight edges.
+// Removes corners that nearly coincide, and those on straight edges.
 PlanOutline cleaned(const PlanOutline& points) {
     PlanOutline kept = points;
     const double near = 1e-5 * length_round(points);

@@ -14,22 +14,24 @@ namespace culet {
 namespace {
 
 const double k_corner_turn = radians(40);
-constexpr double k_corner_window = 1.0 / 40;  // of the way round
-constexpr double k_cut_corner = 0.12;         // longest side of a cut corner, of the way round
-constexpr double k_bridge = 1e-3;             // how far a bridge lies off the outline, of the way
+constexpr double k_corner_window = 1.0 / 40;  // of the length of the outline
+constexpr double k_cut_corner = 0.12;         // longest side of a cut corner, of the length of the
+                                              // outline
+constexpr double k_bridge = 1e-3;             // least distance of a bridge from the outline, of its
+                                              // length
 
 double wrapped(double way, double length) {
     way = std::fmod(way, length);
     return way < 0 ? way + length : way;
 }
 
-// Of the way from `a` to `b`, the shorter way round.
+// Arc length from `a` to `b`, the shorter way round.
 double apart(double a, double b, double length) {
     const double d = wrapped(b - a, length);
     return d > 0.5 * length ? d - length : d;
 }
 
-// A cushion: fuller than the ellipse of its extents along x and y.
+// True for a cushion: fuller than the ellipse with its extents along x and y.
 bool is_rounded_rectangle(const PlanOutline& outline) {
     constexpr double k_fuller = 1.03;
     PlanPoint low = outline[0], high = outline[0];
@@ -68,7 +70,7 @@ void GripOutline::find_corners() {
     struct Corner {
         double way = 0, turn = 0;
     };
-    // Round each corner of the hull what the outline turns nearby; then the sharpest first.
+    // Sum the turning near each corner of the hull, then take the sharpest first.
     std::vector<Corner> found;
     const double reach = 0.5 * k_corner_window * length_;
     for (std::size_t i = 0; i < count; ++i) {
@@ -95,7 +97,7 @@ void GripOutline::find_corners() {
     }
     std::sort(corners.begin(), corners.end(),
               [](const Corner& a, const Corner& b) { return a.way < b.way; });
-    // Two corners of a cut corner are one, at the middle of its side.
+    // The two corners of a cut corner become one, at the middle of its side.
     std::vector<bool> joined(corners.size(), false);
     for (std::size_t i = 0; corners.size() > 2 && i < corners.size(); ++i) {
         const std::size_t next = (i + 1) % corners.size();
@@ -159,7 +161,7 @@ std::vector<GirdlePlace> GripOutline::places(int count, double width) const {
                                     static_cast<std::size_t>(count)]);
     } else {
         ways = corners_;
-        // One after the other goes where the prongs would stand furthest apart.
+        // Add prongs one by one where they would stand furthest apart.
         const auto gap = [&](std::size_t part, int prongs) {
             const Stretch& s = parts[part];
             const double ends = 0.5 * (s.corner_first ? 1 : 0) + 0.5 * (s.corner_last ? 1 : 0);
@@ -180,7 +182,7 @@ std::vector<GirdlePlace> GripOutline::places(int count, double width) const {
                 ways.push_back(wrapped(parts[p].from + before + i * step, length_));
         }
     }
-    // From azimuth 0 on; a place that rounding puts just before it is the first.
+    // From azimuth 0 on; a place that rounding puts just before 0 comes first.
     const double first = way_to({1, 0}) - 1e-9 * length_;
     std::sort(ways.begin(), ways.end(), [&](double a, double b) {
         return wrapped(a - first, length_) < wrapped(b - first, length_);

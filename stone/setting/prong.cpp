@@ -13,11 +13,11 @@ namespace culet {
 namespace {
 
 constexpr double k_gap_tolerance = 1e-3;   // of the wire
-constexpr double k_least_distance = -0.4;  // of the wire, from what hulls say
+constexpr double k_least_distance = -0.4;  // of the wire; relative to the hull
 constexpr int k_most_tries = 40;
 // How far a claw reaches over the girdle: of the wire, and at most of the stone's inner radius.
 constexpr double k_claw = 0.8, k_longest_claw = 0.4;
-// Where a rail is tried, of the way from the base up to where prongs leave their straight part.
+// Where a rail is tried: share of the height from the base to where the prongs stop being straight.
 constexpr double k_highest_rail = 0.7, k_lowest_rail = 0.3, k_rail_step = 0.05;
 constexpr double k_rail_wire = 0.75;
 
@@ -33,7 +33,7 @@ Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& 
                    const std::string& what) {
     const double room = k_gap_tolerance * plan.wire;
     double distance = plan.clearance, near_gap = plan.far();
-    double too_near = k_least_distance * plan.wire;  // largest distance that was
+    double too_near = k_least_distance * plan.wire;  // largest distance found to be too near
     std::optional<double> kept_at;
     Shell kept;
     for (int i = 0; i < k_most_tries; ++i) {
@@ -49,12 +49,13 @@ Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& 
         } else {
             too_near = std::max(too_near, distance);
         }
-        // Where metal moves straight off the stone the gap grows as the distance does.
+        // Where metal moves straight away from the stone, the gap grows like the distance.
         double next = distance + plan.clearance + 0.5 * room - gap;
         if (kept_at && (next <= too_near || next >= *kept_at)) next = 0.5 * (too_near + *kept_at);
         if (!kept_at && next <= too_near) next = too_near + 0.1 * plan.wire;
         if (next > 2 * plan.wire + plan.clearance) break;
-        // A hull is wider than the stone where that falls off beside: negative distances.
+        // Distances may be negative: a hull is wider than the stone where the stone recedes on both
+        // sides.
         distance = std::max(next, k_least_distance * plan.wire);
         if (kept_at == distance) break;
     }
@@ -108,7 +109,7 @@ std::optional<Shell> make_rail(const SettingPlan& plan, const std::vector<Prong>
     for (double part = k_highest_rail; part > k_lowest_rail - 1e-9; part -= k_rail_step) {
         const PlanPoint at = prong.foot + part * (prong.shoulder - prong.foot);
         if (at.x >= 0) continue;
-        // The outline that, moved inward, runs through the first prong.
+        // Find the outline, moved inward, that passes through the first prong.
         double less = 0, more = -prong.foot.x;
         for (int i = 0; i < 50; ++i) {
             const double middle = 0.5 * (less + more);

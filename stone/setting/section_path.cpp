@@ -13,7 +13,7 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-// Outward normal of the way from a to b, as an angle from outward, counter-clockwise: -pi/2 down.
+// Outward normal of the way from a to b: angle from outward, counter-clockwise; -pi/2 is down.
 double normal_angle(const PlanPoint& a, const PlanPoint& b) {
     return std::atan2(-(b.x - a.x), b.y - a.y);
 }
@@ -38,7 +38,7 @@ std::vector<PlanPoint> outer_hull_of(const std::vector<PlanPoint>& points) {
     const auto lower = [](const PlanPoint& a, const PlanPoint& b) {
         return a.y < b.y || (a.y == b.y && a.x < b.x);
     };
-    // Of lowest corners the outermost, of highest ones too.
+    // Of several lowest or highest corners take the outermost.
     std::size_t lowest = 0, highest = 0;
     for (std::size_t i = 0; i < hull.size(); ++i) {
         if (hull[i].y < hull[lowest].y ||
@@ -57,7 +57,7 @@ std::vector<PlanPoint> outer_hull_of(const std::vector<PlanPoint>& points) {
 std::vector<PlanPoint> outer_hull(const Solid& solid, const GirdlePlace& place, double half_width) {
     const PlanPoint out = place.outward, aside{-out.y, out.x};
     std::vector<PlanPoint> points;
-    // The part of every edge between the two planes; a facet's hull is that of its edges' parts.
+    // The part of every edge between the two planes. A facet's hull is that of its edges' parts.
     for (const Facet& facet : solid.facets) {
         for (std::size_t i = 0; i < facet.corners.size(); ++i) {
             const Vec3 &a = solid.vertices[facet.corners[i]],
@@ -68,7 +68,7 @@ std::vector<PlanPoint> outer_hull(const Solid& solid, const GirdlePlace& place, 
             for (const double bound : {-half_width, half_width}) {
                 if ((s < bound) == (t < bound)) {
                     if ((s < bound) == (bound > 0)) continue;
-                    last = -1;  // all of it lies beyond
+                    last = -1;  // the whole edge is outside
                     break;
                 }
                 const double cut = (bound - s) / (t - s);
@@ -102,7 +102,7 @@ std::vector<PlanPoint> curve_beside(const std::vector<PlanPoint>& hull, double d
 
 std::vector<PlanPoint> taut_path(const std::vector<PlanPoint>& curve, const PlanPoint& from,
                                  double inside) {
-    // The tangent point: all of the curve lies on the left of the way to it.
+    // The tangent point: the whole curve lies to the left of the line to it.
     std::size_t tangent = 0;
     for (std::size_t i = 1; i < curve.size(); ++i) {
         if (cross(curve[tangent] - from, curve[i] - from) < 0) tangent = i;
@@ -116,7 +116,7 @@ std::vector<PlanPoint> taut_path(const std::vector<PlanPoint>& curve, const Plan
         }
         path.push_back(curve[i]);
     }
-    // Over a flat top it goes on level.
+    // Over a flat top the path continues level.
     if (path.back().x > inside) path.emplace_back(inside, path.back().y);
     return path;
 }
@@ -139,7 +139,7 @@ std::vector<PlanPoint> taut_path_between(const std::vector<PlanPoint>& curve, co
 
 std::vector<PlanPoint> line_beside(const std::vector<PlanPoint>& hull, double distance,
                                    double inside) {
-    // Lines that touch the hull, neighbours at no more than 45 degrees to each other.
+    // Lines that touch the hull; neighbours differ by at most 45 degrees.
     struct Touching {
         PlanPoint at{0, 0};
         double angle = 0;
@@ -156,7 +156,7 @@ std::vector<PlanPoint> line_beside(const std::vector<PlanPoint>& hull, double di
     for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
         const double turn = lines[i + 1].angle - lines[i].angle;
         if (turn < 1e-9) continue;
-        // Both lines, moved outward, meet here.
+        // Where both lines meet after moving outward.
         const PlanPoint first = at_angle(lines[i].angle), next = at_angle(lines[i + 1].angle);
         const double a = glm::dot(lines[i].at, first) + distance,
                      b = glm::dot(lines[i + 1].at, next) + distance;

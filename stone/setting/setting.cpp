@@ -17,11 +17,11 @@ namespace culet {
 namespace {
 
 constexpr double k_wire = 1.0 / 8, k_clearance = 1.0 / 500;  // of the girdle's width
-// The base of the gallery: how far inside the girdle's outline it lies, of the inner radius, and
-// how much of the hoop's radius it may reach aside without leaving the hoop.
+// The gallery's base: how far inside the girdle's outline it lies, as a share of the inner radius,
+// and how far it may reach sideways on the hoop, as a share of the hoop's radius.
 constexpr double k_base_inside = 0.5, k_base_on_hoop = 0.4, k_furthest_inside = 0.8;
-constexpr double k_shank_wire = 0.105;  // diameter, of the ring's: 1.8 mm on 17 mm
-constexpr int k_hoop_steps = 6;         // for each side of the wire
+constexpr double k_shank_wire = 0.105;  // wire diameter / ring diameter: 1.8 mm on 17 mm
+constexpr int k_hoop_steps = 6;         // per side of the wire
 
 // x across, y along the hoop, z up.
 Solid upright(const Solid& solid, const PlanFrame& frame, const Vec3& up) {
@@ -78,7 +78,7 @@ std::vector<Vec3> at_height(const PlanOutline& outline, double height) {
     return path;
 }
 
-// About the plan's x, its highest point under the middle of the stone.
+// The hoop's axis is the plan's x; its highest point is under the middle of the stone.
 Shell make_shank(const SettingPlan& plan, double inner_diameter, double wire) {
     const double radius = 0.5 * (inner_diameter + wire);
     const PlanPoint middle = middle_of(plan.grip.hull());

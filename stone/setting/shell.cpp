@@ -12,13 +12,13 @@ namespace {
 
 constexpr double k_half_turn = std::numbers::pi;
 
-// Rounds of `sides` vertices each, joined one to the next; `along` the rounds, vertices run
-// counter-clockwise.
+// Rings of `sides` vertices each, each joined to the next. Vertices are counter-clockwise about
+// `along`.
 class Rounds {
 public:
     explicit Rounds(int sides) : sides_(sides) {}
 
-    // A round about `middle`, in the plane of `out` and `aside`; out x aside points backwards.
+    // A ring about `middle`, in the plane of `out` and `aside`; out x aside points backwards.
     void add(const Vec3& middle, const Vec3& out, const Vec3& aside) {
         for (int i = 0; i < sides_; ++i) {
             const double angle = 2 * k_half_turn * i / sides_;
@@ -58,7 +58,7 @@ private:
     Shell shell_;
 };
 
-// Without points that are nearly their neighbours.
+// Removes points that nearly coincide with their neighbours.
 std::vector<Vec3> without_repeats(const std::vector<Vec3>& path, double near, bool closed) {
     std::vector<Vec3> kept;
     for (const Vec3& point : path) {
@@ -78,7 +78,7 @@ Shell round_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3&
     const std::size_t last = path.size() - 1;
     const Vec3 begins = glm::normalize(path[1] - path[0]),
                ends = glm::normalize(path[last] - path[last - 1]);
-    // A half ball, its pole left to the end.
+    // A half ball without its pole.
     for (int k = 1; k < rows; ++k) {
         const double angle = 0.5 * k_half_turn * k / rows;
         rounds.add(path[0] - radius * std::cos(angle) * begins,
@@ -123,8 +123,8 @@ Shell closed_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3
 Shell swept_collar(const PlanOutline& outline, const std::vector<PlanPoint>& section) {
     const std::size_t count = outline.size();
     Shell shell;
-    // Of each point of the section, the vertices at the outline's corners; corners that came
-    // together share one.
+    // For each point of the section, the vertices at the outline's corners. Corners that coincide
+    // share one.
     std::vector<std::vector<int>> rows;
     for (const PlanPoint& point : section) {
         const PlanOutline moved = moved_outline(outline, point.x);

@@ -40,9 +40,8 @@ std::vector<Dart> darts_of(const Solid& solid) {
     return darts;
 }
 
-// What no automorphism changes about a dart: its facet's and its neighbour's number of corners, and
-// how many facets meet at either end. The same from both sides of a mirror but for the ends, which
-// change places.
+// What automorphisms keep of a dart: the number of corners of its facet and of the neighbour, and
+// the number of facets at either end. A mirroring swaps the two ends.
 using Shape = std::array<int, 4>;
 
 std::vector<Shape> shapes_of(const Solid& solid, const std::vector<Dart>& darts) {
@@ -63,8 +62,8 @@ Shape mirrored(const Shape& s) {
     return {s[0], s[1], s[3], s[2]};
 }
 
-// Follows neighbours from one dart and its image. A mirroring keeps a dart's facet and runs the
-// other way, so that what came next comes before.
+// Follows neighbours from one dart and its image. A mirroring maps a dart to one in the same facet
+// that runs the other way, so next becomes previous.
 class Propagation {
 public:
     Propagation(const Solid& solid, const std::vector<Dart>& darts)
@@ -81,7 +80,7 @@ public:
         return best;
     }
 
-    // Whether `from` may go to `to` with all that follows; then `result` holds it.
+    // True if `from` may go to `to` with all that follows; then `result` holds the map.
     bool follow(int from, int to, bool turns_over, Automorphism& result) {
         image_.assign(darts_.size(), -1);
         source_.assign(darts_.size(), -1);
@@ -100,12 +99,12 @@ public:
         result.facets.assign(solid_.facets.size(), -1);
         result.vertices.assign(solid_.vertices.size(), -1);
         for (std::size_t d = 0; d < darts_.size(); ++d) {
-            if (image_[d] < 0) return false;  // a piece of its own
+            if (image_[d] < 0) return false;  // a separate piece
             const Dart& there = darts_[image_[d]];
             result.facets[darts_[d].facet] = there.facet;
             result.vertices[darts_[d].from] = turns_over ? darts_[there.twin].from : there.from;
         }
-        // Vertices of no facet stay.
+        // Vertices without facets stay.
         for (std::size_t v = 0; v < result.vertices.size(); ++v) {
             if (result.vertices[v] < 0) result.vertices[v] = static_cast<int>(v);
         }
@@ -139,7 +138,7 @@ std::vector<Automorphism> automorphisms(const Solid& solid) {
     std::vector<Automorphism> all;
     Automorphism found;
     if (!propagation.follow(first, first, false, found)) {
-        // Several pieces: only the identity is looked for.
+        // For several pieces only the identity is returned.
         found.facets.resize(solid.facets.size());
         found.vertices.resize(solid.vertices.size());
         std::iota(found.facets.begin(), found.facets.end(), 0);

@@ -28,7 +28,7 @@ std::vector<AxisMotion> motions_about_z(const std::vector<Automorphism>& all,
     for (const Vec3& p : points) mean += p / double(points.size());
     std::vector<AxisMotion> motions;
     for (const Automorphism& map : all) {
-        // The turn that brings all points nearest to their images' places.
+        // The turn that brings all points nearest to their images.
         Complex sum = 0;
         for (std::size_t v = 0; v < points.size(); ++v) {
             const Vec3 p = points[v] - mean, q = points[map.vertices[v]] - mean;
@@ -60,7 +60,7 @@ AxisGroup largest_group(const std::vector<AxisMotion>& motions, double largest_m
     for (std::size_t f = 0; f < same.size(); ++f) same[f] = static_cast<int>(f);
     group.elements.push_back({same, 0, false});
 
-    // The turn of highest order by one step; of equals the one that fits best.
+    // The turn of highest order by one step; of several the best fit.
     const AxisMotion* generator = nullptr;
     for (const AxisMotion& m : motions) {
         if (m.map.turns_over || m.misfit > largest_misfit) continue;

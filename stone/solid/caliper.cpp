@@ -19,7 +19,8 @@ double cross(const Vec2d& a, const Vec2d& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Andrew's monotone chain (1979), counter-clockwise. Corners within rounding of an edge are none.
+// Andrew's monotone chain (1979), counter-clockwise. Drops corners that are within rounding of an
+// edge.
 std::vector<int> hull_of(const std::vector<Vec2d>& points, double size) {
     const auto at = [&](int p) -> const Vec2d& { return points[std::size_t(p)]; };
     std::vector<int> order(points.size());
@@ -47,7 +48,7 @@ std::vector<int> hull_of(const std::vector<Vec2d>& points, double size) {
 double half_turn(const Vec2d& direction) {
     const double angle =
         std::fmod(std::atan2(direction.y, direction.x) + 2 * std::numbers::pi, std::numbers::pi);
-    // Just below a half turn is none.
+    // Just below a half turn counts as 0.
     return std::numbers::pi - angle < 1e-9 ? 0 : angle;
 }
 
@@ -90,7 +91,7 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
         const double length = glm::length(edge);
         widths.mean += length / std::numbers::pi;
         const Vec2d across{-edge.y / length, edge.x / length};
-        // Of equal widths (to rounding) the first: the answer must not turn on the last digit.
+        // Of equal widths (to rounding) take the first, so that the last digit does not decide.
         if (const double width = extent(across); width < widths.least * (1 - 1e-12)) {
             widths.least = width;
             widths.least_edge = i;

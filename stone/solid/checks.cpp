@@ -18,12 +18,12 @@ namespace culet {
 
 namespace {
 
-// Of one kind of fault so many are spelled out.
+// Number of faults of one kind that are listed.
 constexpr int k_most_told = 20;
 constexpr int k_most_parts_told = 4;
 
-// Planes this close (angle in radians, and offset by the diameter) are one plane given twice:
-// rounding of doubles is far below, any facet that a cutter could tell apart far above.
+// Planes this close (angle in radians, and offset / diameter) are one plane given twice. The
+// rounding of doubles is far below this, any facet that a cutter could tell apart far above.
 constexpr double k_same_plane = 1e-9;
 
 bool is_finite(const Vec3& v) {
@@ -118,7 +118,7 @@ private:
     }
 
     void check_pieces(Groups& pieces) {
-        // By the first facet of each part: how many facets it has.
+        // The number of facets of each part, by the part's first facet.
         std::map<int, int> first_of, sizes;
         for (int f = 0; f < static_cast<int>(solid_.facets.size()); ++f)
             ++sizes[first_of.try_emplace(pieces.find(f), f).first->second];
@@ -205,7 +205,7 @@ private:
     }
 
     void tell_concave_edges() {
-        // The edges are named by the stored planes; the verdict itself is the exact one.
+        // The stored planes serve to name the edges; the exact test decides.
         const std::vector<EdgeSide> edges = sorted_sides(solid_);
         const double forgiven = std::min(planarity(solid_), k_largest_miss * diameter(solid_));
         bool told = false;
@@ -240,7 +240,7 @@ private:
         std::vector<int> order(solid_.facets.size());
         std::iota(order.begin(), order.end(), 0);
         const auto& plane = [&](int f) -> const Plane& { return solid_.facets[f].plane; };
-        // Sorted along a direction that means nothing to a stone, equal normals are neighbours.
+        // Sorted along an arbitrary direction, equal normals become neighbours.
         const auto key = [&](int f) { return glm::dot(plane(f).normal, Vec3(0.36, 0.48, 0.8)); };
         std::sort(order.begin(), order.end(),
                   [&](int a, int b) { return std::pair(key(a), a) < std::pair(key(b), b); });
@@ -253,8 +253,8 @@ private:
                 const Vec3& corner = solid_.vertices[solid_.facets[order[j]].corners.empty()
                                                          ? 0
                                                          : solid_.facets[order[j]].corners[0]];
-                // By the height of a corner, not by the offsets: those of a stone far from the
-                // origin differ with the last digit of the normals.
+                // Compare a corner's heights, not the offsets: far from the origin the offsets
+                // depend on the last digit of the normals.
                 if (std::abs(height_above(a, corner) - height_above(b, corner)) >
                     k_same_plane * size) {
                     continue;

@@ -1,4 +1,4 @@
-// Whether a solid is convex.
+// Tests whether a solid is convex.
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-/// Solid angle of a facet's corner fan seen from a point, positive when it faces away (Van Oosterom
-/// and Strackee 1983).
+/// Solid angle of a facet's corner fan seen from a point, positive when the facet faces away (Van
+/// Oosterom and Strackee 1983).
 double solid_angle(const Solid& solid, const Facet& facet, const Vec3& eye) {
     double sum = 0;
     const Vec3 a = glm::normalize(solid.vertices[facet.corners[0]] - eye);
@@ -29,7 +29,7 @@ double solid_angle(const Solid& solid, const Facet& facet, const Vec3& eye) {
     return sum;
 }
 
-/// For each facet those that share an edge with it; empty when the solid is small enough to test
+/// For each facet those that share an edge with it. Empty when the solid is small enough to test
 /// every corner against every facet.
 std::vector<std::vector<int>> tested_neighbours(const Solid& solid) {
     constexpr std::size_t k_most_tests = 100'000'000;
@@ -44,23 +44,26 @@ std::vector<std::vector<int>> tested_neighbours(const Solid& solid) {
 
 }  // namespace
 
-// Three conditions. (1) Each outline is convex. (2) No corner lies above a facet's plane; for
-// exactness the plane is that through three of the facet's corners, and the facet's own corners
-// are on it by definition, for rounding leaves a fourth corner a little off. (3) Seen from within,
-// the facets cover all directions just once. A corner that fails (1) or (2) is forgiven when it is
-// off by no more than the corners of this very solid are off their own facets' planes, and never
-// by more than `k_largest_miss` of the diameter: the edges of a design with near-miss meets are
-// not better defined than that. The corners of a fitted stone miss by rounding only, so a flipped
-// edge, which turns an outline back on itself by the length of the edge, is never forgiven.
+// Three conditions:
+// - (1) Each outline is convex.
+// - (2) No corner lies above a facet's plane. For exactness that is the plane through three of the
+//   facet's corners. The facet's own corners are not tested, since rounding puts a fourth one a
+//   little off.
+// - (3) Seen from inside, the facets cover every direction exactly once.
 //
-// A surface that (3) finds star-shaped is convex as soon as it is convex along each edge, so for
-// meshes of very many facets (2) looks at neighbours only.
+// Where (1) or (2) fails, a corner may be off by as much as this solid's corners are off their own
+// facets' planes, at most `k_largest_miss` of the diameter: the edges of a design with near-miss
+// meets are not defined any better. The corners of a fitted stone miss by rounding only, so a
+// flipped edge, which folds an outline back by the edge's length, is always refused.
+//
+// A surface that is star-shaped by (3) is convex if it is convex along each edge. For meshes of
+// very many facets (2) therefore tests neighbours only.
 bool is_convex(const Solid& solid) {
     if (!is_closed(solid)) return false;
     const double allowance = std::min(planarity(solid), k_largest_miss * diameter(solid));
     const Vec3 middle = centroid(solid);
-    // Of a surface that turns over the volume is that of differences: it may all but vanish, and
-    // the middle lie anywhere. Strictly within a convex solid there is no corner.
+    // The volume of a surface that crosses itself is a difference: it may nearly vanish and its
+    // centroid lie anywhere. A convex solid has no corner strictly inside.
     if (!std::isfinite(middle.x + middle.y + middle.z)) return false;
     double seen = 0;
     const std::vector<std::vector<int>> neighbours = tested_neighbours(solid);

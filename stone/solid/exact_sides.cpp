@@ -14,10 +14,9 @@ namespace culet {
 namespace {
 
 #ifdef __wasm__
-// CGAL's filtered kernels decide most sides by interval arithmetic, which needs a processor that
-// rounds up and down as it is told. WebAssembly only rounds to nearest, so that its intervals would
-// not hold what they promise: every side is computed exactly from the start, with numbers of as
-// many digits as it takes.
+// CGAL's filtered kernels decide most sides by interval arithmetic, which needs directed rounding.
+// WebAssembly only rounds to nearest, so the intervals would be wrong. There every side is computed
+// exactly from the start, with as many digits as needed.
 using Kernel = CGAL::Simple_cartesian<CGAL::MP_Float>;
 #else
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

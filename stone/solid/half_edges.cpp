@@ -18,7 +18,7 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-// OpenMesh tells of faces that it refuses on stderr: a library of ours does not print.
+// OpenMesh reports faces that it refuses on stderr; our library must not print.
 class SilentOpenMesh {
 public:
     SilentOpenMesh() : was_enabled_(omerr().is_enabled()) { omerr().disable(); }
@@ -76,7 +76,7 @@ HalfEdges half_edges(const Solid& solid) {
     for (const auto vertex : mesh.vertices()) {
         std::vector<int>& facets = result.facets_of_vertex[vertex.idx()];
         for (auto f = mesh.cvf_ccwbegin(vertex); f.is_valid(); ++f) facets.push_back(f->idx());
-        // Two fans that share a vertex: only one of them is walked.
+        // Of two fans that share a vertex only one is visited.
         check(facets.size() == facet_count[vertex.idx()], not_manifold);
         std::rotate(facets.begin(), std::min_element(facets.begin(), facets.end()), facets.end());
     }

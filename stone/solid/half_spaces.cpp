@@ -1,10 +1,10 @@
 // The convex solid of half-spaces by exact incremental clipping.
 //
-// A box far beyond every meet is clipped by one plane after the other. A corner is always the meet
-// of three of the given planes and never a point computed from other points, so the exact numbers
-// behind it stay as short as the input allows and no tree of lazy evaluations grows with the
-// number of planes. Every side is decided exactly: interval arithmetic first, rationals when the
-// interval holds zero (CGAL's Exact_predicates_exact_constructions_kernel).
+// A box far beyond every meet is clipped by one plane after another. A corner is always the meet of
+// three of the given planes, never a point computed from other points. So the exact numbers stay as
+// short as the input allows, and no tree of lazy evaluations grows with the number of planes. Every
+// side is decided exactly: by interval arithmetic first, by rationals when the interval contains
+// zero (CGAL's Exact_predicates_exact_constructions_kernel).
 
 #ifdef __wasm__
 #include <CGAL/MP_Float.h>
@@ -32,16 +32,16 @@ namespace culet {
 namespace {
 
 #ifdef __wasm__
-// Exactly from the start, as in exact_sides.cpp, and without division: meets are homogeneous.
+// Exact from the start, as in exact_sides.cpp, and without division: meets are homogeneous.
 using Exact = CGAL::Simple_homogeneous<CGAL::MP_Float>;
 #else
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 #endif
 using CornerPair = std::pair<int, int>;
 
-// The box reaches this many powers of two beyond the largest offset. Three planes of doubles can
-// meet no further out than that unless they are parallel to within 1e-30, and the numbers still
-// fit a double, so that interval arithmetic decides nearly all sides.
+// The box is this many powers of two larger than the largest offset. Three planes of doubles cannot
+// meet further out unless they are parallel to within 1e-30, and the numbers still fit a double, so
+// that interval arithmetic decides nearly all sides.
 constexpr int k_box_exponent = 300;
 
 struct Corner {
@@ -64,7 +64,7 @@ public:
     /// The last six planes are the box, in the order +x -x +y -y +z -z.
     explicit Clipper(std::vector<Exact::Plane_3> planes) : planes_(std::move(planes)) {
         const int first = static_cast<int>(planes_.size()) - 6;
-        // Corner k lies at +x when bit 0 is set, at +y by bit 1, at +z by bit 2.
+        // Corner k lies at +x when bit 0 is set, at +y for bit 1, at +z for bit 2.
         for (int k = 0; k < 8; ++k) {
             add_corner(first + (k & 1 ? 0 : 1), first + (k & 2 ? 2 : 3), first + (k & 4 ? 4 : 5));
         }
@@ -73,7 +73,7 @@ public:
         for (int i = 0; i < 6; ++i) faces_.push_back({first + i, outlines[i]});
     }
 
-    /// Cuts off what lies above a plane. False when no inside is left.
+    /// Cuts off what lies above a plane. False when nothing is left inside.
     bool clip(int plane) {
         bool any_inside = false, any_outside = false;
         for (const Face& face : faces_) {
@@ -92,7 +92,7 @@ public:
         if (!any_inside) return false;
         if (!any_outside) return true;  // touches a facet, an edge, a corner, or nothing
 
-        // Each edge that the plane cuts belongs to two facets: their planes and this one meet in
+        // Each edge that the plane cuts belongs to two facets. Their planes and this one meet in
         // the new corner.
         std::map<CornerPair, std::pair<int, int>> planes_of_cut;
         for (const Face& face : faces_) {
@@ -120,7 +120,7 @@ public:
         faces_ = std::move(kept);
         check(!next.empty(), "a plane that cuts the solid leaves no outline");
         Face added{plane, {next.begin()->first}};
-        // The lowest corner first, so that the outcome does not hang on a hash.
+        // Start at the lowest corner so that the result does not depend on hash order.
         for (const auto& step : next) {
             added.corners[0] = std::min(added.corners[0], step.first);
         }
@@ -150,9 +150,9 @@ private:
         }
     }
 
-    // What the plane leaves of a facet. The new facet runs against the cut: from where the
-    // outline comes back inside to where it left. A facet that goes altogether but has an edge in
-    // the plane hands that edge on.
+    // What the plane leaves of a facet. The new facet runs against the cut: from where the outline
+    // comes back inside to where it left. A facet that vanishes but has an edge in the plane passes
+    // that edge on.
     Face cut(const Face& face, const std::map<CornerPair, int>& corner_of_cut,
              std::unordered_map<int, int>& next) const {
         bool any_inside = false, any_outside = false;
@@ -195,8 +195,8 @@ bool all_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Power of two that brings the largest offset to 1/2..1: scaling by it is exact, and tiny or
-/// huge stones use the same range of exponents as others.
+/// Power of two that scales the largest offset to 1/2..1. The scaling is exact, and tiny or huge
+/// stones use the same range of exponents as others.
 int scale_exponent(std::span<const NamedPlane> planes) {
     double largest = 0;
     for (const NamedPlane& p : planes) {
@@ -213,12 +213,12 @@ Exact::Plane_3 exact_plane(const Plane& plane, int exponent) {
 
 Plane unit_plane(const Plane& plane) {
     const double length = glm::length(plane.normal);
-    // A unit normal rounded to doubles is a few units in the last place off: leave it alone.
+    // A unit normal rounded to doubles is off by a few units in the last place: keep it.
     if (std::abs(length - 1) < 4e-16) return plane;
     return {plane.normal / length, plane.offset / length};
 }
 
-// CGAL's to_double of a lazy number may be off by 1e-5 of its value: round the exact number.
+// CGAL's to_double of a lazy number may have a relative error of 1e-5: round the exact number.
 template <class Number>
 double nearest_double(const Number& value) {
     if constexpr (requires { value.exact(); }) {
@@ -237,7 +237,7 @@ Vec3 rounded(const Exact::Point_3& point, int exponent) {
 
 std::vector<int> find_repeated(std::span<const NamedPlane> planes,
                                const std::vector<Exact::Plane_3>& exact) {
-    // Equal planes have equal unit normals to rounding: sorted by one component they are close
+    // Equal planes have equal unit normals to rounding. Sorted by one component they are close
     // together, and only such pairs are compared exactly.
     std::vector<std::pair<double, int>> order;
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -302,7 +302,7 @@ HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes) {
 
     std::vector<const Face*> face_of_plane(planes.size(), nullptr);
     for (const Face& face : clipper.faces()) {
-        // A solid that reaches the box goes on for ever.
+        // A solid that reaches the box is unbounded.
         if (face.plane >= count) {
             result.bounded = false;
             return result;

@@ -1,4 +1,4 @@
-// Meets of a design that miss by a hair, brought together again.
+// Contracts the near-miss meets of a design.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Outline = std::vector<int>;
 
-/// A corner and the corners of the given solid that it stands for.
+/// A corner, and the given solid's corners that it stands for.
 struct MergedCorner {
     Vec3 position;
     std::vector<int> members;
@@ -41,7 +41,7 @@ public:
         for (const Facet& facet : solid.facets) outlines_.push_back(facet.corners);
     }
 
-    /// Contracts the shortest edge that is no longer than `tolerance` and can be contracted.
+    /// Contracts the shortest edge that is at most `tolerance` long and can be contracted.
     bool contract_shortest(double tolerance) {
         std::vector<std::tuple<double, int, int>> edges;
         for (const Outline& outline : outlines_) {
@@ -75,8 +75,8 @@ public:
             for (const int corner : outlines_[f]) {
                 if (index[corner] < 0) {
                     index[corner] = static_cast<int>(out.solid.vertices.size());
-                    // Facets may have vanished since the corner was made: it lies at the meet of
-                    // those that are left.
+                    // Facets may have vanished since the corner was made, so compute the meet of
+                    // the remaining ones.
                     out.solid.vertices.push_back(corners_[corner].members.size() > 1
                                                      ? meet(corner)
                                                      : corners_[corner].position);
@@ -108,8 +108,8 @@ private:
         return true;
     }
 
-    // A facet with two corners left has no area: its neighbours meet in that edge. A corner with
-    // two facets left lies within their common edge.
+    // A facet with two corners has no area: its neighbours meet in that edge. A corner with two
+    // facets lies within their common edge.
     void drop_vanished() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -124,10 +124,9 @@ private:
         }
     }
 
-    // The least-squares meet of a corner's planes, sought from the mean of the corners that it
-    // stands for. A direction in which the planes would place it further off than those corners
-    // are from each other is one that the planes do not fix (nearly parallel ones): there the
-    // mean stays.
+    // The least-squares meet of a corner's planes, relative to the mean of the corners that it
+    // stands for. If the planes (nearly parallel ones) would move it along a direction by more than
+    // those corners are apart, they do not define that direction, and it keeps the mean.
     Vec3 meet(int corner) const {
         const std::vector<int>& members = corners_[corner].members;
         Vec3 mean{0, 0, 0};

@@ -69,7 +69,7 @@ bool crosses_itself(const std::vector<Vec2>& outline) {
     const auto end = [&](std::size_t i) -> const Vec2& { return outline[(i + 1) % n]; };
     const auto left = [&](std::size_t i) { return std::min(outline[i][0], end(i)[0]); };
     const auto right = [&](std::size_t i) { return std::max(outline[i][0], end(i)[0]); };
-    // Sorted by their left ends, only edges that overlap in x are compared.
+    // Sorted by their left ends; only edges that overlap in x are compared.
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),

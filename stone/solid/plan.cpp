@@ -17,7 +17,7 @@ PlanPoint normal_of(const PlanPoint& from, const PlanPoint& to) {
     return {along.y, -along.x};
 }
 
-// How fast the corner between two edges moves when both move outward at unit speed.
+// Velocity of the corner between two edges when both move outward at unit speed.
 PlanPoint corner_speed(const PlanPoint& a, const PlanPoint& b) {
     const double cosine = glm::dot(a, b);
     if (cosine < -1 + 1e-9) throw InputError("the outline is too narrow to be moved so far");
@@ -47,8 +47,8 @@ PlanOutline convex_hull(std::vector<PlanPoint> points) {
 PlanOutline moved_outline(const PlanOutline& outline, double distance) {
     const std::size_t count = outline.size();
     const double sign = distance < 0 ? -1 : 1;
-    // Edge i runs from corner i; `left` are the edges that have not vanished, and starts[k] is
-    // where left[k] begins now.
+    // Edge i begins at corner i. `left` are the edges that have not vanished; left[k] now begins at
+    // starts[k].
     std::vector<PlanPoint> normals;
     for (std::size_t i = 0; i < count; ++i)
         normals.push_back(normal_of(outline[i], outline[(i + 1) % count]));
@@ -84,7 +84,7 @@ PlanOutline moved_outline(const PlanOutline& outline, double distance) {
         left.erase(left.begin() + static_cast<std::ptrdiff_t>(vanishes));
         starts.erase(starts.begin() + static_cast<std::ptrdiff_t>(vanishes));
     }
-    // A corner goes where the next edge that is left begins.
+    // A corner goes where the next remaining edge begins.
     PlanOutline moved(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto next = std::lower_bound(left.begin(), left.end(), i);

@@ -46,16 +46,16 @@ double width_along(const Solid& solid, const Vec3& direction) {
 
 namespace {
 
-// Sums over the tetrahedra from a corner of the solid (not the origin: a stone far from the origin
-// would lose its digits) to the corner fan of every facet.
+// Sums over the tetrahedra from a corner of the solid to the corner fan of every facet. Using the
+// origin instead would lose digits for a stone far from it.
 struct VolumeMoments {
     double six_volumes = 0;
-    Vec3 weighted{0, 0, 0};  // of 24 times the first moment about the reference corner
+    Vec3 weighted{0, 0, 0};  // 24 times the first moment about the reference corner
     Vec3 reference{0, 0, 0};
 };
 
-// Twice the area vector of a triangle from its two shorter edges: of a needle's facet the product
-// of two long edges would be a difference of numbers that are larger by its aspect.
+// Twice the area vector of a triangle, from its two shorter edges. In a needle, the product of two
+// long edges would be a difference of numbers larger by its aspect ratio.
 Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const double of_ab = glm::dot(ab, ab), of_bc = glm::dot(bc, bc), of_ca = glm::dot(ca, ca);

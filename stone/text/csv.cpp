@@ -12,14 +12,14 @@ namespace culet {
 
 namespace {
 
-// The lines before the header: blank, comments, and the `sep=;` that Excel understands.
+// The lines before the header: blank lines, comments, and Excel's `sep=;`.
 bool precedes_the_header(std::string_view line) {
     const std::string plain = lower_case(std::string(trimmed(line)));
     const std::size_t start = plain.find_first_not_of("\";,\t ");
     return start == std::string::npos || plain[start] == '#' || plain.starts_with("sep=");
 }
 
-// What parts the fields: told by the header.
+// The separator of the fields, judged by the header.
 char separator_of(std::string_view text) {
     std::size_t begin = 0;
     while (begin < text.size()) {
@@ -35,8 +35,7 @@ char separator_of(std::string_view text) {
     return ',';
 }
 
-// RFC 4180, for any separator: fields may be quoted, a quote inside is doubled, a quoted field may
-// run over lines.
+// RFC 4180 with any of the separators.
 class CsvReader {
 public:
     CsvReader(const std::filesystem::path& file, std::string_view text, char separator)

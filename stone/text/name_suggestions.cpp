@@ -9,10 +9,10 @@ namespace culet {
 
 namespace {
 
-// A name of more letters than this is none that anybody meant: edit distances cost their product.
+// Longer words are not compared: the cost of edit distances is the product of lengths.
 constexpr std::size_t k_longest_word = 64;
 
-// Small letters, and every run of other signs than letters and digits one blank.
+// Lower case, with every run of characters other than letters and digits as one blank.
 std::string plain(std::string_view text) {
     std::string result;
     for (const char c : text) {
@@ -99,8 +99,8 @@ std::vector<std::string> names_like(std::string_view word, const std::vector<std
         if (holds_words(name, wanted)) found.push_back(name);
     }
     if (!found.empty()) return found;
-    // A slip or two in a whole name, or in one part of it (saphire is near sapphire_blue). A third
-    // of the letters may differ: more, and every short name is near every other.
+    // Allows a slip or two in a whole name or in one part of it (saphire is near sapphire_blue). At
+    // most a third of the letters may differ; with more, every short name is near every other.
     std::size_t least = std::max<std::size_t>(1, wanted.size() / 3) + 1;
     for (const std::string& name : known) {
         const std::string whole = plain(name);

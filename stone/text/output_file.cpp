@@ -31,14 +31,15 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
         throw InputError(target_,
                          fmt::format("cannot be written: there is no folder {}", folder.string()));
     }
-    // Exclusive creation: two programs that write the same target never share a temporary.
+    // Exclusive creation, so that two programs that write the same target never share a temporary
+    // file.
     for (int attempt = 0; attempt < 100; ++attempt) {
         temporary_ = folder / fmt::format(".{}.{}.{}{}", target_.stem().string(), ::getpid(),
                                           attempt, target_.extension().string());
         const int descriptor = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0666);
         if (descriptor >= 0) {
             ::close(descriptor);
-            // An existing target that may not be written is not replaced either.
+            // An existing target without write permission is not replaced.
             if (fs::exists(target_, error) && ::access(target_.c_str(), W_OK) != 0) {
                 fs::remove(temporary_, error);
                 throw InputError(target_, "cannot be overwritten: no permission");

@@ -10,8 +10,8 @@ namespace culet {
 
 namespace {
 
-// Windows code page 1252, 0x80..0x9f; 0: not assigned. The rest equals Latin-1 (Unicode
-// Consortium, CP1252.TXT).
+// Windows code page 1252, 0x80..0x9f; 0: not assigned. The rest equals Latin-1 (Unicode Consortium,
+// CP1252.TXT).
 constexpr std::array<std::uint16_t, 32> k_high{
     0x20ac, 0,      0x201a, 0x0192, 0x201e, 0x2026, 0x2020, 0x2021, 0x02c6, 0x2030, 0x0160,
     0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
@@ -49,7 +49,7 @@ bool is_utf8(std::string_view text) {
 constexpr std::string_view k_utf16_le_mark = "\xff\xfe", k_utf16_be_mark = "\xfe\xff";
 constexpr std::int32_t k_replacement = 0xfffd;
 
-// UTF-16 (RFC 2781); a surrogate without its other half becomes U+FFFD.
+// UTF-16 (RFC 2781); a lone surrogate becomes U+FFFD.
 std::string utf8_from_utf16(std::string_view bytes) {
     const bool marked = bytes.starts_with(k_utf16_le_mark) || bytes.starts_with(k_utf16_be_mark);
     const bool little = bytes[marked ? 0 : 1] == (marked ? '\xff' : '\0');
@@ -73,7 +73,7 @@ std::string utf8_from_utf16(std::string_view bytes) {
     return text;
 }
 
-// Ctrl-Z at the end, and what fills the last block of a file behind it.
+// Removes a final Ctrl-Z and what fills the file's last block after it.
 std::string_view without_end_mark(std::string_view text) {
     constexpr std::string_view k_filling("\x1a\0 \t\r\n", 6);
     const std::size_t last = text.find_last_not_of(k_filling);
@@ -107,7 +107,7 @@ constexpr Signature k_signatures[] = {
     {4, "ftypavif", k_other_picture},
     {0, "{\\rtf", "is a document of a word processor (RTF): save it as plain text"},
 };
-// These are named where text is wanted only: other readers take them.
+// Reported only where text is wanted: other readers accept these.
 constexpr Signature k_no_text[] = {
     {0, "\x89PNG", "is a PNG picture, not text"},
     {0, "\xff\xd8\xff", "is a JPEG picture, not text"},
@@ -148,8 +148,8 @@ bool is_printable(std::int32_t code) {
         return code >= from && code <= to;
     };
     const bool control = code < 0x20 || within(0x7f, 0x9f);
-    // The zero-width blank, bidirectional marks, separators of lines, invisible operators, the byte
-    // order mark, annotation and tags (Unicode, general categories Cf, Zl and Zp, but for the
+    // The zero-width blank, bidirectional marks, line separators, invisible operators, the byte
+    // order mark, annotation and tags (Unicode, general categories Cf, Zl and Zp, except for the
     // joiners that scripts need).
     const bool hidden = code == 0x61c || code == 0x200b || within(0x200e, 0x200f) ||
                         within(0x2028, 0x202e) || within(0x2060, 0x206f) || code == 0xfeff ||

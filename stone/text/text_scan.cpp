@@ -23,11 +23,10 @@ std::optional<std::string_view> LineReader::next() {
 
 namespace {
 
-// Beyond ASCII: U+00A0, U+2007, U+2009, U+202F, U+3000 and U+FEFF, in UTF-8.
 constexpr std::string_view k_wide_blanks[] = {"\u00a0", "\u2007", "\u2009",
                                               "\u202f", "\u3000", "\ufeff"};
 
-// Bytes of the blank that `text` begins with; 0: none.
+// Number of bytes of the blank that `text` begins with; 0: none.
 std::size_t blank_before(std::string_view text) {
     const char c = text.front();
     if (c == ' ' || (c >= '\t' && c <= '\r')) return 1;
@@ -103,7 +102,7 @@ std::string shown(std::string_view word) {
 }
 
 std::string with_plain_minus(std::string_view word) {
-    // Minus, hyphens, dashes; small, full-width and superscript ones are not what people type.
+    // Minus, hyphens, dashes. People do not type small, full-width and superscript ones.
     for (const std::string_view minus :
          {"\u2212", "\u2010", "\u2011", "\u2012", "\u2013", "\u2014"}) {
         if (word.starts_with(minus)) return "-" + std::string(word.substr(minus.size()));
@@ -133,7 +132,7 @@ std::optional<double> number_in(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || word.empty()) return std::nullopt;
     if (error == std::errc::result_out_of_range) {
-        // Too small is zero; too large is no number.
+        // Too small a number is zero; too large is not a number.
         const std::size_t exponent = word.find_first_of("eE");
         if (exponent == std::string_view::npos || exponent + 1 >= word.size() ||
             word[exponent + 1] != '-') {
@@ -158,8 +157,7 @@ std::optional<std::int64_t> integer_in(std::string_view word) {
 void WrittenPrecision::add(std::string_view word, double value) {
     largest_ = std::max(largest_, std::abs(value));
     if (value == 0) return;
-    // Count the digits of the mantissa from its first that is not zero, and find the place of the
-    // last one.
+    // Count the mantissa's digits from the first that is not zero, and find the last one's place.
     int digits = 0, decimals = 0, exponent = 0;
     bool after_point = false;
     for (std::size_t i = 0; i < word.size(); ++i) {
@@ -194,12 +192,12 @@ void WrittenPrecision::add_double(double value) {
 }
 
 double WrittenPrecision::rounding() const {
-    // Numbers that are single precision in disguise carry its rounding however they are written.
+    // Numbers that are single precision in disguise have its rounding however they are written.
     const bool is_single = any_single_ || all_near_single_;
     double rounding = largest_ * (is_single ? FLT_EPSILON / 2 : DBL_EPSILON / 2);
     if (count_ == 0) return rounding;
-    // Digits speak of rounding only when most numbers spend as many as any. `%.6f` ends all at one
-    // place; `%.6e` and `%g` give all, or most, the same count of digits. In a file of short exact
+    // Digits tell about rounding only when most numbers use as many as any. `%.6f` ends all at one
+    // place; `%.6e` and `%g` give all, or most, the same number of digits. In a file of short exact
     // numbers (0.5, 2, 1.25) neither holds.
     long most = 0;
     int last_place = 0;

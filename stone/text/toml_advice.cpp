@@ -36,7 +36,7 @@ std::optional<LeadingNumber> leading_number(std::string_view text) {
     return number;
 }
 
-// Units that people write behind numbers, and what they mean.
+// True if `written` is one of the ways in which people write `unit`.
 bool means(std::string_view written, std::string_view unit) {
     if (written == unit) return true;
     if (unit.starts_with("deg"))
@@ -92,7 +92,7 @@ std::string toml_advice(std::string_view line) {
     if (first == '"' || first == '\'') {
         return std::count(value.begin(), value.end(), first) == 1 ? "a quote is not closed" : "";
     }
-    // Lists and tables: the same within them is told by the parser alone.
+    // For values inside lists and tables only the parser reports errors.
     if (first == '[' || first == '{' || is_word_of_toml(value)) return {};
     const auto number = leading_number(value);
     if (number && number->rest.empty()) return {};

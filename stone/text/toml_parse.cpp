@@ -25,8 +25,8 @@ std::vector<std::string> split(std::string_view text, char at) {
     return parts;
 }
 
-// Tables within tables are taken apart by recursion; toml++ bounds values in values (256) but not
-// the parts of dotted keys.
+// Nested tables are destroyed by recursion. toml++ limits the nesting of values (256) but not the
+// parts of dotted keys.
 constexpr std::size_t k_most_key_parts = 16;
 
 // Line `number` of a text, counted from 1.

@@ -39,7 +39,7 @@ constexpr std::array<UnitWord, 37> k_units{{
     {"percent", Of::percent, 1},
 }};
 
-// The number that `text` begins with, taken off it.
+// Removes the number that `text` begins with, and returns it.
 std::optional<double> leading_number(std::string& text) {
     const char* begin = text.data();
     if (*begin == '+') ++begin;
@@ -64,14 +64,14 @@ std::optional<std::string> with_decimal_point(std::string text, bool comma_separ
            std::isdigit(static_cast<unsigned char>(text[comma + 1 + digits])) != 0) {
         ++digits;
     }
-    // 0,015 is no thousand.
+    // 0,015 is not a thousand.
     const bool thousand = digits == 3 && digits_of.find_first_of("123456789") < comma;
     if (digits == 0 || (comma_separates && thousand)) return std::nullopt;
     text[comma] = '.';
     return text;
 }
 
-// 48' or 48' 30" after the degrees, as a part of a degree.
+// 48' or 48' 30" after the degrees, as a fraction of a degree.
 std::optional<double> minutes_and_seconds(std::string rest) {
     const std::array<std::pair<double, std::array<const char*, 3>>, 2> marks{
         {{60, {"'", "\u2032", "\u2019"}}, {3600, {"\"", "\u2033", "''"}}}};
