@@ -1,8 +1,8 @@
 #pragma once
-// A renderer that has nothing but an isotropic, clear stone, unpolarised light, one wavelength, a
-// pinhole, and lights that are constant, lobes or caps: what the reference renderer's speed is
-// measured against where all its effects are off. Same rays, same geometry, same Fresnel powers,
-// double precision.
+// A minimal renderer, to measure what the reference renderer's speed costs beyond it with all
+// effects off. It knows only a clear isotropic stone, unpolarised light, one wavelength, a pinhole,
+// and lights that are constant, lobes or caps. It has the same rays, geometry and Fresnel powers,
+// in double precision.
 
 #include <vector>
 
@@ -12,10 +12,11 @@ namespace culet {
 
 struct BarePicture {
     std::vector<double> radiance;
-    long long rays = 0;  ///< that met the stone
+    long long rays = 0;  ///< that meet the stone
 };
 
-/// `side`^2 rays a pixel on a grid, paths to `depth`, none below `cut`. On the calling thread.
+/// Draws `side`^2 rays per pixel on a grid, with paths to `depth` and weights down to `cut`, on the
+/// calling thread.
 BarePicture draw_bare(const Scene& scene, int side, int depth, double cut);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// The renderer by beams, measured: speed and error, one parameter at a time about a base case, and
-// beside other renderers. Prints tables.
+// Measures the engine beams: speed and error, varying one parameter at a time about a base case,
+// and beside other renderers. Prints tables.
 
 #include <filesystem>
 #include <string>
@@ -13,7 +13,8 @@
 
 namespace culet {
 
-/// Samples of the reference that errors are against: in the base case, and elsewhere.
+/// Samples per pixel of the reference that errors are measured against: in the base case, for other
+/// renderers, and elsewhere.
 constexpr int k_full = 256, k_finest = 1024, k_side = 64;
 
 std::string milliseconds(double seconds);
@@ -23,7 +24,7 @@ public:
     BeamBench(int pixels, const std::filesystem::path& cache)
         : pixels_(pixels), references_(cache), base_(base_scene(pixels)) {}
 
-    /// The section of that name, or all. Throws InputError for an unknown one.
+    /// Runs the section of that name, or all. Throws InputError for an unknown one.
     void run(const std::string& only);
     const BenchTables& tables() const { return tables_; }
 
@@ -43,7 +44,7 @@ private:
     void relighting();
     void sequences();
     void threads();
-    // beam_rivals.cpp: others on the same scenes.
+    // beam_rivals.cpp: other renderers on the same scenes.
     void plain();
     void equal_error(const Scene& scene, const std::string& of);
     void povray();

@@ -13,12 +13,13 @@ public:
     BenchTables();
     ~BenchTables();
 
-    /// A title, what a reader should know of it, and the names of the columns after the first.
+    /// Begins a section: title, what readers should know, and the names of all columns except the
+    /// first.
     void section(const std::string& name, const std::string& remark,
                  const std::vector<std::string>& columns);
-    /// A line at once: numbers as text, empty where there is none.
+    /// Prints a line at once. Numbers are given as text, empty where there is none.
     void line(const std::string& what, const std::vector<std::string>& values);
-    /// What the lines before come to.
+    /// A conclusion from the lines before.
     void remark(const std::string& text);
     /// One object: `head`, and `sections`, each with `name`, `about`, `lines` and `remarks`.
     std::string json(const std::vector<std::pair<std::string, std::string>>& head) const;

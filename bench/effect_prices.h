@@ -1,10 +1,10 @@
 #pragma once
-// What each effect of the plan costs, on and off, by either engine.
+// What each effect of the plan costs, in either engine.
 
 namespace culet {
 
-/// Prints a table: processor time of one picture of `pixels` a side, one thread, the quickest of
-/// several, each pair in turn.
+/// Prints a table of processor times: one picture of `pixels` a side, one thread, the quickest of
+/// several, with each effect on and off in turn.
 void print_effect_prices(int pixels);
 
 }  // namespace culet

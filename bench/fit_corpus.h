@@ -1,6 +1,6 @@
 #pragma once
-// The corpus of fits that every change of the fit is held against: stones that are known, their
-// readings with noise, and meshes as bad hands would make them. All from seeds.
+// The corpus of fits that every change of the fit is tested on: known stones, noisy readings of
+// them, and distorted start meshes. Everything comes from seeds.
 
 #include <functional>
 #include <string>
@@ -12,25 +12,25 @@ namespace culet::bench {
 
 /// One fit of the corpus.
 struct CorpusFit {
-    std::string group;  ///< those that one figure counts together
+    std::string group;  ///< fits that one figure counts together
     std::string name;   ///< unique in the corpus
     std::function<Trial()> fit;
-    /// From the stone's own corners: what `succeeds` holds the fit against. Shared by all fits of
-    /// one stone, and made once.
+    /// The fit from the stone's own corners, which `succeeds` compares with. Computed once and
+    /// shared by all fits of one stone.
     std::function<const Trial&()> reference;
     Stone declared;
 };
 
-/// 840 fits: round and step cut with and without symmetry, pear and trillion without; `seeds`
-/// stones each; corners off by 1, 5, 10, 20 and 40 % of the diameter, drawn wrong by 10 and 20 %.
-/// Then four stones of 291 facets or so, corners off by 0.3 %.
+/// 840 fits: round and step cut with and without symmetry, pear and trillion without. Each has
+/// `seeds` stones, with corners off by 1, 5, 10, 20 and 40 % of the diameter, and drawn wrong by 10
+/// and 20 %. Then four stones of about 291 facets with corners off by 0.3 %.
 std::vector<CorpusFit> synthetic_corpus(unsigned seeds);
 
-/// Fits of a scanned stone: a text file of vertices and facets as the scanner writes them
-/// (`nv nf ne`, `i x y z`, `i n a b c d` and the facet's vertices). Inclination and azimuth of
-/// every facet to 0.1 degrees, twelve widths, the depth and all edges to 0.01, `draws` sets of such
-/// readings, each from the stone's own corners and from corners off by 0.3 %.
-/// Throws InputError when it is no such file.
+/// Fits of a scanned stone: a text file of vertices and facets as the scanner writes them (`nv nf
+/// ne`, `i x y z`, `i n a b c d` and the facet's vertices). The readings are inclination and
+/// azimuth of every facet to 0.1 degrees, twelve widths, the depth and all edges to 0.01. There are
+/// `draws` sets of readings, each fitted from the stone's own corners and from corners off by 0.3
+/// %. Throws InputError for other files.
 std::vector<CorpusFit> scanned_corpus(const std::string& file, unsigned draws);
 
 }  // namespace culet::bench

@@ -1,5 +1,5 @@
 #pragma once
-// What one picture by beams takes, of many.
+// The time of one picture by beams in a series.
 
 #include "render/beams/frame_renderer.h"
 #include "tests/cpu_time.h"
@@ -7,14 +7,14 @@
 namespace culet {
 
 enum class Drawing {
-    preview,  ///< one colour a beam
-    exact,    ///< each pixel's middle
-    averaged  ///< over the pixel
+    preview,  ///< one colour per beam
+    exact,    ///< at each pixel's centre
+    averaged  ///< mean over the pixel
 };
 Scene drawn_as(Scene scene, Drawing drawing, int threads);
 
-/// Of a frame whose camera moved by too little to see, so that all of it is drawn anew; the
-/// quickest of as many as `seconds` hold.
+/// Draws frames whose camera moves by too little to see, so that each is drawn anew. Returns the
+/// quickest of as many as fit in `seconds`.
 Clocks frame_time(FrameRenderer& frames, const Camera& camera, double seconds = 0.25);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
 // Settings that a patient person could have found: a sweep over engines, cuts, wavelengths, rays
-// and effects, each timed and held against the truth.
+// and effects, each timed and compared with the truth.
 
 #include <string>
 #include <vector>
@@ -12,18 +12,18 @@ namespace culet {
 
 struct HandChosen {
     std::string words;
-    double cpu = 0;    ///< seconds of one drawing, all threads; beams without their check
+    double cpu = 0;    ///< seconds of one drawing, sum of all threads; beams without their check
     double error = 0;  ///< as `Verification::measured`
 };
 
-/// Beams draw the whole picture; of the reference, whose time is that of its pixels, only those of
-/// the truth are drawn, and their time is scaled up. `finest`: no tolerance below it is asked for.
+/// Beams draw the whole picture. The reference draws only the truth's pixels, and its time is
+/// scaled up. `finest` is the smallest tolerance needed.
 std::vector<HandChosen> hand_chosen(const Scene& scene, const Truth& truth, double finest);
 
-/// The quickest of those within the tolerance; nullptr: none is.
+/// The quickest of those within the tolerance; nullptr if there is none.
 const HandChosen* cheapest_within(const std::vector<HandChosen>& settings, double tolerance);
 
-/// The picture's pixels at those of a truth, drawn by the reference as `scene` says.
+/// The reference's picture, as `scene` says, at the pixels of a truth.
 struct ReferenceSample {
     Verification found;
     double cpu = 0;  ///< of the whole picture

@@ -1,8 +1,8 @@
 #pragma once
-// A ray tracer without beams, as quick as plain means make it: what the beams are measured against.
+// A ray tracer without beams, as fast as ordinary means make it, for comparison with the beams.
 //
-// Packets of as many rays as the processor's vectors hold, of neighbouring samples, in single
-// precision; one wavelength, no absorption; a constant light and lobes. The first facet and each
+// It traces packets of neighbouring samples, as wide as the processor's vectors, in single
+// precision: one wavelength, no absorption, a constant light and lobes. The first facet and each
 // exit are first looked for where the packet before had them. Light as in light_paths.h.
 
 #include <memory>
@@ -13,24 +13,25 @@
 namespace culet {
 
 enum class ExitSearch {
-    walk,        ///< from facet to neighbouring facet, all rays of a packet together
-    every_plane  ///< the nearest of all planes
+    walk,        ///< all rays of a packet together, from facet to neighbouring facet
+    every_plane  ///< test all planes for the nearest
 };
 
 struct PlainTracing {
-    int across = 1;  ///< samples a pixel: across^2, on a grid
+    int across = 1;  ///< across^2 samples per pixel, on a grid
     bool polarised = false;
     ExitSearch search = ExitSearch::walk;
 };
 
 class PlainTracer {
 public:
-    /// Takes stone, camera (a pinhole), lights, depth and the first wavelength. Throws InputError
-    /// for scenes that it cannot draw.
+    /// Uses the scene's stone, camera (a pinhole), lights, depth and first wavelength. Throws
+    /// InputError for scenes that it cannot draw.
     explicit PlainTracer(const Scene& scene);
     ~PlainTracer();
 
-    /// On the calling thread alone. The same rays as the reference's with `across`^2 samples.
+    /// Draws on the calling thread only, with the same rays as the reference with `across`^2
+    /// samples.
     void draw(const PlainTracing& how, Picture& picture) const;
 
     struct Prepared;

@@ -12,17 +12,17 @@ namespace culet {
 bool povray_is_installed();
 
 struct PovrayRun {
-    Picture picture;  ///< linear; what was above 1 is 1
-    /// CPU seconds of tracing by its own statement, without reading the scene or writing the
-    /// picture: the quickest of the runs, on one thread.
+    Picture picture;  ///< linear; clipped at 1
+    /// CPU seconds of tracing as POV-Ray states them, without reading the scene or writing the
+    /// picture; the quickest run, on one thread.
     double seconds = 0;
 };
 
-/// A folder of its own for POV-Ray's files, gone at the end.
+/// A folder for POV-Ray's files, removed at the end.
 class PovrayFolder {
 public:
-    /// `sampling`: POV-Ray's options, "-A" or "+A0.1 +AM2 +R3". Throws InputError with what POV-Ray
-    /// said.
+    /// `sampling`: POV-Ray's options, "-A" or "+A0.1 +AM2 +R3". Throws InputError with POV-Ray's
+    /// message.
     PovrayRun draw(const Scene& scene, const std::string& sampling, int runs) const;
 
 private:

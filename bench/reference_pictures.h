@@ -1,5 +1,5 @@
 #pragma once
-// The reference's pictures, drawn once each, and how far others are from them.
+// Pictures of the reference, each drawn once, and the difference of others from them.
 
 #include <filesystem>
 #include <map>
@@ -15,7 +15,7 @@ struct Difference {
     double peak = 0;  ///< largest radiance of the second picture
     double mean = 0;  ///< of the second picture
     int off = 0;      ///< pixels that differ by more than 1e-3 of the peak
-    /// Mean of the luminance's difference over the first picture's pixels of the stone.
+    /// Mean luminance difference over the first picture's pixels of the stone.
     double of_stone = 0;
     double psnr() const;
 };
@@ -23,15 +23,15 @@ Difference difference(const Picture& picture, const Picture& reference);
 
 class ReferencePictures {
 public:
-    /// `cache`: a folder where pictures are kept from run to run, or empty. A picture is found
-    /// again by its scene alone: empty the folder when the reference renderer changes.
+    /// `cache`: a folder that keeps pictures between runs, or empty. A picture is identified by its
+    /// scene only: empty the folder when the reference renderer changes.
     explicit ReferencePictures(std::filesystem::path cache) : cache_(std::move(cache)) {}
 
     const Picture& at(const Scene& scene, int samples);
 
 private:
     std::filesystem::path cache_;
-    std::map<std::string, Picture> drawn_;  // by what the picture depends on
+    std::map<std::string, Picture> drawn_;  // keyed by what the picture depends on
 };
 
 }  // namespace culet

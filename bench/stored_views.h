@@ -1,5 +1,5 @@
 #pragma once
-// Views around a stone in even steps of two angles, and which of them lie about a view between
+// Views around a stone at even steps of two angles, and those that surround a view between them
 // (Lee 2004, chapter 6).
 
 #include <array>
@@ -13,13 +13,14 @@ namespace culet {
 struct StoredView {
     Camera camera;
     std::string name;  ///< of its table's file
-    double share = 0;  ///< in the view between; of all together 1
+    double share = 0;  ///< weight in the interpolated view; they add up to 1
 };
 
-/// The one to four views about that of `camera`: on the sphere around `look_at` on which it stands,
-/// with its other numbers, at whole steps of the polar angle from +z and of the azimuth from +x.
-/// Steps are `step` radians, or as much less as makes them even. Throws InputError for a camera
-/// with a lens, a conoscope, and where `up` lies along such a view.
+/// The one to four stored views that surround that of `camera`. They lie on the sphere around
+/// `look_at` through the camera, at whole steps of the polar angle from +z and of the azimuth from
+/// +x; their other numbers are the camera's. Steps are at most `step` radians and divide the circle
+/// evenly. Throws InputError for a camera with a lens, a conoscope, and where `up` is along such a
+/// view.
 std::vector<StoredView> stored_views(const Camera& camera, double step);
 
 /// Where a camera without a lens sees a point: pixels from the upper left corner.

@@ -1,6 +1,6 @@
 #pragma once
-// The pictures by which the viewer's speed is told: a round brilliant of 73 facets in diamond,
-// 800 x 800, depth 8, from views a degree apart.
+// The pictures that measure the viewer's speed: a round brilliant of 73 facets in diamond, 800 x
+// 800, depth 8, from views a degree apart.
 
 #include <cmath>
 #include <functional>

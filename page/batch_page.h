@@ -1,5 +1,5 @@
 #pragma once
-// The page of `culet batch`: many stones, those first that need a look.
+// The page of `culet batch`: many stones; those that need a look come first.
 
 #include <cstddef>
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace culet {
 
-/// One row; NaN: not known.
+/// One row; NaN: unknown.
 struct BatchPageJob {
     std::string name;     ///< also of its folder in `jobs`
     std::string status;   ///< as in the table
     std::string message;  ///< why
     bool good = false;
     double outlier = 0;  ///< how unusual it is: a multiple of the usual deviation
-    double worst_reading = 0, chi2 = 0, dof = 0;  ///< of its fit; worst: |normalized|
-    double light_return = 0, fire = 0, leak = 0;  ///< of its grade; per cent, fractions
+    double worst_reading = 0, chi2 = 0, dof = 0;  ///< of its fit; worst_reading is |normalized|
+    double light_return = 0, fire = 0, leak = 0;  ///< of its grade: per cent, fraction, fraction
     std::vector<std::string> files;               ///< in its folder, to open
     std::string png;                              ///< bytes of a small picture; empty: none
 };
@@ -23,10 +23,10 @@ struct BatchPageJob {
 struct BatchPage {
     std::string version;
     std::size_t good = 0, untrusted = 0, failed = 0, missing = 0;
-    std::vector<BatchPageJob> jobs;  ///< in the order in which they are shown
+    std::vector<BatchPageJob> jobs;  ///< in display order
 };
 
-/// A whole page, to stand beside the folder `jobs` that its links lead to.
+/// A whole page. Its links lead to the folder `jobs` beside it.
 std::string batch_page(const BatchPage& page);
 
 }  // namespace culet

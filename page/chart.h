@@ -9,8 +9,8 @@ namespace culet {
 
 struct ChartPoint {
     double x = 0, y = 0;
-    std::string label;  ///< written beside the point where there is room; empty: none
-    std::string about;  ///< one line for the reader who points at it
+    std::string label;  ///< written beside the point if there is room; empty: none
+    std::string about;  ///< one line, shown when the reader points at it
     /// Ends of an error bar; NaN: none.
     double y_low = std::numeric_limits<double>::quiet_NaN();
     double y_high = std::numeric_limits<double>::quiet_NaN();
@@ -18,10 +18,10 @@ struct ChartPoint {
 };
 
 struct ChartSeries {
-    std::string name;  ///< for the key; empty: goes with the series before it, in its colour
+    std::string name;  ///< for the key; empty: same entry and colour as the series before it
     std::vector<ChartPoint> points;
-    bool line = true;     ///< points are joined in their order
-    bool markers = true;  ///< else only the line is drawn
+    bool line = true;     ///< join the points in their order
+    bool markers = true;  ///< false: draw only the line
     bool dashed = false;
 };
 
@@ -32,9 +32,9 @@ struct Chart {
     std::vector<ChartSeries> series;
 };
 
-/// An SVG of its own, 760 x 480, dark on white; series differ by shape as well as by colour (Okabe
-/// and Ito 2008). Points that are not finite, or not positive on a logarithmic axis, are left out.
-/// Empty when no point is left. Text is escaped.
+/// A self-contained SVG, 760 x 480, dark on white. Series differ by shape and by colour (Okabe and
+/// Ito 2008). Points that are not finite, or not positive on a logarithmic axis, are omitted. Empty
+/// when no point remains. Text is escaped.
 std::string draw_chart_svg(const Chart& chart);
 
 }  // namespace culet

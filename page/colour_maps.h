@@ -1,6 +1,6 @@
 #pragma once
-// Numbers as colours. In all but `difference` lightness falls or rises all the way, so that they
-// are told apart without seeing hues, and in print.
+// Numbers as colours. Lightness is monotonic in all maps except `difference`, so that they can be
+// read without seeing hues, and in print.
 
 #include <array>
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace culet {
 enum class ColourMap {
     difference,  ///< blue, white, red (ColorBrewer RdBu, Brewer 2003): signed, 0 in the middle
     error,       ///< black, purple, orange, yellow (inferno, Smith and van der Walt 2015)
-    likeness,    ///< the same the other way round: what agrees is dark
+    likeness,    ///< inferno reversed: what agrees is dark
     residual,    ///< pale yellow, orange, dark red (YlOrRd, Brewer 2003): how far a reading is off
-    uncertainty  ///< pale yellow, green, dark blue (YlGnBu, Brewer 2003): how sure a facet is
+    uncertainty  ///< pale yellow, green, dark blue (YlGnBu, Brewer 2003): how uncertain a facet is
 };
 
-/// The colour at 0..1 (clamped; NaN counts as 0), red, green, blue in sRGB.
+/// The colour at 0..1 (clamped; NaN counts as 0): red, green, blue in sRGB.
 std::array<std::uint8_t, 3> colour_at(ColourMap map, double share);
 
 /// `#rrggbb`

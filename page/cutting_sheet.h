@@ -1,6 +1,6 @@
 #pragma once
-// The sheet that lies beside the faceting machine: tiers in the order of cutting, angles, index
-// settings, what each is cut to, drawings and proportions.
+// The sheet that lies beside the faceting machine: tiers in cutting order with angle, index
+// settings and depth, drawings and proportions.
 
 #include <string>
 #include <vector>
@@ -16,12 +16,12 @@ struct CuttingSheet {
     Solid solid;  ///< table up (+z)
     std::vector<CuttingStep> steps;
     double teeth = 96;  ///< of the index wheel
-    std::string unit;   ///< of lengths; empty: the design's own, without size
-    /// By step, degrees: one standard uncertainty of its least sure angle; empty: none is known.
+    std::string unit;   ///< of lengths; empty: the design's own, which has no size
+    /// By step, degrees: the largest standard uncertainty of its angles; empty: unknown.
     std::vector<double> sigmas_deg;
 };
 
-/// A whole page in itself, to be printed on one A4.
+/// A whole page, to be printed on one sheet of A4.
 std::string cutting_sheet_page(const CuttingSheet& sheet);
 
 /// The same as lines of text.

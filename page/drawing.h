@@ -1,6 +1,6 @@
 #pragma once
-// A stone as a line drawing: crown, pavilion and girdle views as a cutter draws them, hidden lines
-// left out, each facet filled with a colour and named.
+// A stone as a line drawing: crown, pavilion and girdle views as a cutter draws them, without
+// hidden lines. Each facet has a colour and its name.
 
 #include <string>
 #include <vector>
@@ -12,32 +12,32 @@
 namespace culet {
 
 struct FacetPaint {
-    std::string colour = "none";  ///< anything SVG knows
-    std::string about;            ///< one line for the reader who points at the facet
+    std::string colour = "none";  ///< any SVG colour
+    std::string about;            ///< one line, shown when the reader points at the facet
     bool marked = false;          ///< outlined with dashes
 };
 
-/// What the colours say.
+/// What the colours mean.
 struct PaintLegend {
     ColourMap map = ColourMap::residual;
-    std::string what;  ///< of the colours
+    std::string what;  ///< the coloured quantity
     std::string from, middle, to;
-    std::string mark;  ///< of dashed outlines; empty: there are none
+    std::string mark;  ///< meaning of dashed outlines; empty: there are none
 };
 
-/// Index settings round a view from above or below.
+/// Index settings around a view from above or below.
 struct IndexWheel {
     double gear = 0, offset = 0;  ///< as of Design; gear 0: none
 };
 
-/// SVG of the facets that face the viewer, 1000 units across and what names beside it need. `paint`
-/// has one entry a facet of the solid, or is empty. Each facet is a focusable group with its name
-/// and `about` as its title. Names are escaped. An empty string when no facet faces the viewer.
+/// SVG of the facets that face the viewer, 1000 units wide plus room for names beside it. `paint`
+/// has one entry per facet of the solid, or is empty. Each facet is a focusable group; its title is
+/// name and `about`. Names are escaped. Empty when no facet faces the viewer.
 std::string draw_facets_svg(const Solid& solid, ViewSide side,
                             const std::vector<FacetPaint>& paint = {},
                             const IndexWheel& wheel = {});
 
-/// The three views on one sheet with title and legend: an SVG file of its own.
+/// The three views on one sheet with title and legend, as a self-contained SVG file.
 std::string drawing_svg(const std::string& title, const std::string& subtitle, const Solid& solid,
                         const std::vector<FacetPaint>& paint, const PaintLegend& legend);
 

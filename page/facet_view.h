@@ -1,5 +1,5 @@
 #pragma once
-// A stone seen from one side: which facets face the viewer, and where they lie in the picture.
+// A stone seen from one side: the facets that face the viewer, and their places in the picture.
 
 #include <glm/vec2.hpp>
 #include <vector>
@@ -19,18 +19,18 @@ struct SeenFacet {
     std::vector<glm::dvec2> corners;
 };
 
-/// In the picture x runs to the right and y downwards.
+/// x runs to the right and y downwards.
 struct FacetView {
     std::vector<SeenFacet> facets;  ///< what is farther away first
     double width = 0, height = 0;
-    double scale = 0;         ///< picture units for one unit of the solid
-    glm::dvec2 origin{0, 0};  ///< where the solid's origin lies
+    double scale = 0;         ///< picture units per unit of the solid
+    glm::dvec2 origin{0, 0};  ///< position of the solid's origin
 };
 
-/// Orthographic projection of the facets that face the viewer, its longer side `size` less a small
-/// margin. Facets seen at under half a degree are lines and are left out; so are corners that are
-/// not finite. Of convex solids no two facets overlap; of others the nearer ones come later and
-/// cover what lies behind them, by their mean depth. Empty when nothing faces the viewer.
+/// Orthographic projection of the facets that face the viewer. The longer side is `size` minus a
+/// small margin. Facets seen at less than half a degree are lines and are omitted, as are corners
+/// that are not finite. In a convex solid no two facets overlap. In others, facets are sorted by
+/// mean depth and nearer ones cover what lies behind them. Empty when no facet faces the viewer.
 FacetView view_of(const Solid& solid, ViewSide side, double size);
 
 }  // namespace culet

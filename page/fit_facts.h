@@ -1,5 +1,5 @@
 #pragma once
-// What a fit report says of each facet, for programs.
+// What a fit report says about each facet, for programs.
 
 #include <optional>
 #include <string>
@@ -7,20 +7,20 @@
 
 namespace culet {
 
-/// Degrees; nothing: not known.
+/// Degrees; empty: unknown.
 struct FacetFacts {
     std::optional<double> inclination_deg, azimuth_deg;
     std::optional<double> inclination_sigma_deg, azimuth_sigma_deg;
-    std::optional<double> direction_sigma_deg;  ///< how far the normal may be off
+    std::optional<double> direction_sigma_deg;  ///< uncertainty of the normal
     std::optional<double> residual;             ///< of its worst reading, in standard uncertainties
-    std::string reading;  ///< id of that one; empty: no reading speaks of the facet
+    std::string reading;  ///< id of the worst; empty: no reading involves the facet
     int readings = 0;
-    bool suspect = false;  ///< one of them is suspected
+    bool suspect = false;  ///< one of its readings is suspect
     bool determined = true;
 };
 
-/// One a name, in their order. `fit_json` is a report of `culet fit`. Throws InputError when it is
-/// no JSON object, or speaks of none of the facets.
+/// One entry per name, in order. `fit_json` is a report of `culet fit`. Throws InputError when it
+/// is not a JSON object, or has none of the facets.
 std::vector<FacetFacts> facet_facts(const std::vector<std::string>& facets,
                                     const std::string& fit_json);
 

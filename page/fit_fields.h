@@ -1,5 +1,5 @@
 #pragma once
-// What a fit report says of facets and readings. Private to the room: shows JSON.
+// What a fit report says about facets and readings. Private to the folder: shows JSON.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace culet {
 
-/// Names that a reading speaks of: "of" is an array, or one string with `/` between names.
+/// Names of a reading's facets: "of" is an array, or one string with `/` between names.
 std::vector<std::string> names_of(const nlohmann::json& reading);
 
-/// The worst of the readings that speak of a facet.
+/// The worst reading of a facet.
 struct Worst {
     double normalized = 0;
-    std::string reading;  ///< id; empty: no reading speaks of the facet
+    std::string reading;  ///< id; empty: no reading involves the facet
     int count = 0;
-    bool suspect = false;  ///< one of them is suspected
+    bool suspect = false;  ///< one of its readings is suspect
 };
 std::vector<Worst> worst_readings(const nlohmann::json& fit,
                                   const std::vector<std::string>& facets);
 
 std::set<std::string> suspects_of(const nlohmann::json& fit);
 
-/// How far the normal may be off, degrees; a level facet has no azimuth. Nothing: not known.
+/// Uncertainty of the normal, degrees; level facets have no azimuth. Empty: unknown.
 std::optional<double> direction_sigma(const nlohmann::json& facet);
 
 const nlohmann::json* facet_in(const nlohmann::json& fit, const std::string& name);

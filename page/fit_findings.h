@@ -1,5 +1,5 @@
 #pragma once
-// What a fit found out beyond facets and readings. Private to the room: shows JSON.
+// A fit's findings beyond facets and readings. Private to the folder: shows JSON.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -7,8 +7,8 @@
 namespace culet {
 
 /// Tiers against the table and against the stone's own axis; further readings that would help;
-/// meets, edges and facets that the readings deny; symmetry. SignAmbiguity, and each only where the
-/// report has it.
+/// meets, edges and facets that contradict the readings; symmetry. Each is collapsed, and present
+/// only if the report has it.
 std::string findings_tables(const nlohmann::json& fit, const std::string& length_unit);
 
 }  // namespace culet

@@ -1,7 +1,7 @@
 #pragma once
-// A fit as part of a page, from its JSON report: the verdict, what to look at, the drawing, the
-// proportions, and everything else behind lines to click. Each part is empty where the report has
-// nothing for it, and throws InputError when the report is no JSON object.
+// A fit as part of a page, from its JSON report. The page shows the verdict, what to look at, the
+// drawing and the proportions; the rest is collapsed. Each part is empty if the report has nothing
+// for it, and throws InputError when the report is not a JSON object.
 
 #include <optional>
 #include <string>
@@ -13,25 +13,26 @@ namespace culet {
 
 struct FitView {
     std::string fit_json;         ///< as written by `culet fit --report`
-    std::optional<Solid> fitted;  ///< drawn
+    std::optional<Solid> fitted;  ///< to be drawn
     std::string length_unit = "mm";
 };
 
-/// A word, a sign, and a sentence or two.
+/// A word, a symbol, and a sentence or two.
 std::string fit_card(const FitView& view);
-/// How many readings and facets, how sure: `<div>`s of a list of tiles.
+/// Numbers of readings and facets, and uncertainties: `<div>`s of a list of tiles.
 std::string fit_tiles(const FitView& view);
-/// Suspects with what to do about them; what stands out; what is open; what to read next.
+/// Suspects with advice, outliers of tiers, what is undetermined, and what to read next.
 std::string fit_look_section(const FitView& view);
-/// The views of the stone by its readings and by its uncertainty; `fold`: where a page has another
-/// picture.
+/// The stone coloured by its readings and by its uncertainty; `fold`: collapsed, for pages that
+/// show another picture.
 std::string fit_drawing_section(const FitView& view, bool fold);
-/// The proportions that people ask for first, calipers beside the diameter; the others folded.
+/// The proportions that people ask for first, with calipers beside the diameter; the others are
+/// collapsed.
 std::string fit_proportions_section(const FitView& view);
-/// Everything else, folded.
+/// Everything else, collapsed.
 std::string fit_section(const FitView& view);
 
-/// The fitted stone, each facet coloured by how much steeper (red) or flatter (blue) it became.
+/// The fitted stone; facets are coloured by how much steeper (red) or flatter (blue) they became.
 std::string change_drawings(const Solid& before, const Solid& after);
 /// Each facet before and after.
 std::string changes_table(const Solid& before, const Solid& after, const std::string& length_unit);

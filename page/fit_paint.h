@@ -1,5 +1,5 @@
 #pragma once
-// A fit report as colours on its stone.
+// Colours a stone by its fit report.
 
 #include <string>
 #include <vector>
@@ -8,23 +8,22 @@
 
 namespace culet {
 
-/// What the facets of a drawing show.
+/// What the colours of a drawing show.
 enum class FitColour {
     residual,    ///< each facet's worst reading, in standard uncertainties; dashed: a suspect
-    uncertainty  ///< how far its normal may be off, one standard uncertainty; dashed: not
-                 ///< determined
+    uncertainty  ///< uncertainty of its normal, one sigma; dashed: not determined
 };
 
 struct FitPaint {
-    std::vector<FacetPaint> facets;  ///< one a facet of the solid
+    std::vector<FacetPaint> facets;  ///< one per facet of the solid
     PaintLegend legend;
 };
 
-/// `fit_json` is a report of `culet fit`; what it does not say stays plain. Throws InputError when
-/// it is no JSON object.
+/// `fit_json` is a report of `culet fit`; facets that it does not mention stay plain. Throws
+/// InputError when it is not a JSON object.
 FitPaint fit_paint(const Solid& solid, const std::string& fit_json, FitColour colour);
 
-/// Beyond this many standard uncertainties every residual has the last colour.
+/// Standard uncertainties: all larger residuals have the last colour.
 inline constexpr double k_worst_shown = 4;
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// The form of readings as it is printed for the bench: what to read, what is expected, and drawings
-// that tell which facet is meant.
+// The form of readings, printed for the bench: what to read, what is expected, and drawings that
+// show the facets.
 
 #include <string>
 #include <vector>
@@ -14,12 +14,12 @@ struct PrintedForm {
         std::string kind, of, note;
     };
     std::string name, version;
-    Solid solid;  ///< table up (+z), facets named as the rows name them
+    Solid solid;  ///< table up (+z); facets are named as in the rows
     std::vector<Row> rows;
-    std::string readings;  ///< the file that the values are typed into
+    std::string readings;  ///< the file into which the values are typed
 };
 
-/// A whole page in itself, two sides of A4.
+/// A whole page, two sides of A4.
 std::string form_page(const PrintedForm& form);
 
 }  // namespace culet

@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// What a scope shows.
+/// The picture in a scope.
 struct GradePicture {
     std::string scope;    ///< aset, idealscope, darkfield, hearts, arrows
     std::string summary;  ///< one line
@@ -25,14 +25,14 @@ struct GradeDesign {
 struct GradeView {
     std::vector<GradeDesign> designs;  ///< at least one
     std::string version, command;
-    std::string
-        optimized_json;  ///< of `culet optimize`, whose before and after these are; or empty
+    std::string optimized_json;  ///< of `culet optimize`; the designs are then its before and
+                                 ///< after; or empty
 };
 
-/// "7 of 8 hearts"; "12 hearts" of a stone that has more of them than a standard brilliant.
+/// "7 of 8 hearts"; "12 hearts" for a stone that has more than a standard brilliant.
 std::string counted_of_eight(int count, const std::string& what);
 
-/// A whole page in itself, with the grades as data. Throws InputError when a grade is no JSON
+/// A whole page that contains the grades as data. Throws InputError when a grade is not a JSON
 /// object.
 std::string grade_page(const GradeView& view);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the page of a grade.
+// Parts of a grade's page.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace culet {
 
-/// The light paths of a section as a drawing, from the JSON of a section
-/// (render/grade/path_section.h); empty where it has no outline.
+/// Draws the light paths of a section from its JSON (render/grade/path_section.h); empty where it
+/// has no outline.
 std::string section_drawing(const std::string& section_json);
 
-/// What was optimised, from the JSON of `culet optimize`; false where it is empty.
+/// The results of an optimisation, from the JSON of `culet optimize`; false where that is empty.
 View optimized_view(const std::string& optimized_json);
 
 }  // namespace culet

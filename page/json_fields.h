@@ -1,6 +1,6 @@
 #pragma once
-// Fields of a JSON object that may be missing or of another kind, and numbers to be written.
-// Templates, so that no header of the room shows a JSON library; `Json` is nlohmann's.
+// Reads fields of a JSON object that may be missing or of another type, and writes numbers. These
+// are templates, so that no public header of the folder shows a JSON library; `Json` is nlohmann's.
 
 #include <cmath>
 #include <limits>
@@ -11,8 +11,8 @@
 
 namespace culet {
 
-/// Throws InputError that names `what` when the text is no JSON object. Empty text: an empty
-/// object.
+/// Throws InputError that names `what` when the text is not a JSON object. Empty text gives an
+/// empty object.
 template <typename Json>
 Json parsed_object(const std::string& text, const char* what) {
     if (text.empty()) return Json::object();
@@ -34,7 +34,7 @@ std::optional<double> number_at(const Json& object, const char* key) {
     return found->template get<double>();
 }
 
-/// NaN for what is not there.
+/// NaN for a missing field.
 template <typename Json>
 double value_at(const Json& object, const char* key) {
     return number_at(object, key).value_or(std::numeric_limits<double>::quiet_NaN());
@@ -63,7 +63,7 @@ const Json& array_at(const Json& object, const char* key) {
     return found != object.end() && found->is_array() ? *found : none;
 }
 
-/// JSON has no infinity and no NaN: such a number, and none, is written as null.
+/// Null for a missing number, NaN and infinity, which JSON lacks.
 template <typename Json>
 Json json_number(const std::optional<double>& value) {
     return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// Room for names beside the points of a chart.
+// Finds room for names beside the points of a chart.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ class LabelRoom {
 public:
     explicit LabelRoom(const LabelBox& frame) : frame_(frame) {}
     void take(const LabelBox& box) { taken_.push_back(box); }
-    /// Names keep off lines, too.
+    /// Keeps names off a line.
     void take_line(double x0, double y0, double x1, double y1) {
         const int pieces = 1 + static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 6);
         for (int i = 0; i <= pieces; ++i) {
@@ -29,7 +29,7 @@ public:
             take({x - 2, y - 2, x + 2, y + 2});
         }
     }
-    /// Middle of the text's box, or nothing when every place is taken.
+    /// A box for the text near (x, y), or nothing when every place is taken.
     std::optional<LabelBox> find(double x, double y, double width, double height) {
         for (const double away : {9.0, 20.0, 34.0}) {
             const double w = 0.5 * width, h = 0.5 * height;

@@ -1,12 +1,12 @@
 #pragma once
-// The catalogue of materials on paper: the JSON of `culet info --materials` as a page.
+// The catalogue of materials as a page, from the JSON of `culet info --materials`.
 
 #include <string>
 
 namespace culet {
 
-/// One self-contained page with a colour field, indices, birefringence, density and sources of
-/// every material. Throws InputError when `json` is no object.
+/// One self-contained page with colour field, indices, birefringence, density and sources of every
+/// material. Throws InputError when `json` is not an object.
 std::string material_page(const std::string& json, const std::string& version);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Fields of a scene study's JSON, as its table, its chart and its page have them.
+// Fields of a scene study's JSON, for its table, chart and page.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -8,16 +8,15 @@
 
 namespace culet {
 
-/// Empty where there is none.
+/// Empty if missing.
 nlohmann::json object_at(const nlohmann::json& object, const char* key);
-/// The setting of that id; nothing for an id that is not there.
+/// The setting of that id; null for an unknown id.
 const nlohmann::json* row_of(const nlohmann::json& study, const std::optional<double>& id);
-/// The settings on the front, quickest first.
+/// The settings on the Pareto front, quickest first.
 std::vector<const nlohmann::json*> front_of(const nlohmann::json& study);
-/// What the reference itself may be off by.
+/// The error of the reference itself.
 double noise_of(const nlohmann::json& study);
 
-/// Of one setting.
 std::string words_in(const nlohmann::json& row);
 std::string ms(const nlohmann::json& row, const char* key = "cpu_seconds");
 std::string error_of(const nlohmann::json& row);

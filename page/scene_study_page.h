@@ -6,11 +6,11 @@
 
 namespace culet {
 
-/// Of one render on the front, by its id in the JSON; -1: the reference. PNG data URIs.
+/// A render on the Pareto front, by its id in the JSON; -1: the reference. PNG data URIs.
 struct SceneStudyPicture {
     int id = -1;
     std::string picture, difference;
-    double difference_scale = 0;  ///< of the mean radiance: where the colours are full
+    double difference_scale = 0;  ///< in units of the mean radiance: where the colours saturate
 };
 
 struct SceneStudyView {
@@ -19,10 +19,10 @@ struct SceneStudyView {
     std::vector<SceneStudyPicture> pictures{};
 };
 
-/// Throw InputError when the study is no JSON object.
+/// All throw InputError when the study is not a JSON object.
 /// The front and the recommendations, as text for a terminal.
 std::string scene_study_table(const std::string& study_json);
-/// Error against processor time of every setting, logarithmic, with the front; empty when nothing
+/// Every setting's error against processor time, logarithmic, with the front; empty when nothing
 /// was drawn.
 std::string scene_study_chart(const std::string& study_json);
 /// One self-contained HTML file.

@@ -1,6 +1,5 @@
 #pragma once
-// A study as table, charts and page. All of it is made from the study's JSON, so that studies of a
-// fit and of a scene are shown alike.
+// A study as table, charts and page, all made from the study's JSON.
 
 #include <string>
 
@@ -11,7 +10,7 @@ struct StudyView {
     std::string title{}, version{}, command{};
 };
 
-/// Throw InputError when the study is no JSON object.
+/// All throw InputError when the study is not a JSON object.
 /// Error against time, as text for a terminal.
 std::string study_table(const std::string& study_json);
 /// The same as a chart on logarithmic axes; empty when nothing was measured.

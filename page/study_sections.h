@@ -1,12 +1,12 @@
 #pragma once
-// Parts of the pages of studies, of fits and of scenes. Each returns HTML.
+// Parts of the pages of fit and scene studies. Each returns HTML.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace culet {
 
-/// A chart that scrolls where the screen is narrow; nothing for an empty one.
+/// A chart that scrolls on narrow screens; empty for an empty one.
 std::string chart_figure(const std::string& svg);
 
 /// The program, the command and the study's `options`.

@@ -1,6 +1,6 @@
 #pragma once
-// The one home of the template library (mustache, by kainjow): HTML stands in template files,
-// escaped by default.
+// The only place that uses the template library (mustache, by kainjow). HTML stands in template
+// files and is escaped by default.
 
 #include <concepts>
 #include <initializer_list>
@@ -12,21 +12,21 @@
 
 namespace culet {
 
-/// One of the files templates/*.html.mustache, built into the program; page/templates.h names them.
+/// One of the files templates/*.html.mustache, built into the program; page/templates.h lists them.
 struct Template {
     const char* name;
     const char* text;
 };
 
-/// What a template is filled with: a text, a truth, a list, or parts with names. Empty texts and
-/// lists are false to a section.
+/// The values for a template: a text, a boolean, a list, or named parts. For sections, empty texts
+/// and lists count as false.
 class View {
 public:
     using Parts = std::vector<std::pair<std::string, View>>;
 
     View(std::string text) : value_(std::move(text)) {}
     View(const char* text) : value_(std::string(text)) {}
-    template <std::same_as<bool> Truth>  // no number is taken for one
+    template <std::same_as<bool> Truth>  // so that numbers do not convert
     View(Truth truth) : value_(truth) {}
     View(std::vector<View> list) : value_(std::move(list)) {}
     View(std::initializer_list<Parts::value_type> parts) : value_(Parts(parts)) {}
@@ -37,9 +37,9 @@ private:
     std::variant<bool, std::string, std::vector<View>, Parts> value_;
 };
 
-/// `{{name}}` is escaped (page/html.h); `{{{name_html}}}`, and likewise _svg, _css, _js and _json,
-/// is what this program made itself and stands as it is. A template that asks for what the view
-/// does not have is our own fault: std::logic_error.
+/// Fills a template. `{{name}}` is escaped (page/html.h). `{{{name_html}}}`, and likewise _svg,
+/// _css, _js and _json, is inserted unchanged; only this program's own output may go there. Throws
+/// std::logic_error if the view lacks a name of the template, which is a bug.
 std::string filled(const Template& form, const View& view);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// From stones and scenes in files to what a page carries of them.
+// Makes a page's items from stones and scenes in files.
 
 #include <filesystem>
 #include <optional>
@@ -16,16 +16,16 @@ struct ViewSource {
     std::vector<std::string> overrides;  ///< keys of a scene
     StoneScene choices;
     std::string fit_json;              ///< report of `culet fit`; empty: none
-    std::filesystem::path before;      ///< the stone that the fit began with; empty: none
-    std::optional<CutChoice> cut;      ///< instead of a file: a standard cut
-    const Stone* stone = nullptr;      ///< instead of that of `file`, a scene; null: its own
-    const Solid* catalogue = nullptr;  ///< what `before` would hold; null: look there
+    std::filesystem::path before;      ///< the stone that the fit started from; empty: none
+    std::optional<CutChoice> cut;      ///< a standard cut, instead of a file
+    const Stone* stone = nullptr;      ///< replaces the stone of `file`, a scene; null: its own
+    const Solid* catalogue = nullptr;  ///< the contents of `before`; null: read the file
 };
 
 /// Longer side of the small picture, pixels.
 constexpr int k_still_size = 320;
 
-/// `notes`: what reading had to say. Throws InputError.
+/// `notes` receives the notes from reading. Throws InputError.
 ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes);
 
 }  // namespace culet

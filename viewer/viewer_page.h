@@ -1,5 +1,5 @@
 #pragma once
-// Front door of the room: stones to look at in, one page out.
+// Makes one page to look at stones.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace culet {
 
-/// A page in itself: loads nothing from anywhere, opens by a double click. The first item's picture
-/// stands in it at once; with the engine (viewer/engine_file.h) the stone turns. Without it the
-/// page says how to get the engine.
+/// A self-contained page that opens with a double click. It shows the first item's picture at once;
+/// with the engine (viewer/engine_file.h) the stone turns. Without it the page says how to get the
+/// engine.
 std::string viewer_page(const ViewDocument& document);
 
 }  // namespace culet

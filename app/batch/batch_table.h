@@ -1,5 +1,5 @@
 #pragma once
-// All jobs of a batch in one table.
+// Merges all jobs of a batch into one table.
 
 #include <cstddef>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// How many jobs ended how.
+/// Number of jobs by how they ended.
 struct BatchCounts {
     std::size_t good = 0, untrusted = 0, failed = 0, missing = 0;
 
@@ -17,13 +17,13 @@ struct BatchCounts {
 
 struct MergedBatch {
     BatchCounts counts;
-    /// `NAME: message` of those that failed or should not be trusted, in their order.
+    /// `NAME: message` for jobs that failed or should not be trusted, in the jobs' order.
     std::vector<std::string> complaints;
 };
 
-/// Reads the plan and the records of the finished jobs, and writes table.csv, table.json and
-/// index.html beside them. The same results give the same bytes, whoever made them and when. Throws
-/// InputError: no folder of a batch, or not writable.
+/// Reads the plan and the finished jobs' records, and writes table.csv, table.json and index.html
+/// beside them. The same results give the same bytes, whatever process made them and when. Throws
+/// InputError when the folder is not a batch's or not writable.
 MergedBatch merge_batch(const std::filesystem::path& folder);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// One job of a batch: its stone fitted, graded and drawn.
+// One job of a batch: fits, grades and draws its stone.
 
 #include <filesystem>
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace culet {
 
-/// What stands in a job's folder beside its results; it says how the job ended.
+/// The file in a job's folder that says how the job ended.
 inline constexpr const char* k_job_record = "job.json";
 
-/// Fits the stone where it has readings, grades it, draws it, and writes all of it, with the job's
-/// record, to `folder`, on one thread; returns the exit code of the record. Changes the program's
-/// working folder to the batch's, so that names and messages are the same wherever that lies:
-/// for a process of its own. Throws InputError when the results cannot be written.
+/// Fits the stone if it has readings, grades and draws it, and writes everything with the job's
+/// record to `folder`. Runs on one thread and returns the record's exit code. Changes the working
+/// directory to the batch's folder, so that names and messages do not depend on where that is: call
+/// it in a process of its own. Throws InputError when the results cannot be written.
 int work_on_job(const BatchList& list, const BatchJob& job, const BatchSettings& settings,
                 const std::string& fingerprint, const std::filesystem::path& folder);
 
-/// The record of a job that ended without one: `message` says how.
+/// Writes the record of a job that ended without one; `message` says how.
 void write_failure(const BatchJob& job, const std::string& fingerprint, int exit_code,
                    const std::string& message, const std::filesystem::path& folder);
 

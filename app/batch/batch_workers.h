@@ -1,5 +1,6 @@
 #pragma once
-// The jobs of a share, each in a process of its own: what ends one, a crash too, ends no other.
+// Runs the jobs of a share, each in its own process, so that a crash of one does not end the
+// others.
 
 #include "app/batch/batch_folder.h"
 #include "app/batch/batch_jobs.h"
@@ -8,20 +9,21 @@ namespace culet {
 
 struct ShareOptions {
     BatchShare share;
-    int workers = 0;      ///< processes at a time; 0: as many as processors may be used
-    bool resume = false;  ///< finished jobs stay, where their fingerprint is that of now
+    int workers = 0;      ///< processes at a time; 0: one per usable processor
+    bool resume = false;  ///< keep finished jobs whose fingerprint is up to date
     bool quiet = false, verbose = false;
 };
 
 struct ShareResult {
     std::size_t worked = 0, kept = 0;
-    std::size_t bad = 0;                  ///< of all: failed, or not to be trusted
-    double seconds = 0, cpu_seconds = 0;  ///< of the clock, of all processes
+    std::size_t bad = 0;                  ///< number that failed or should not be trusted, kept
+                                          ///< ones included
+    double seconds = 0, cpu_seconds = 0;  ///< wall clock; processor time of all processes
 };
 
-/// Works on the share and leaves every job of it finished. For a process without threads: it forks.
-/// Throws Interrupted, after its processes have ended and what they had begun is gone; and
-/// InputError where results cannot be written, or are there already and `resume` is not asked for.
+/// Works on the share until every job in it is finished. It forks, so the process must not have
+/// threads. Throws Interrupted after its processes have ended and their unfinished work is removed.
+/// Throws InputError when results cannot be written, or already exist and `resume` is false.
 ShareResult work_on_share(const BatchList& list, const BatchSettings& settings,
                           const std::filesystem::path& out, const ShareOptions& options);
 

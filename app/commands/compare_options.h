@@ -1,5 +1,5 @@
 #pragma once
-// What `culet compare` may be asked for.
+// The options of `culet compare`.
 
 #include <cstddef>
 #include <filesystem>
@@ -26,7 +26,7 @@ struct CompareArguments {
     bool against_scene() const { return std::filesystem::path(against()).extension() == ".toml"; }
 };
 
-/// As one says it: name_of is the word of files.
+/// For people; `name_of` gives the word used in files.
 std::string verdict_words(Verdict verdict);
 
 /// `arguments` must outlive `command`.

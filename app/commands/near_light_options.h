@@ -1,5 +1,5 @@
 #pragma once
-// What a command line says of lights near the ball.
+// Command-line options for lights near the ball.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -18,7 +18,7 @@ struct NearLightWords {
 /// `words` must outlive `command`.
 void add_near_light_options(CLI::App& command, NearLightWords& words);
 
-/// In the stone's unit and pixels of the photographs. Throws InputError.
+/// In the stone's unit and the photographs' pixels. Throws InputError.
 std::vector<NearLightRequest> near_requests(const NearLightWords& words);
 
 }  // namespace culet

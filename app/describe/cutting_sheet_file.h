@@ -1,5 +1,5 @@
 #pragma once
-// Cutting sheets as files: a page or text.
+// Writes cutting sheets to files: a page or text.
 
 #include <filesystem>
 #include <string>
@@ -10,10 +10,10 @@ namespace culet {
 
 struct SheetOptions {
     std::filesystem::path out;     ///< .html: a page; .txt: text; -: text on stdout
-    std::filesystem::path report;  ///< of the stone's fit: angles with sigmas; empty: none
+    std::filesystem::path report;  ///< of the stone's fit, for the angles' sigmas; empty: none
 };
 
-/// Of a mesh or cut design as `describe` has it (gear, width). Throws InputError.
+/// For a mesh or cut design; gear and width are those of `describe`. Throws InputError.
 void write_cutting_sheet(const SheetOptions& options, const DescribeOptions& describe);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// What `culet info` says of a file: one function a kind of file.
+// What `culet info` says about a file: one function per kind of file.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@
 
 namespace culet {
 
-/// The same for every kind of file: lines for people, an object for programs, and what is wrong.
+/// The same for every kind of file: lines for people, a JSON object for programs, and the faults.
 struct Description {
     std::vector<std::string> lines, notes;
     nlohmann::ordered_json object;  ///< keys in snake_case, `format` first
@@ -28,10 +28,10 @@ struct DescribeOptions {
     bool facet_table = false;
     bool cutting_list = false;
     CuttingOptions cutting;
-    double width_mm = 0;  ///< of a mesh or a cut design: scaled to this; 0: as it is
+    double width_mm = 0;  ///< scale a mesh or a cut design to this width; 0: do not
 };
 
-/// By extension; TOML files by their tables. Throws InputError for a kind that it does not know.
+/// Goes by the extension and, for TOML files, by their tables. Throws InputError for unknown kinds.
 Description describe_file(const DescribeOptions& options);
 
 /// Meshes and cut designs.
@@ -42,7 +42,7 @@ Description describe_material_file(const DescribeOptions& options);
 Description describe_image_file(const DescribeOptions& options);
 Description describe_ray_table(const DescribeOptions& options);
 
-/// Adds a solid's figures and facets, and its faults. `must_be_convex` as the stone says.
+/// Adds a solid's figures, facets and faults. `must_be_convex` is the stone's.
 void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, Description& about);
 void describe_material(const Material& material, Description& about);
 

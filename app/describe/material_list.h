@@ -7,12 +7,12 @@
 namespace culet {
 
 struct MaterialList {
-    std::string words;           ///< only materials that these words name; empty: all
-    std::filesystem::path json;  ///< empty: none; `-`: stdout, and nothing else there
+    std::string words;           ///< only materials that match these words; empty: all
+    std::filesystem::path json;  ///< empty: none; `-`: stdout, which then gets nothing else
     std::filesystem::path page;  ///< HTML; empty: none
 };
 
-/// Prints the list, writes what was asked for. Throws InputError when no material is named so.
+/// Prints the list and writes the requested files. Throws InputError when no material matches.
 void list_materials(const MaterialList& list);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// The page of culet grade, for commands that end in one.
+// Writes the page of culet grade, also for other commands that end in one.
 
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace culet {
 
-/// report.html, grade.json and pictures of the files side by side, as `culet grade -o` writes them;
-/// above them what `culet optimize --json` writes, unless it is empty.
+/// Writes report.html, grade.json and pictures of the files side by side, as `culet grade -o` does.
+/// Unless it is empty, `optimized_json` (of `culet optimize --json`) is shown above them.
 void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
                       const std::filesystem::path& folder, const CommonOptions& common,
                       const std::string& optimized_json = {});

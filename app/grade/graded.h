@@ -1,5 +1,5 @@
 #pragma once
-// A stone graded, for commands that grade: its figures, its JSON, its part of a page.
+// A graded stone, for commands that grade: its figures, its JSON, its part of a page.
 
 #include <filesystem>
 #include <string>
@@ -21,19 +21,20 @@ struct Graded {
     std::string json;
 };
 
-/// `tilts`: "FROM:TO:STEP", or angles with commas between them; all in degrees. Throws InputError.
+/// `tilts`: "FROM:TO:STEP", or angles separated by commas; all in degrees. Throws InputError.
 GradeOptions grade_options(double head_deg, const std::string& tilts);
 
-/// `draws`: stones drawn for the sigmas, where the input's uncertainty is known; 0: no sigmas.
+/// `draws`: number of stones drawn at random for the sigmas where the input's uncertainty is known;
+/// 0: no sigmas.
 Graded grade_input(GradeInput input, const GradeOptions& options, int draws, bool quiet);
 
 struct GradePageOptions {
     double head_deg = 10;
-    int size = 320;  ///< of its pictures, pixels
+    int size = 320;  ///< of the pictures, pixels
     int threads = 0;
 };
 
-/// Its part of a page. The scopes' pictures are written to `folder` as PREFIX-aset.png, ...
+/// Its part of a page. Writes the scopes' pictures to `folder` as PREFIX-aset.png, ...
 GradeDesign design_for_page(const Graded& graded, const std::filesystem::path& folder,
                             const std::string& prefix, const GradePageOptions& page);
 

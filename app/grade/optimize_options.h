@@ -1,5 +1,5 @@
 #pragma once
-// What `culet optimize` may be asked for.
+// The options of `culet optimize`.
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// The stone that culet convert writes for other programs.
+// Reads the stone that culet convert writes for other programs.
 
 #include <filesystem>
 #include <optional>
@@ -12,9 +12,9 @@
 namespace culet {
 
 struct ExportChoices {
-    std::vector<std::string> overrides;  ///< of a stone file or scene
+    std::vector<std::string> overrides;  ///< for a stone file or scene
     CutReading cut;
-    std::string material;  ///< name of the catalogue or a material file; empty: the file's own
+    std::string material;  ///< catalogue name or material file; empty: the file's own
     std::optional<double> width_mm;
 };
 
@@ -24,8 +24,8 @@ struct ExportInput {
     std::vector<std::string> notes, details;
 };
 
-/// A mesh, a cut design, a stone file (as drawn: nothing is fitted) or the stone of a scene. A mesh
-/// is in mm, and what has no size gets the usual width, which a note says. Throws InputError.
+/// Reads a mesh, a cut design, a stone file (as drawn, without a fit) or the stone of a scene. A
+/// mesh is in mm. What has no size gets the usual width, and a note says so. Throws InputError.
 ExportInput read_for_export(const std::filesystem::path& file, const ExportChoices& choices);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// How sure a fit is of its facets, for drawing stones.
+// The uncertainty of a fit's facets, for drawing stones at random.
 
 #include <filesystem>
 
@@ -9,12 +9,13 @@
 
 namespace culet {
 
-/// Of the facets of `result.solid`, in its order and unit, with their covariance where it is known.
+/// Of the facets of `result.solid`, in its order and unit, with their covariance if known.
 StoneUncertainty uncertainty_of(const FitResult& result);
 
-/// Of the stone's facets by the report of their fit, in the stone's unit; with its
-/// `facet_covariance` (rows of three a facet in the order of its `facets`: inclination, azimuth in
-/// degrees, offset) where it has one. Throws InputError where it is no report, or another stone's.
+/// Reads the uncertainty of the stone's facets from the report of their fit, in the stone's unit.
+/// Uses the report's `facet_covariance` if present (three rows per facet, in the order of its
+/// `facets`: inclination and azimuth in degrees, offset). Throws InputError if it is not a report,
+/// or another stone's.
 StoneUncertainty uncertainty_in(const std::filesystem::path& report, const Stone& stone);
 
 }  // namespace culet

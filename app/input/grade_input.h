@@ -1,5 +1,5 @@
 #pragma once
-// What culet grade grades: stones, meshes and cut designs, and how sure their facets are.
+// Reads what culet grade grades: stones, meshes and cut designs, with their facets' uncertainty.
 
 #include <filesystem>
 #include <optional>
@@ -17,9 +17,9 @@ struct GradeInput {
     std::string name, file;
     Stone stone;  ///< table up; its material counts where `has_material`
     bool has_material = false;
-    std::optional<double> index;  ///< as asked for, or of a cut design without a material
+    std::optional<double> index;  ///< the requested one, or that of a cut design without a material
     std::optional<StoneUncertainty> uncertainty;
-    bool as_drawn = false;  ///< the mesh that a fit began with
+    bool as_drawn = false;  ///< the mesh that a fit started from
     bool trusted = true;    ///< false: a fit that should not be trusted; `notes` say why
     std::vector<std::string> notes;
 };
@@ -30,20 +30,20 @@ struct GradeChoices {
     std::filesystem::path report;  ///< of a fit; empty: none
     std::vector<std::string> overrides;
     bool quiet = false;
-    const char* command = "culet grade";  ///< who asks, for messages
+    const char* command = "culet grade";  ///< the calling command, for messages
     std::string given;                    ///< the command line, for the page
 };
 
-/// A stone file with readings is fitted; `drawn`: its mesh as it was drawn comes second. Throws
+/// Fits a stone file that has readings; with `drawn`, its mesh as drawn comes second. Throws
 /// InputError.
 std::vector<GradeInput> load_for_grade(const std::filesystem::path& file,
                                        const GradeChoices& choices, bool drawn);
 
-/// The stone as fitted in place of the one as drawn, with how sure its facets are.
+/// Replaces the drawn stone by the fitted one, with its facets' uncertainty.
 void take_fit(const FitResult& result, GradeInput& input);
 
-/// What was asked for in place of the file's own material and index, and the stone table up, as
-/// `load_for_grade` does it. Throws InputError where there is neither material nor index.
+/// Applies the requested material and index, and turns the stone table up, as `load_for_grade`
+/// does. Throws InputError where there is neither material nor index.
 void make_ready(const GradeChoices& choices, GradeInput& input);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// The half of `culet study` that is about scenes.
+// The part of `culet study` that studies scenes.
 
 #include <filesystem>
 #include <string>
@@ -18,7 +18,7 @@ struct StudySceneOptions {
 /// Studies the scene, writes the results, and returns the exit code.
 int study_scene_file(const StudySceneOptions& options);
 
-/// Makes the folder for a study's results. Throws InputError when it cannot be one.
+/// Makes the folder for a study's results. Throws InputError when it cannot.
 std::filesystem::path study_folder(const std::filesystem::path& folder);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// What to say to somebody who gave a command the wrong kind of file.
+// Messages for users who gave a command the wrong kind of file.
 
 #include <filesystem>
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace culet {
 
-/// Throws InputError when `file` is of a kind that `command` (fit) does not take: it says what the
-/// file is, what the command takes, and which command takes the file. Kinds that cannot be told
-/// pass: the reader of the file says what is wrong with it.
+/// Throws InputError when `command` (fit) does not take files of this kind. The message says what
+/// the file is, what the command takes, and which command takes the file. Files of unknown kind
+/// pass: their reader reports what is wrong.
 void require_kind(const std::filesystem::path& file, const std::vector<FileKind>& taken,
                   const std::string& command, const std::vector<std::string>& overrides = {});
 
-/// A name of a standard cut, where no file is called so.
+/// True for a name of a standard cut, unless a file has that name.
 bool is_cut_name(const std::string& input);
 
-/// Throws InputError unless `pictures` are photographs and, last, a render or a scene: a scene
-/// stands before the last, or the first was rendered by culet and the last was not (and is not
-/// said to be a simulated photograph).
+/// Throws InputError unless `pictures` are photographs followed by a render or a scene. It is an
+/// error if a scene stands before the last, or if the first was rendered by culet and the last was
+/// not (unless `simulated` says that the photographs are).
 void require_photographs_first(const std::vector<std::string>& pictures, bool simulated,
                                const std::vector<std::string>& overrides);
 

@@ -10,12 +10,12 @@
 
 namespace culet {
 
-/// Exit codes that outsiders rely on.
+/// Exit codes; scripts rely on them.
 enum ExitCode : int {
     exit_good = 0,
     exit_untrusted = 1,   ///< done, but the answer should not be trusted; outputs are written
-    exit_impossible = 2,  ///< usage or input: nothing written
-    exit_internal = 3,    ///< our own fault
+    exit_impossible = 2,  ///< wrong usage or input; nothing is written
+    exit_internal = 3,    ///< a bug of ours
     exit_interrupted = 130
 };
 
@@ -29,15 +29,17 @@ struct CommonOptions {
 /// Adds -q, -v, --threads, --seed and, for commands that read TOML, --set.
 void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = false);
 
-/// The command line that `command` was given, for a page to say how it was made.
+/// The command line of `command`, for pages to say how they were made.
 std::string as_given(const CLI::App& command);
 
-/// "1,2,3" as numbers, so many; `expected` says in an error what the option is. Throws InputError.
+/// Reads "1,2,3" as `least` to `most` numbers. `expected` describes the option in errors. Throws
+/// InputError.
 std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
                                const std::string& expected);
 
-/// Each registers one subcommand; its callback stores the exit code in `exit_code` and throws
-/// InputError, InternalError or Interrupted. Parsing, calling and writing only: no formula.
+/// Each registers one subcommand. Its callback stores the exit code in `exit_code` and throws
+/// InputError, InternalError or Interrupted. Commands only parse, call and write; they contain no
+/// formulas.
 void add_command_fit(CLI::App& program, int& exit_code);
 void add_command_register(CLI::App& program, int& exit_code);
 void add_command_render(CLI::App& program, int& exit_code);

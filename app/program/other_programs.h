@@ -1,5 +1,5 @@
 #pragma once
-// Programs that may be installed beside culet.
+// Runs programs that may be installed beside culet.
 
 #include <filesystem>
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace culet {
 
-/// Whether a program of that name is on the PATH.
+/// True if a program of that name is on the PATH.
 bool has_program(const std::string& name);
 
-/// Runs a program with its messages in a file; its exit status, or -1.
+/// Runs a program and writes its messages to a file. Returns its exit status, or -1.
 int run_program(std::vector<std::string> words, const std::filesystem::path& messages);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// The viewer that reports open: a page inside theirs.
+// The viewer inside the pages of reports.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// A page of the viewer; empty where it would not turn: built without the viewer's engine, what
-/// beams refuse, a stone without a material.
+/// A page of the viewer. Empty if the stone could not be turned: culet was built without the
+/// viewer's engine, the engine beams refuses the scene, or the stone has no material.
 std::string viewer_for_report(const ViewSource& source, const std::string& title);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// A temporary folder of our own, gone with this.
+// A temporary folder, removed with this object.
 
 #include <cstdlib>
 #include <filesystem>

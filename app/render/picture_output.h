@@ -1,5 +1,5 @@
 #pragma once
-// Where a rendered picture goes, and how it is shown there.
+// Writes a rendered picture with its exposure and tone mapping.
 
 #include <filesystem>
 #include <optional>
@@ -12,24 +12,24 @@ namespace culet {
 
 class PictureOutput {
 public:
-    /// `out`: .exr, .png or .hdr; "-" is stdout, as PNG; empty: nowhere. Throws InputError for
-    /// other endings, a place that cannot be written, and a terminal.
+    /// `out`: .exr, .png or .hdr; "-": stdout, as PNG; empty: nowhere. Throws InputError for other
+    /// extensions, for a place that cannot be written, and for a terminal.
     PictureOutput(std::string out, bool spectral);
 
-    /// As shown_picture.h says. Throws InputError.
+    /// Options as in shown_picture.h. Throws InputError.
     void look_as(const std::string& exposure, const std::string& tonemap, const Scene& scene);
 
-    /// The factor that a picture is shown with.
+    /// The exposure factor of a picture.
     double exposure_of(const Picture& picture) const;
 
     bool goes_to_a_file() const { return !out_.empty() && out_ != "-"; }
-    /// Whole or not at all; what was there is replaced.
+    /// Writes the picture completely or not at all; replaces an existing file.
     void write(const Picture& picture,
                const std::vector<std::pair<std::string, std::string>>& text) const;
 
 private:
     std::string out_;
-    std::optional<double> exposure_ = 1;  ///< none: to the stone
+    std::optional<double> exposure_ = 1;  ///< empty: exposed for the stone
     PngLook look_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `culet render` may be asked for.
+// The options of `culet render`.
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What `culet render` says of a picture that it has drawn.
+// What `culet render` says about a picture that it has drawn.
 
 #include "render/engine/render_result.h"
 #include "render/planner/verify.h"
@@ -7,10 +7,10 @@
 
 namespace culet {
 
-/// What k_usual_budget_ns is for people.
+/// k_usual_budget_ns in words for people.
 constexpr int k_usual_seconds = 10;
 
-/// How near the picture is, where that was left to culet.
+/// Says how accurate the picture is, if the choice was left to culet.
 void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet);
 void say_all_about(const RenderStats& stats);
 void say_verified(const Verification& found, bool quiet);

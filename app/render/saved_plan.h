@@ -1,5 +1,6 @@
 #pragma once
-// What `culet render --stats STATS.json` chose, for another picture of the same stone and light.
+// The settings that `culet render --stats STATS.json` chose, for another picture of the same stone
+// and light.
 
 #include <filesystem>
 #include <string>
@@ -16,11 +17,11 @@ struct SavedPlan {
     std::string stone_and_light;
     double checked_bound = 0;
 
-    /// Throws InputError where the scene has another stone or other lights.
+    /// Throws InputError if the scene has another stone or other lights.
     ScenePlan of(const Scene& scene) const;
 };
 
-/// Throws InputError: no JSON, or none with a plan in it.
+/// Throws InputError if the file is not JSON or holds no plan.
 SavedPlan read_saved_plan(const std::filesystem::path& file);
 
 }  // namespace culet

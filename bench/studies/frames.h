@@ -1,5 +1,5 @@
 #pragma once
-// Timed pictures by beams, and how pages word them.
+// Timed pictures by beams, and their numbers as text.
 
 #include <string>
 
@@ -16,7 +16,7 @@ TimedPicture timed_picture(const Scene& scene);
 
 std::string milliseconds_of(double seconds);
 std::string percent(double share);
-/// The same picture, shown so many times as bright.
+/// The same look with `factor` times the brightness.
 PngLook brightened(const PngLook& look, double factor);
 
 }  // namespace culet

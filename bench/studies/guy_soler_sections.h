@@ -6,7 +6,7 @@
 
 namespace culet {
 
-// guy_soler_optics.cpp: numbers of one face, one ray.
+// guy_soler_optics.cpp: numbers for one face, one ray.
 void write_wave_angles(SourcePage& page);
 void write_face_powers(SourcePage& page, Parameters& parameters);
 void write_absorption(SourcePage& page, Parameters& parameters);

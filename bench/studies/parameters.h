@@ -1,6 +1,6 @@
 #pragma once
-// The parameters of a study, one table of parameters.toml; remembers what was asked for, so that
-// its page can tell.
+// The parameters of a study: one table of parameters.toml. Remembers which ones were used, for the
+// study's page.
 
 #include <string>
 #include <utility>
@@ -14,15 +14,15 @@ class Parameters {
 public:
     explicit Parameters(TomlTable table) : table_(std::move(table)) {}
 
-    /// Each throws InputError where the key is missing or of another type.
+    /// Each throws InputError where the key is missing or has another type.
     double number(const std::string& key);
     int count(const std::string& key);  ///< at least 1
     std::vector<double> numbers(const std::string& key);
     std::vector<std::string> texts(const std::string& key);
-    /// A path as seen from the file's folder.
+    /// A path relative to the file's folder.
     std::filesystem::path path(const std::string& key);
 
-    /// Key and value, in the order in which they were first asked for.
+    /// Key and value, in the order of first use.
     const std::vector<std::vector<std::string>>& used() const { return used_; }
 
 private:

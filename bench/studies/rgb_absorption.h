@@ -7,13 +7,13 @@
 
 namespace culet {
 
-/// exp(-x) less 1 - x, over exp(-x): by how much the first order is too dark.
+/// (exp(-x) - (1 - x)) / exp(-x): by how much the first order is too dark.
 double linear_absorption_error(double x);
 
 /// The x for which exp(-x) - (1 - x) is `error`.
 double thickness_of_linear_error(double error);
 
-/// Daylight D65 after `length_mm` along the principal ray of that number.
+/// Daylight D65 after `length_mm` along principal ray number `ray`.
 struct TransmittedColour {
     Lab spectral;    ///< from the spectrum, at every 5 nm
     Lab three;       ///< from its values at 610, 545 and 465 nm, as red, green and blue

@@ -1,5 +1,5 @@
 #pragma once
-// The noise of pictures by random rays.
+// The noise of pictures from random rays.
 
 #include <filesystem>
 #include <string>
@@ -16,9 +16,9 @@ struct SamplingNoise {
     Picture picture;
 };
 
-/// Of a scene file by the reference renderer, that many pixels wide: two pictures with other random
-/// numbers for each number of samples; their difference has twice the variance of either.
-/// `overrides`: keys of the scene.
+/// For a scene file drawn by the reference renderer, `width` pixels wide. For each number of
+/// samples two pictures with different random numbers are drawn; their difference has twice the
+/// variance of either. `overrides` are keys of the scene.
 std::vector<SamplingNoise> sampling_noise(const std::filesystem::path& scene, int width,
                                           const std::vector<int>& samples,
                                           const std::vector<std::string>& overrides = {});

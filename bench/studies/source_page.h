@@ -17,8 +17,7 @@ struct CaptionedPicture {
     PngLook look;
 };
 
-/// Parts of a page, in the order in which they are to be read. All texts are plain; they are
-/// escaped.
+/// Parts of a page, in reading order. Texts are plain and get escaped.
 class SourcePage {
 public:
     /// `name`: as in `sh bench/studies.sh NAME`; `source`: authors, title, year.
@@ -26,20 +25,20 @@ public:
 
     void section(const std::string& heading);
     void words(const std::string& paragraph);
-    /// The first column is of names, the others of numbers.
+    /// The first column has names, the others numbers.
     void table(const std::string& caption, const std::vector<std::string>& columns,
                const std::vector<std::vector<std::string>>& rows);
     void chart(const Chart& chart);
     void pictures(const std::vector<CaptionedPicture>& row);
-    /// The sentence that a study ends with.
+    /// The study's concluding sentence.
     void learned(const std::string& sentence);
 
     const std::string& name() const { return name_; }
-    /// `parameters`: key and value, as used.
+    /// `parameters`: keys and values used.
     std::string html(const std::vector<std::vector<std::string>>& parameters) const;
 
 private:
-    struct Part {  // one of them
+    struct Part {  // one of the members
         std::string words = {}, learned = {}, chart_html = {};
         std::vector<View> tables = {}, pictures = {};
         View view() const;
@@ -55,7 +54,7 @@ private:
     std::vector<Section> sections_;
 };
 
-/// Bright enough for its stone (exposure_for_stone).
+/// Exposed for its stone (exposure_for_stone).
 PngLook exposed_for(const Picture& picture);
 
 }  // namespace culet

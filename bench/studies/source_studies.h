@@ -1,5 +1,5 @@
 #pragma once
-// The studies of culet's sources: each makes a page.
+// The studies of culet's sources. Each makes a page.
 
 #include <vector>
 

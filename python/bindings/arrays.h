@@ -1,6 +1,5 @@
 #pragma once
-// Vectors of C++ as arrays of numpy, and back. Arrays are copies: who changes one changes nothing
-// else.
+// Converts C++ vectors to numpy arrays and back. Arrays are copies.
 
 #include <pybind11/numpy.h>
 
@@ -24,7 +23,7 @@ pybind11::array_t<T> array_of(const std::vector<T>& values, std::vector<pybind11
     return array_of(std::span<const T>(values), std::move(shape));
 }
 
-/// Rows from the top, contiguous, of the type that was asked for: numpy converts what is not.
+/// C-contiguous arrays of the requested type; numpy converts others.
 using FloatArray = pybind11::array_t<float, pybind11::array::c_style | pybind11::array::forcecast>;
 using DoubleArray =
     pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;

@@ -1,5 +1,5 @@
 #pragma once
-// Long work that Python waits for: without its lock, with its progress, and ended by Ctrl-C.
+// Runs long work for Python: without its lock, with progress, and stopped by Ctrl-C.
 
 #include <pybind11/pybind11.h>
 
@@ -11,10 +11,11 @@
 
 namespace culet {
 
-/// What `work(progress)` returns or throws. It runs in a thread of its own, without Python's global
-/// lock. This one wakes up twenty times a second: it looks for Ctrl-C (KeyboardInterrupt), and
-/// calls `told`, Python's callable or None, with the fraction done, once at least. Where that
-/// returns False or raises, the work is asked to stop; the first ends as Interrupted.
+/// Returns or throws what `work(progress)` does. The work runs in a thread of its own, without
+/// Python's global lock. The calling thread wakes up twenty times a second, checks for Ctrl-C
+/// (KeyboardInterrupt), and calls `told` (Python's callable or None) with the fraction done, at
+/// least once. If that returns False or raises, the work is asked to stop; after False it ends with
+/// Interrupted.
 template <class Work>
 auto wait_for(const pybind11::object& told, Work work) {
     std::atomic<double> done{0};
@@ -38,7 +39,7 @@ auto wait_for(const pybind11::object& told, Work work) {
             const pybind11::object answer = told(before);
             if (answer.is(pybind11::bool_(false))) stop = true;
         }
-        // Work that was over before this thread woke up.
+        // The work may have ended before this thread woke up.
         if (!told.is_none() && !stop && done > before) told(done.load());
     } catch (...) {
         stop = true;

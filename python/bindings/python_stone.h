@@ -14,7 +14,7 @@
 
 namespace culet {
 
-/// A stone with all that its file says, and how sure its facets are where it was fitted.
+/// A stone with all that its file says, and its facets' uncertainty if it was fitted.
 struct PythonStone {
     std::string file;  ///< for messages
     Stone stone;
@@ -26,16 +26,16 @@ struct PythonStone {
     std::vector<std::string> notes;
 };
 
-/// A scene, and what it was made of: with other settings it is made anew.
+/// A scene and its sources: it is rebuilt when its settings change.
 struct PythonScene {
     std::string file;                  ///< empty: a stone in a light
-    std::optional<PythonStone> stone;  ///< in place of the file's, or alone
+    std::optional<PythonStone> stone;  ///< replaces the file's stone, or stands alone
     std::vector<std::string> overrides;
     StoneScene choices;
     Scene scene;
 };
 
-/// Of a fitted stone that the scene shows. Throws InputError.
+/// For a fitted stone that the scene shows. Throws InputError.
 StoneUncertainty uncertainty_for_scene(const PythonStone& stone, const Scene& scene);
 
 }  // namespace culet

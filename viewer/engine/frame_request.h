@@ -1,5 +1,5 @@
 #pragma once
-// What a page asks of one picture: its size, its camera, how it is drawn.
+// A page's request for one picture: size, camera and manner of drawing.
 
 #include <nlohmann/json.hpp>
 
@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// The arguments of `draw` (docs/viewer.md); what they leave out is `usual`. Throws InputError, and
-/// JSON's own errors for what is missing or of another type.
+/// Reads the arguments of `draw` (docs/viewer.md). `usual` is the camera if they have none. Throws
+/// InputError, and JSON's own errors for missing or mistyped values.
 FrameRequest frame_request(const nlohmann::ordered_json& arguments, const Camera& usual);
 
 }  // namespace culet

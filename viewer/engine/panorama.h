@@ -1,5 +1,5 @@
 #pragma once
-// A picture of the light around, as a person drops it on a page.
+// A picture of the surrounding light that a person drops on a page.
 
 #include <string>
 #include <string_view>
@@ -8,19 +8,19 @@
 namespace culet {
 
 struct Panorama {
-    std::string name;   ///< that a scene may call it
-    std::string bytes;  ///< as a PFM in linear light, which is read fast
+    std::string name;   ///< under which a scene may refer to it
+    std::string bytes;  ///< a PFM in linear light, which is read fast
     int width = 0, height = 0;
     std::vector<std::string> notes;
 };
 
-/// Pictures wider than this are brought to it, by whole factors.
+/// Wider pictures are reduced to this by whole factors.
 constexpr int k_widest_panorama = 2048;
 
-/// A lat-long or cube map in a format that `picture_of_bytes` reads. Throws InputError.
+/// Reads a lat-long or cube map in a format of `picture_of_bytes`. Throws InputError.
 Panorama panorama_of(const std::string& name, std::string_view bytes);
 
-/// A picture in linear light as a PFM.
+/// Writes a picture in linear light as PFM.
 std::string pfm_of(int width, int height, const std::vector<float>& rgb);
 
 }  // namespace culet

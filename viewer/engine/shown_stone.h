@@ -1,6 +1,5 @@
 #pragma once
-// One stone of a page as it is drawn: its scene, and the frames of its two engines. Private to the
-// room.
+// One stone of a page: its scene, and the frames of its two engines. Private to the folder.
 
 #include <array>
 #include <memory>
@@ -15,20 +14,20 @@
 
 namespace culet {
 
-/// What a picture is asked for.
+/// A request for a picture.
 struct FrameRequest {
     Camera camera;
-    /// Of the lights about the stone's middle, row by row.
+    /// Rotation of the lights about the stone's middle, row by row.
     std::array<double, 9> turn{1, 0, 0, 0, 1, 0, 0, 0, 1};
     bool preview = false;
-    /// The wavelengths that were chosen for the view before are taken again where the scene leaves
-    /// them open: for pictures while the stone moves.
+    /// Reuse the wavelengths chosen for the view before where the scene leaves them open. For
+    /// pictures while the stone moves.
     bool quick = false;
     std::optional<int> samples;
 };
 
-/// Why a page cannot draw this, in words; empty: it can. A convex stone is drawn by beams, any
-/// other by rays: `draw_quickly` for `preview`, else the reference.
+/// Why a page cannot draw this, in words; empty: it can. A convex stone is drawn by beams. Others
+/// are drawn by rays: with `draw_quickly` for `preview`, else by the reference.
 std::string refused_by_page(Scene scene);
 
 class ShownStone {
@@ -36,7 +35,7 @@ public:
     ShownStone(ViewedStone viewed, const std::string& scene_toml, const HeldFiles& files,
                const std::string& name);
 
-    /// The scene's keys anew, as --set has them. Throws InputError, and nothing has changed then.
+    /// Sets the scene's keys, as --set does. Throws InputError and then changes nothing.
     void set(const std::vector<std::string>& settings, const std::string& scene_toml,
              const HeldFiles& files, const std::string& name);
 
@@ -45,10 +44,9 @@ public:
     /// Why a page cannot draw it; empty: it can.
     const std::string& refused() const { return refused_; }
 
-    /// What a GPU draws of the scene as it is set.
+    /// What a GPU draws for the scene's current settings.
     const GpuSetup& on_gpu() const;
 
-    /// The scene of a picture.
     Scene scene_of(const FrameRequest& request) const;
     /// Throws InputError. The picture is valid until the next call.
     const RenderResult& draw(const FrameRequest& request);
@@ -57,7 +55,7 @@ private:
     struct Drawer {
         FrameRenderer frames;
         std::optional<int> samples;
-        bool stale = false;  ///< the scene's keys have changed since
+        bool stale = false;  ///< the scene's keys have changed since the last frame
     };
 
     ViewedStone viewed_;

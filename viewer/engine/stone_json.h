@@ -1,5 +1,5 @@
 #pragma once
-// Stones and materials as the JSON of a page, exactly. Private to the room: shows JSON.
+// Stones and materials as a page's JSON, without loss. Private to the folder: shows JSON.
 
 #include <nlohmann/json.hpp>
 
@@ -8,7 +8,7 @@
 namespace culet {
 
 nlohmann::ordered_json json_of(const Material& material);
-/// Throws InputError: not what `json_of` wrote.
+/// Throws InputError for JSON that `json_of` did not write.
 Material material_from(const nlohmann::ordered_json& json);
 
 nlohmann::ordered_json json_of(const Vec3& vector);

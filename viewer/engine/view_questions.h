@@ -1,6 +1,6 @@
 #pragma once
-// What a person asks of a place in the picture. Places are in pixels, x to the right, y down, from
-// the picture's corner.
+// Questions about a place in the picture. Places are in pixels from the picture's upper left
+// corner, x to the right, y down.
 
 #include <array>
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace culet {
 
-/// The facet there, or -1: the stone is not met.
+/// The facet there, or -1 where the stone is not met.
 int facet_at(const Stone& stone, const Camera& camera, double x, double y);
 
 struct SeenFacet {
     int facet = 0;
     std::vector<std::array<double, 2>> points;
 };
-/// The facets that face the eye, as the picture shows them. Throws InputError for a conoscope.
+/// The facets that face the eye, as in the picture. Throws InputError for a conoscope.
 std::vector<SeenFacet> seen_facets(const Stone& stone, const Camera& camera);
 
 /// The light paths there, as `culet probe --json` writes them. Throws InputError.

@@ -1,6 +1,6 @@
 #pragma once
-// What a page of the viewer carries: stones, scenes and small pictures, as JSON
-// (docs/viewer.md, "The document").
+// The contents of a viewer page: stones, scenes and small pictures, as JSON (docs/viewer.md, "The
+// document").
 
 #include <map>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace culet {
 
-/// The standard cut that a stone is, by `cut_kinds()`.
+/// The standard cut of a stone, from `cut_kinds()`.
 struct CutChoice {
     std::string kind;
     std::map<std::string, double> values;
@@ -24,17 +24,17 @@ struct ViewedStone {
     std::string role = "stone";  ///< stone, fitted, catalogue, design
     Stone stone;
     std::optional<CutChoice> cut;
-    std::vector<FacetFacts> fit;  ///< one a facet, or empty
+    std::vector<FacetFacts> fit;  ///< one per facet, or empty
 };
 
 struct ViewItem {
     std::string name;
     std::vector<ViewedStone> stones;
     std::string scene;    ///< a scene file without its stone (TOML)
-    HeldFiles files;      ///< that it names
+    HeldFiles files;      ///< files that the scene names
     std::string picture;  ///< data:image/png;base64,...
     std::string refused;  ///< why beams cannot draw it; empty: they can
-    std::string command;  ///< `culet render ...` as far as the file, to which --set is added
+    std::string command;  ///< `culet render ...` up to the file; the page appends --set
 };
 
 struct ViewDocument {
@@ -43,10 +43,10 @@ struct ViewDocument {
     std::vector<ViewItem> items;
 };
 
-/// Schema "culet-view-1", numbers exactly.
+/// Schema "culet-view-1"; numbers are exact.
 std::string document_json(const ViewDocument& document);
 
-/// One item of a document. Throws InputError where it is none, or has no such item.
+/// One item of a document. Throws InputError if it is not a document, or has no such item.
 ViewItem read_view_item(std::string_view document, int item);
 
 }  // namespace culet

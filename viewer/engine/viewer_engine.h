@@ -1,6 +1,6 @@
 #pragma once
-// Front door of the engine behind a page: a document in, pictures out. Compiled into the program
-// for its tests, and to WebAssembly for pages (viewer/wasm).
+// The engine behind a page: a document in, pictures out. Compiled into the program for its tests,
+// and to WebAssembly for pages (viewer/wasm).
 
 #include <cstdint>
 #include <memory>
@@ -10,28 +10,27 @@
 
 namespace culet {
 
-/// Answers a page's calls, in JSON (docs/viewer.md, "The engine's calls"). Pictures are those of
+/// Answers a page's calls, in JSON (docs/viewer.md, "The engine's calls"). Pictures equal those of
 /// `culet render` with engine "beams" or "preview" and `check = "none"`.
 class ViewerEngine {
 public:
-    /// `version` of the program, for who asks.
+    /// `version` of the program, for callers that ask.
     explicit ViewerEngine(std::string version);
     ~ViewerEngine();
     ViewerEngine(ViewerEngine&&) noexcept;
 
-    /// `attached`: the document of `open`, the file of `panorama`. Throws InputError: what is
-    /// wrong, in one line for people; nothing has changed then.
+    /// `attached`: the document for `open`, the file for `panorama`. Throws InputError with what is
+    /// wrong, in one line for people, and then changes nothing.
     std::string answer(std::string_view call, std::string_view arguments,
                        std::string_view attached = {});
 
-    /// The names of all calls.
     static std::vector<std::string_view> calls();
 
     /// Of the last `draw`: RGBA, row by row from the top.
     const std::vector<std::uint8_t>& pixels() const;
     /// Of the last `radiance`: linear RGB.
     const std::vector<float>& radiance() const;
-    /// Of the last `gpu`: of all its textures, RGBA.
+    /// Of the last `gpu`: all its textures, RGBA.
     const std::vector<float>& texels() const;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
-// What Emscripten's C++ library of Debian 12 lacks: std::from_chars of numbers with a point.
-// Included before every source (-include).
+// std::from_chars for floating point, which Emscripten's C++ library of Debian 12 lacks. Included
+// before every source (-include).
 
 #include <cerrno>
 #include <charconv>
@@ -10,8 +10,8 @@
 
 namespace std {
 
-/// As [charconv.from.chars] of the general format says: no blanks, plus signs or hexadecimal digits
-/// before the number, all of which strtod takes.
+/// The general format of [charconv.from.chars]: it refuses blanks, plus signs and hexadecimal
+/// digits before the number, all of which strtod takes.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
     const char* at = first;
     if (at != last && *at == '-') ++at;

@@ -1,6 +1,6 @@
 #pragma once
-// What tinyexr asks of zlib, done by stb_image's decoder (picture_decoder.cpp). A page writes no
-// EXR.
+// The part of zlib that tinyexr needs, done by stb_image's decoder (picture_decoder.cpp). Pages do
+// not write EXR.
 
 using uLong = unsigned long;
 using Bytef = unsigned char;

@@ -1,5 +1,5 @@
 #pragma once
-// See parallel_for.h: what every thread has of its own is one thing.
+// See parallel_for.h: with one thread there is one value.
 
 #include <functional>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-// WebAssembly in a page has one thread (threads need headers that a file opened by a double click
-// does not have): the loops of TBB that culet uses, one step after the other.
+// TBB's loops that culet uses, run sequentially. WebAssembly in a page has one thread: threads need
+// headers that a file opened by a double click does not have.
 
 #include <tbb/partitioner.h>
 
