@@ -1,4 +1,4 @@
-// culet COMMAND INPUT... [options]: parses, calls, writes; the one place where errors are caught.
+// culet COMMAND INPUT... [options]: parses, calls, writes; the only place where errors are caught.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ int complain(int code, const std::string& message) {
     return code;
 }
 
-// A file where the command belongs is told from a misspelt command.
+// Distinguishes a file in the command's place from a misspelt command.
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands) {
     const bool is_file = word.find('.') != std::string::npos;
     if (is_file) {
@@ -99,7 +99,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     culet::catch_interrupts();
-    // A file beyond the limit of its size is a failed write, said in a line, not a death.
+    // Exceeding the limit on file size then fails as a write error with a message, instead of
+    // killing the program.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
         return run(argc, argv);

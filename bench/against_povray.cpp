@@ -35,7 +35,7 @@ std::vector<NamedScene> own_scenes() {
     scene.stone.material = catalogue_material("diamond");
     scene.camera.position = {2.5, 1, 6};
     scene.camera.fov = 0.18;
-    // No light above 1, so that a PNG holds it.
+    // No light above 1, so that a PNG can hold it.
     Lights constant, sky, rings, lobes;
     constant.constant = 1;
     sky.constant = 0.1;
@@ -62,7 +62,7 @@ struct Timed {
     double seconds = 0;
 };
 
-// The quickest of three: what else the machine does can only add.
+// The quickest of three, since other load can only add time.
 Timed with_culet(Scene scene, bool polarised) {
     scene.settings.effects_auto = false;
     scene.settings.effects.fill(false);

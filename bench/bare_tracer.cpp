@@ -118,7 +118,7 @@ BarePicture draw_bare(const Scene& scene, int side, int depth, double cut) {
                right = glm::normalize(glm::cross(forward, camera.up)),
                down = glm::cross(forward, right);
     const double pixel = 2 * std::tan(camera.fov / 2) / height, share = 1.0 / (side * side);
-    // Tile by tile and to and fro, as the reference goes.
+    // Tile by tile in alternating directions, like the reference.
     for (int y0 = 0; y0 < height; y0 += k_tile) {
         for (int x0 = 0; x0 < width; x0 += k_tile) {
             const int x1 = std::min(x0 + k_tile, width);

@@ -34,7 +34,7 @@ void BeamBench::drawing(const std::string& what, const Scene& scene, Drawing kin
     const RenderResult& result = one.draw(true);
     const RenderStats& stats = result.stats;
     const Difference d = difference(result.picture, references_.at(scene, samples));
-    // One ray a pixel is promised to be the reference's ray.
+    // With one ray per pixel, it must be the reference's ray.
     const bool single = kind == Drawing::exact && scene.camera.aperture_radius == 0;
     const Difference promised = single ? difference(result.picture, references_.at(scene, 1)) : d;
     tables_.line(what, {milliseconds(took.cpu), milliseconds(took.wall),

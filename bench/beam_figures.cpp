@@ -1,4 +1,4 @@
-// What the beams do: relighting, rays off their beams' facets, threads.
+// Figures of the beams: relighting, rays off their beams' facets, threads.
 
 #include <fmt/format.h>
 

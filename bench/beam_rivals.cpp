@@ -34,7 +34,7 @@ void BeamBench::plain() {
     }
 }
 
-// How long each takes to come as near to the reference as the beams do.
+// The time that each renderer needs for the beams' error.
 void BeamBench::equal_error(const Scene& scene, const std::string& of) {
     const PlainTracer tracer(scene);
     const Picture& reference = references_.at(scene, k_finest);
@@ -66,7 +66,7 @@ void BeamBench::equal_error(const Scene& scene, const std::string& of) {
         FrameRenderer frames(drawn_as(scene, drawing, 1));
         const double beams = frame_time(frames, scene.camera).cpu;
         const Difference d = difference(frames.draw().picture, reference);
-        // Straight lines between logarithms; beyond the ends the nearest line goes on.
+        // Linear interpolation of logarithms; beyond the ends the nearest line is extended.
         std::size_t i = 0;
         while (i + 2 < points.size() && points[i + 1].rmse > d.rmse) ++i;
         const TracedPoint &a = points[i], &b = points[i + 1];

@@ -23,8 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// `found`: valid and the optimum of the fit from the truth, or better (fit_trials.h). `broken`:
-// called good, but not whole.
+// `found`: valid, and the optimum of the fit from the truth or better (fit_trials.h). `broken`:
+// called good, but not a whole stone.
 Json report_of(const CorpusFit& one) {
     const Trial trial = one.fit();
     const bool valid = trial.refusal.empty() && is_valid(one.declared, trial.result);
@@ -34,7 +34,7 @@ Json report_of(const CorpusFit& one) {
                 {"valid", valid},
                 {"broken", !valid && trial.refusal.empty() && trial.result.usable()},
                 {"status", trial.refusal.empty() ? name_of(trial.result.status) : trial.refusal}};
-    // To a thousandth: what rounding does to the last digits is no change.
+    // To a thousandth, so that rounding errors in the last digits do not count as changes.
     report["chi2"] =
         trial.refusal.empty() ? Json(std::round(1e3 * trial.result.statistics.chi2) / 1e3) : Json();
     report["reference_chi2"] = std::round(1e3 * one.reference().result.statistics.chi2) / 1e3;
@@ -47,8 +47,8 @@ struct Group {
     std::vector<double> ms, ms_before;
 };
 
-// Prints what each group came to, beside what it came to before, and names the fits that were lost
-// and gained. How many were lost.
+// Prints each group's results before and after, and names the fits that were lost and gained.
+// Returns the number of lost fits.
 int compare(const Json& now, const Json& before) {
     std::map<std::string, Json> old;
     for (const Json& one : before.at("fits")) old[one.at("name")] = one;
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
                 now["fits"].push_back(report_of(one));
             }
         }
-        // A line a fit: two states can be told apart by eye, too.
+        // One line per fit, so that people can compare two states.
         std::string text = "{\"schema\": \"1\", \"fits\": [\n";
         for (std::size_t i = 0; i < now["fits"].size(); ++i) {
             text += now["fits"][i].dump() + (i + 1 < now["fits"].size() ? ",\n" : "\n");

@@ -18,7 +18,7 @@ namespace {
 struct Tally {
     int sets = 0, named_first = 0, alarms = 0, sound = 0, steep_named = 0, steep_asked = 0;
     int within = 0, unread = 0, within_azimuth = 0, unread_azimuth = 0;
-    double read_squares = 0, error_squares = 0;  ///< over sigma; degrees
+    double read_squares = 0, error_squares = 0;  ///< in sigmas; degrees
     int read = 0;
     double seconds = 0, longest = 0;
 
@@ -41,7 +41,7 @@ struct Tally {
     }
 };
 
-// As the stone file would have them; empty: it says nothing.
+// As in the stone file; empty: not stated.
 std::string meets_asked;
 
 FitResult fit_evening(const Evening& evening) {
@@ -67,7 +67,7 @@ bool names_first(const FitResult& result, const std::vector<Reading>& readings,
            std::find(lines.begin(), lines.end(), first->line) != lines.end();
 }
 
-// How far the true facets are off, in the fit's own sigmas.
+// The errors of the facets, in the fit's own sigmas.
 void count_facets(const Evening& evening, const FitResult& result, Tally& tally) {
     for (std::size_t f = 0; f < result.facets.size(); ++f) {
         const FittedFacet& fitted = result.facets[f];

@@ -24,7 +24,7 @@ constexpr double k_cut = 1e-3, k_roulette = 1e-2, k_split = 0.1;
 const std::vector<double> k_sodium{589.3}, k_three{450, 550, 610};
 
 struct Price {
-    const char *effect, *off, *on;  // and what the two sides are, in words
+    const char *effect, *off, *on;  // and the two sides in words
     Scene without, with;
     bool by_beams = true, by_reference = true;
 };
@@ -154,7 +154,7 @@ double seconds(Scene scene, const char* engine) {
     }
     FrameRenderer frames(scene);
     frames.draw();
-    // A few frames: one may take a millisecond.
+    // A few frames, since one may take a millisecond.
     constexpr int k_frames = 5;
     const Clocks start = clocks();
     for (int i = 0; i < k_frames; ++i) {

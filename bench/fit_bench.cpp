@@ -32,7 +32,7 @@ const std::vector<Class> k_classes{{TruthKind::round, true}, {TruthKind::round, 
                                    {TruthKind::step, true},  {TruthKind::step, false},
                                    {TruthKind::pear, false}, {TruthKind::trillion, false}};
 
-// Which of the stones and errors to go through.
+// The selected stones and errors.
 struct Chosen {
     unsigned first_seed = 1, seeds = 20;
     std::string stone;       // empty: all
@@ -136,7 +136,8 @@ void kick_table(BenchTables& tables, unsigned kicks, bool verbose) {
     }
 }
 
-// Findings: the stone's own axis, which meets, edges and facets the readings deny, extra facets.
+// Findings: the stone's own axis, meets, edges and facets that contradict the readings, extra
+// facets.
 FitOptions without_findings() {
     FitOptions options;
     options.findings = false;
@@ -192,7 +193,7 @@ void time_table(BenchTables& tables, const Chosen& chosen, unsigned large) {
     tables.remark(fmt::format("most memory: {:.0f} MB", double(usage.ru_maxrss) / 1024));
 }
 
-// From an earlier result, after one reading was read again (by another draw of its error).
+// Starts from an earlier result after one reading was taken again (another draw of its error).
 void refit_table(BenchTables& tables, const Chosen& chosen) {
     tables.section("refit",
                    "from the last result after one edited reading, with covariance; figure: 10 ms",

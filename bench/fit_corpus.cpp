@@ -19,7 +19,7 @@ namespace {
 
 using Readings = std::vector<WrittenReading>;
 
-// Fits of one stone from several meshes, all held against the fit from the stone itself.
+// Fits of one stone from several meshes, all compared with the fit from the stone itself.
 class Sitter {
 public:
     Sitter(Stone truth, Readings readings)
@@ -86,7 +86,7 @@ Readings scanner_readings(const Truth& truth, unsigned seed) {
         if (f.name == truth.stone.up_facet) continue;
         add("inclination", {f.name}, degrees(inclination(f.plane.normal, {0, 0, 1})),
             truth.angle_sigma_deg);
-        // Instruments do not say more than 90 degrees.
+        // Instruments read at most 90 degrees.
         *readings.back().value = 90 - std::abs(90 - std::abs(*readings.back().value));
     }
     for (int k = 0; k < 12; ++k) {
@@ -102,7 +102,7 @@ Readings scanner_readings(const Truth& truth, unsigned seed) {
         *readings.back().value = std::max(1e-4, *readings.back().value);
     }
     for (WrittenReading& azimuth : read_azimuths(truth, seed + 1)) {
-        // A level facet, a culet, has none.
+        // A level facet, a culet, has no azimuth.
         if (std::isfinite(*azimuth.sigma)) readings.push_back(std::move(azimuth));
     }
     return readings;
@@ -146,7 +146,7 @@ std::vector<CorpusFit> synthetic_corpus(unsigned seeds) {
 std::vector<CorpusFit> scanned_corpus(const std::string& file, unsigned draws) {
     Truth truth;
     truth.stone = scanned_stone(file);
-    // What the file is called says little: `1_GIA/polyhedron.dat`.
+    // The file's own name says little: `1_GIA/polyhedron.dat`.
     const std::filesystem::path path(file);
     const std::string name = "scan " + path.parent_path().filename().string();
     std::vector<CorpusFit> corpus;

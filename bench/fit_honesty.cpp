@@ -1,5 +1,5 @@
-// Are the uncertainties of a fit what they say, and does it find wrong readings? Stones that are
-// known are read by noisy instruments again and again; beside each figure stands the one to reach.
+// Are a fit's uncertainties right, and does it find wrong readings? Known stones are measured with
+// simulated noise again and again. Each figure stands beside its target.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ struct Coverage {
     double squares = 0, limit_squares = 0, chi2 = 0, dof = 0;
 
     void add(double error, double sigma, double limit) {
-        // Symmetry leaves some angles no room at all.
+        // Symmetry leaves some angles no freedom.
         if (!(limit > 1e-9)) return;
         ++count;
         within_one += std::abs(error) < sigma;
@@ -85,7 +85,7 @@ void report_coverage(const Sample& which, int stones, int repetitions) {
             for (std::size_t f = 0; f < result.facets.size(); ++f) {
                 const FittedFacet &mine = result.facets[f], &best = limit.facets[f];
                 if (mine.name == truth.stone.up_facet) continue;
-                // A girdle facet's folded inclination has no sign at 90 degrees.
+                // At 90 degrees (girdle facets) an inclination has a sign ambiguity.
                 const Vec3& n = truth.stone.solid.facets[f].plane.normal;
                 if (std::abs(n.z) > std::sin(radians(1))) {
                     tilt.add(mine.inclination - inclination(n, {0, 0, 1}), mine.sigma_inclination,
@@ -129,7 +129,7 @@ void report_detection(const Sample& which, int repetitions, double size) {
     const FitResult limit = fit(truth, read_perfectly(truth));
     std::mt19937_64 random(42);
     std::vector<WrittenReading> sample = read_by_instruments(truth, 1);
-    // Readings that the tests can check at that size.
+    // Readings in which the tests can detect a slip of that size.
     std::vector<std::size_t> checked;
     std::size_t valued = 0;
     for (std::size_t r = 0; r < limit.readings.size(); ++r) {
@@ -139,7 +139,7 @@ void report_detection(const Sample& which, int repetitions, double size) {
         if (detectable > 0 && detectable <= size * limit.readings[r].sigma) checked.push_back(r);
     }
     const auto plant = [&](std::vector<WrittenReading>& written, std::size_t r) {
-        // Ids of patterns would differ: these readings are written one by one.
+        // Readings of a pattern get other ids, so these are written one by one.
         double sign = std::bernoulli_distribution(0.5)(random) ? 1 : -1;
         double value = *written[r].value + sign * size * *written[r].sigma;
         if (written[r].kind == "inclination" && (value > 90 || value < 0)) {

@@ -101,7 +101,7 @@ Clocks drawn_by(const std::string& engine, Scene scene, Picture& picture) {
     return quickest([&] { picture = engine_named(engine).draw(scene, {}).picture; }, 2, 1);
 }
 
-// 1920 x 1080 pixels at depth 12: the kernel alone, for a card that must keep up with a screen.
+// 1920 x 1080 pixels at depth 12: the kernel alone, for cards that must keep up with a screen.
 void window(BenchTables& tables, const GlContext& context) {
     tables.section("1920 x 1080 pixels, depth 12, 73 facets",
                    fmt::format("one ray a pixel; driver {}", context.renderer()),
@@ -126,7 +126,7 @@ void run(int pixels, const std::string& json) {
          "beams RMSE", "inner", "gpu off", "beams off", "pixels"});
     for (const Case& one : cases(pixels)) {
         const Frame frame = gpu_frame(one.scene, context);
-        // A crystal's reference is the other engine that merges.
+        // For crystals the reference is the other engine that merges the waves.
         const bool crystal = one.scene.stone.material.optic != OpticCharacter::isotropic;
         Picture beams, truth;
         const Clocks by_beams = drawn_by(k_beam_engine, one.scene, beams);

@@ -18,8 +18,8 @@ namespace {
 constexpr double k_cuts[] = {0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
 constexpr int k_nodes[] = {1, 3, 5, 8, 15};
 constexpr int k_sides[] = {1, 2, 3, 4, 6, 8, 12, 16, 24};
-// Settings that are far from the tolerance, or far dearer than another one within it, are followed
-// no further.
+// Factor: settings whose error is so far above the tolerance, or whose cost is so far above that of
+// another one within it, are not pursued.
 constexpr double k_hopeless = 4;
 
 struct Hand {
@@ -36,7 +36,7 @@ std::vector<Hand> hands(const Scene& scene) {
         Hand less = found[i];
         less.without.push_back(Effects::polarization);
         less.words += ", unpolarised";
-        // Two waves carry it in any case.
+        // Split waves carry polarisation anyway.
         if (!whole.splits || i > 0) found.push_back(less);
     }
     return found;
@@ -59,7 +59,7 @@ RenderSettings with(const Scene& scene, const Hand& hand, int nodes, double cut)
 
 namespace {
 
-// Of the reference, which is as right at one pixel as at another, a few will do.
+// For the reference, which is equally accurate at all pixels, a few suffice.
 Truth some_of(const Truth& truth) {
     constexpr std::size_t k_some = 200;
     Truth some = truth;
@@ -80,7 +80,7 @@ ReferenceSample sample_reference(const Scene& scene, const Truth& truth) {
     limits.roulette = make_optical_setup(scene).splits;
     const PilotDrawing drawing = draw_pilot(scene, truth.pixels, limits, settings.samples);
     ReferenceSample sample;
-    // Of the rays alone: what is made ready once weighs little in a whole picture.
+    // The time of the rays only; setup weighs little in a whole picture.
     sample.cpu =
         drawing.seconds * truth.pixels.in_picture / static_cast<double>(truth.pixels.at.size());
     Picture picture;
@@ -126,7 +126,8 @@ std::vector<HandChosen> hand_chosen(const Scene& whole, const Truth& truth, doub
                     const double error = hold_against(truth, drawn.picture).measured;
                     keep(fmt::format("{}, {} nm, cut {:g}{}", engine, nodes, cut, hand.words),
                          took.cpu, error);
-                    // Finer cuts that bring nothing, or are dearer than what serves already.
+                    // Stop at finer cuts that gain nothing, or cost more than what already
+                    // suffices.
                     if (error > 0.95 * before || took.cpu > k_hopeless * best) break;
                     before = error;
                 }
@@ -144,7 +145,7 @@ std::vector<HandChosen> hand_chosen(const Scene& whole, const Truth& truth, doub
                         const int turn = turns_for(side * side, nodes);
                         if (turns && turn == 1) continue;
                         scene.settings.wavelength_turns = turns ? turn : 1;
-                        // At the price of the truth's rays, which carry about four wavelengths.
+                        // Costs as much as the truth's rays, which carry about four wavelengths.
                         if (turns == false && nodes > 3 && side > 3) break;
                         const ReferenceSample sample = sample_reference(scene, some);
                         const double error = sample.found.measured;

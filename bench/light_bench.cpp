@@ -78,8 +78,7 @@ int main(int argc, char** argv) {
             shot.world_from_camera = simulated::camera_at(turn, v == 0 ? 0 : uniform(-0.1, 0.1));
             if (v == 1) turned = shot.world_from_camera;
             taken.push_back(simulated::take(shot, panorama));
-            // Of a real place's lamps and shadows one exposure shows too little: all of them
-            // merged.
+            // For a real place's lamps and shadows one exposure is not enough: merge several.
             if (file.empty())
                 simulated::expose(taken.back().photo, 4, electrons,
                                   static_cast<unsigned>(2 * seed + v));
@@ -150,7 +149,7 @@ int main(int argc, char** argv) {
     fmt::print("  turn off {:.3f} degrees (median), {:.3f} (worst); over its sigma {:.2f} (rms)\n",
                part(turn_off, 0.5), part(turn_off, 1),
                std::sqrt(squares / std::max<double>(1, static_cast<double>(pulls.size()))));
-    // Of three normal errors of one sigma each: half within 1.54, 95 % within 2.80.
+    // Three normal errors of one sigma each: half are within 1.54, 95 % within 2.80.
     fmt::print("  within the half's bound {:.2f}, within that of 95 %: {:.2f}\n",
                share(1.538 / std::sqrt(3.0)), share(2.795 / std::sqrt(3.0)));
     fmt::print("  light off {:.3f} stops (median of means), {:.2f} (worst 1 %), energy {:.4f}\n",

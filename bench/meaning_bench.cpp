@@ -73,11 +73,11 @@ Scene scene_of(const Case& one, int pixels) {
 
 struct Trial {
     std::string kind;
-    double sigma = 0;  // that its facets' tilts were drawn with, degrees
-    double own = 0;    // their root mean square
+    double sigma = 0;  // of the distribution of its facets' tilts, degrees
+    double own = 0;    // their rms
     bool right = false;
     Photo photo;
-    CameraModel seen, camera;  // as found in the photograph; as it was
+    CameraModel seen, camera;  // as estimated from the photograph; as it was
     CalibratedVerdict verdict;
     std::map<std::string, double> scores;
 
@@ -103,7 +103,7 @@ auto alike_to(const CameraModel& camera) {
     };
 }
 
-// How well blur and noise are seen.
+// How well blur and noise are estimated.
 void print_cameras(const std::vector<Trial>& trials) {
     double blur = 0, blur_squares = 0, noise = 0, noise_squares = 0, n = 0;
     for (const Trial& t : trials) {
@@ -130,7 +130,7 @@ double area_under(const std::vector<double>& right, const std::vector<double>& w
     return wins / (static_cast<double>(right.size()) * static_cast<double>(wrong.size()));
 }
 
-// Of `count` angles of normal distribution and standard deviation 1.
+// Of `count` random angles, normal with standard deviation 1.
 double root_mean_square(std::size_t count, std::uint64_t seed) {
     Chance chance(seed);
     double squares = 0;
@@ -142,7 +142,7 @@ double since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The equivalent error of right stones over a true one.
+// The equivalent error of right stones, relative to a true one.
 void print_ratios(const std::vector<Trial>& trials, const char* over, double Trial::*truth) {
     std::map<double, std::vector<double>> ratios;
     for (const Trial& t : trials) {
@@ -214,7 +214,7 @@ int main(int argc, char** argv) {
         options.seed = seed;
         options.threads = threads;
         options.largest = pixels;
-        // Expose so that about two per cent are clipped.
+        // Choose the exposure so that about two per cent are clipped.
         double level = 0;
         {
             std::vector<float> greens;
@@ -235,7 +235,7 @@ int main(int argc, char** argv) {
                                     const Scene& scene, std::uint64_t draw) {
             Chance chance(seed_of(seed, 555, draw));
             CameraModel camera = options.camera;
-            // Lenses from sharp to a little out of focus, and two and a half stops of light.
+            // Lenses from sharp to slightly out of focus, and two and a half stops of light.
             camera.psf_px = chance.uniform(blur_px[0], blur_px[1]);
             camera.electrons *= std::exp(chance.uniform(-1, 1) * std::log(2.5));
             for (double& g : camera.gain) g *= chance.uniform(0.97, 1.03);
@@ -294,7 +294,7 @@ int main(int argc, char** argv) {
             photograph("other", 0, 0, other, draw++);
         }
         std::vector<double> off;
-        // As the program does: calibrated for each photograph's own blur and noise.
+        // As in the program: calibrated for each photograph's own blur and noise.
         std::vector<CameraModel> cameras;
         for (const Trial& t : trials) {
             if (std::none_of(cameras.begin(), cameras.end(), alike_to(t.seen)))

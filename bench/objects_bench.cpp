@@ -69,7 +69,7 @@ Scene spheres(int pixels) {
     scene.lights.sources = {HemisphereLight{glm::normalize(Vec3{0.2, 0.1, 1}), {0.3}},
                             CosinePowerLight{glm::normalize(Vec3{0.5, -0.5, 0.7}), 4, {0.4}}};
     scene.settings.samples = 1;
-    // POV-Ray follows every branch of a tree of glass: so many levels.
+    // Number of levels: POV-Ray follows every branch of glass's ray tree.
     scene.settings.depth = k_levels - 1;
     scene.settings.wavelengths_nm = {589.3};
     scene.settings.effects_auto = false;

@@ -27,7 +27,8 @@ using namespace culet;
 
 constexpr double k_full_well = 20000, k_read_noise = 4;  // electrons
 
-// Stops over white: dark on the left, ten stops and more to the right, with structure of all sizes.
+// Stops above white: dark on the left, ten stops and more to the right, with structure of all
+// sizes.
 cv::Mat scene_in_stops(cv::Size size) {
     cv::RNG random(1);
     cv::Mat stops(size, CV_32F);
@@ -109,7 +110,7 @@ int main(int argc, char** argv) {
     words.insert(words.end(), {"--exposure", fmt::format("{}", fmt::join(exposures, ","))});
     const rusage usage = run(words);
 
-    // The scale of a response that was found is free: against the median.
+    // The scale of an estimated response is arbitrary: compare relative to the median.
     const Photo photo = read_photo(out);
     std::vector<double> off;
     for (int y = 8; y < stops.rows - 8; y += 7) {

@@ -19,11 +19,11 @@
 #define CULET_PLAIN_TRACER_PREPARED
 namespace culet {
 
-// Single precision, about the stone's middle.
+// Single precision, relative to the stone's middle.
 struct PlainTracer::Prepared {
     struct Face {
         float x, y, z, offset;
-        std::uint32_t first, count;  ///< of `neighbours`
+        std::uint32_t first, count;  ///< into `neighbours`
         bool front;                  ///< the eye is above it
     };
     struct Lobe {
@@ -34,8 +34,8 @@ struct PlainTracer::Prepared {
     std::vector<Face> faces;
     std::vector<std::uint16_t> neighbours;
     std::vector<Lobe> lobes;
-    float constant = 0, n = 1, radius = 0;             // radius of a sphere that holds the stone
-    float origin[3], direction[3], right[3], down[3];  // direction: of the picture's corner
+    float constant = 0, n = 1, radius = 0;             // radius of a sphere around the stone
+    float origin[3], direction[3], right[3], down[3];  // direction: to the picture's corner
     int width = 0, height = 0, depth = 1;
 };
 
@@ -53,7 +53,7 @@ using V = hn::Vec<Floats>;
 using M = hn::Mask<Floats>;
 constexpr Floats k_floats;
 constexpr int k_most_depth = 64;
-constexpr float k_tiny = 1e-18f;  // whose products with lengths are still normal numbers
+constexpr float k_tiny = 1e-18f;  // products with lengths are still normal numbers
 
 HWY_INLINE V number(float v) {
     return hn::Set(k_floats, v);
@@ -75,8 +75,8 @@ HWY_INLINE V3 normal_of(const Prepared::Face& face) {
     return {number(face.x), number(face.y), number(face.z)};
 }
 
-// How a ray meets a plane: at distance depth / towards, of which the quotient is never formed
-// before the nearest is known.
+// How a ray meets a plane: at distance depth / towards. The quotient is formed only for the nearest
+// plane.
 struct Meeting {
     V towards, depth;
 };
@@ -84,7 +84,7 @@ HWY_INLINE Meeting meeting(const Prepared::Face& face, const V3& at, const V3& d
     const V3 n = normal_of(face);
     return {dot(n, direction), hn::Max(number(face.offset) - dot(n, at), number(k_tiny))};
 }
-// Of planes that rays run towards, the nearer one has the larger towards / depth.
+// Of planes that rays run towards, the nearer has the larger towards / depth.
 HWY_INLINE M nearer(const Meeting& a, const Meeting& b) {
     return a.towards * b.depth > b.towards * a.depth;
 }
@@ -131,8 +131,8 @@ public:
     }
 
 private:
-    // The face through which rays enter: that of the packet before when all rays are in it, else
-    // the farthest of the planes that the eye is above. Which rays meet the stone is returned.
+    // Finds the face through which rays enter: that of the packet before if all rays are in it,
+    // else the farthest of the planes that the eye is above. Returns which rays meet the stone.
     HWY_INLINE M enter(const V3& origin, const V3& direction, const M& wanted, Hit& hit) {
         const Prepared::Face& guess = scene_.faces[static_cast<std::size_t>(guess_[0])];
         if (guess.front) {
@@ -145,12 +145,13 @@ private:
                     scene_.faces[scene_.neighbours[static_cast<std::size_t>(guess.first + i)]];
                 most = hn::Max(most, dot(normal_of(face), at) - number(face.offset));
             }
-            // In it, and by more than rounding.
+            // In it by more than rounding errors.
             const M in =
                 hn::And(hit.meeting.towards > number(0.0f), most < number(-1e-6f * scene_.radius));
             if (hn::AllTrue(k_floats, hn::Or(in, hn::Not(wanted)))) return wanted;
         }
-        // In through the farthest of these, if that is nearer than the first plane on the way out.
+        // Rays enter through the farthest of these, if it is nearer than the first plane on the way
+        // out.
         Meeting far{number(k_tiny), number(0.0f)}, near{number(k_tiny), number(1.0f)};
         V3 normal{number(0.0f), number(0.0f), number(1.0f)};
         V facet = number(0.0f);
@@ -176,7 +177,7 @@ private:
         if (first >= 0) guess_[0] = lane(facet, first);
         return hits;
     }
-    // Of a face below the eye, as a meeting with both signs turned.
+    // For a face below the eye: a meeting with both signs reversed.
     HWY_INLINE static Meeting before(const Prepared::Face& face, const V3& origin,
                                      const V3& direction) {
         const V3 n = normal_of(face);
@@ -189,8 +190,8 @@ private:
         return static_cast<int>(stored[which]);
     }
 
-    // The nearest face ahead: a meeting nearer than with all neighbours is the nearest (the facets
-    // are the corners of the polar body, over which towards / depth is linear).
+    // The nearest face ahead. A meeting nearer than those with all neighbours is the nearest: the
+    // facets are the corners of the polar body, over which towards / depth is linear.
     HWY_INLINE Hit exit(const V3& at, const V3& direction, M open, int& guess) const {
         Hit hit{direction, {number(1.0f), number(1.0f)}};
         int f = guess;
@@ -299,7 +300,7 @@ private:
         return sum;
     }
 
-    // Into the tangent d x a of the face ahead, from d x b of the face behind.
+    // Rotates Q and U from d x b of the face behind into the tangent d x a of the face ahead.
     HWY_INLINE static void turn(const V3& a, const V3& b, const V3& d, const V& cosine,
                                 const V& cosine_before, V& Q, V& U) {
         const V3 cross{b.y * a.z - b.z * a.y, b.z * a.x - b.x * a.z, b.x * a.y - b.y * a.x};
@@ -314,7 +315,7 @@ private:
         U = hn::NegMulAdd(sine2, Q0, cosine2 * U);
     }
 
-    // Beyond that many faces in a packet, all planes together are quicker.
+    // If a packet's walk needs more faces, testing all planes is faster.
     static constexpr int k_most_steps = 12;
     const Prepared& scene_;
     int guess_[k_most_depth];
@@ -338,7 +339,7 @@ void draw_all(const Prepared& scene, int across, float* sums) {
     const int columns = (width + wide - 1) / wide;
     for (int y0 = 0, row = 0; y0 < height; y0 += high, ++row) {
         for (int column = 0; column < columns; ++column) {
-            // To and fro, so that each packet is next to the one before.
+            // In alternating directions, so that each packet is next to the one before.
             const int x0 = (row % 2 == 0 ? column : columns - 1 - column) * wide;
             const V x = (hn::Load(k_floats, dx) + number(static_cast<float>(x0))) * number(step),
                     y = (hn::Load(k_floats, dy) + number(static_cast<float>(y0))) * number(step);

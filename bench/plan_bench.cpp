@@ -1,6 +1,6 @@
-// Does the plan keep its word? Over scenes and tolerances: measured error beside the bound, and the
-// time beside that of the cheapest settings chosen by hand. Reference pictures are drawn at some
-// pixels only, so that it ends in minutes.
+// Does the plan keep its promises? Over scenes and tolerances: the measured error beside the bound,
+// and the time beside that of the cheapest settings chosen by hand. References are drawn at some
+// pixels only, so that it takes minutes.
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ struct Options {
     int pixels = 64, checked = 60, first = 0, count = 60, every = 1;
     int truth_rays = 400;
     std::vector<double> tolerances{0.1, 0.03, 0.01, 0.003};
-    std::filesystem::path whole;  // folder of true pictures; empty: some pixels
+    std::filesystem::path whole;  // folder of true pictures; empty: at some pixels
     bool turns = false, prices = false, against_cheapest = false, list = false;
 };
 
@@ -44,7 +44,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// What rays that take turns with the wavelengths bring.
+// The benefit of rays that take turns with the wavelengths.
 void turns(const Options& options) {
     const PlanScene item = plan_scenes(options.pixels)[static_cast<std::size_t>(options.first)];
     Scene scene = item.scene;
@@ -123,7 +123,7 @@ Truth whole_truth_of(const Scene& scene, std::size_t number, const Options& opti
     return truth;
 }
 
-// Processor time of the settings that the plan ended with, as if they had been chosen by hand.
+// Processor time of the plan's final settings, as if chosen by hand.
 double seconds_of_chosen(const Scene& whole, const ScenePlan& plan) {
     Scene scene = whole;
     scene.settings = plan.settings;
@@ -136,8 +136,8 @@ double seconds_of_chosen(const Scene& whole, const ScenePlan& plan) {
     return quickest(draw, 1, 0).cpu;
 }
 
-// The automatic picture, with all that makes it, against the truth; and beside the cheapest of a
-// sweep.
+// Compares the automatic picture, with all its overhead, with the truth and with the cheapest
+// settings of a sweep.
 int run(const Options& options) {
     std::vector<PlanScene> scenes = plan_scenes(options.pixels);
     fmt::print(
@@ -169,7 +169,7 @@ int run(const Options& options) {
             scene.settings.tolerance = tolerance;
             RenderResult drawn;
             const Clocks took = quickest([&] { drawn = render(scene); }, 1, 0);
-            // Where nothing was drawn twice, what was not drawing is planning and estimate.
+            // If nothing was drawn twice, the time besides drawing is planning and estimation.
             const double planned = drawn.stats.plan->seconds_planning;
             const Verification found = hold_against(truth, drawn.picture);
             const HandChosen* best = cheapest_within(by_hand, tolerance);
@@ -179,7 +179,7 @@ int run(const Options& options) {
                          ratio = best != nullptr ? took.cpu / best->cpu : 0;
             const double chosen = best != nullptr ? seconds_of_chosen(scene, *drawn.stats.plan) : 0,
                          drawn_ratio = best != nullptr ? chosen / best->cpu : 0;
-            // As far as the truth can tell.
+            // Within the truth's own accuracy.
             const double certain = found.measured - 2 * found.spread;
             const bool over = found.measured > tolerance, under = found.measured > bound;
             sum.over += certain > tolerance;

@@ -26,7 +26,7 @@ using namespace culet;
 struct Settings {
     PhotographSettings photographs;
     int seeds = 20, first = 1;
-    double limit_deg = 0, limit_px = 0;  // 0: as the program has them
+    double limit_deg = 0, limit_px = 0;  // 0: the program's defaults
     std::string fault = "none", folder;
     std::array<double, 2> stone_px{0, 0};
     bool as_taken = false, with_mask = false, verbose = false;
@@ -39,8 +39,8 @@ struct Trial {
     std::array<double, 3> normalized{};
 };
 
-// An accepted pose is wrong, and not just unlucky, when it is farther off than this many times
-// what it states at 99 %, or by more degrees.
+// An accepted pose counts as wrong, not just unlucky, when it is off by more than this multiple of
+// its stated 99 % bound, or by more degrees than this.
 constexpr double k_wrong_times = 3, k_wrong_deg = 5;
 
 void print(const Trial& trial, const std::string& label) {

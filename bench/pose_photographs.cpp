@@ -21,8 +21,8 @@ namespace {
 
 struct Cut {
     std::string name, material;
-    int fold = 1;       // turns about z that leave the model as it is
-    std::string other;  // a cut of about its outline
+    int fold = 1;                                       // order of the model's symmetry about z
+    std::string other;                                  // a cut with about the same outline
     std::map<std::string, double> angles, no_angles{};  // other proportions
 };
 const std::vector<Cut> k_cuts{
@@ -36,7 +36,7 @@ const std::vector<Cut> k_cuts{
     {"marquise", "glass_sf10", 2, "oval", {{"table", 64}, {"crown-angle", 40}}}};
 const std::vector<std::string> k_lights{"windows", "dome", "ring", "overcast"};
 
-/// Facets that lie in a dark room: a plate of grey patches of the stone's outline.
+/// Like facets in a dark room: a plate of grey patches with the stone's outline.
 void paint_patches(Picture& picture, std::mt19937_64& random) {
     std::vector<std::array<double, 3>> lines;
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -60,7 +60,7 @@ void paint_patches(Picture& picture, std::mt19937_64& random) {
     }
 }
 
-/// To the stone and a margin that differs on each side.
+/// Crops to the stone and a margin that differs on each side.
 void crop(PosePhotograph& made, const Picture& picture, std::mt19937_64& random) {
     int left = picture.width, right = 0, top = picture.height, bottom = 0;
     for (int y = 0; y < picture.height; ++y) {
@@ -164,7 +164,7 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
     }
     scene.lights = synthetic::named_lights(light);
     if (fault == Fault::other_side) {
-        // The stone lies on its table: what lit the crown lights the pavilion.
+        // The stone lies on its table: the crown's light falls on the pavilion.
         for (DiscLight& cap : lights_of_type<DiscLight>(scene.lights))
             cap.direction.z = -cap.direction.z;
         for (CosinePowerLight& lobe : lights_of_type<CosinePowerLight>(scene.lights))

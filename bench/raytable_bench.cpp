@@ -58,7 +58,7 @@ double reference_ms(const Scene& scene, Picture& picture) {
     return 1e3 * (clocks().cpu - start.cpu);
 }
 
-// A line for each light; the table is made once.
+// One line per light; the table is made once.
 void measure(const std::string& what, Scene scene,
              const std::vector<std::pair<std::string, Lights>>& lights) {
     scene.settings.samples = 1;
@@ -124,7 +124,7 @@ Lights with_environment() {
     return lights;
 }
 
-// Within reach of the stone, one before the other.
+// Close to the stone, one in front of the other.
 Lights near_lights(const Scene& scene) {
     const double size = diameter(scene.stone.solid);
     Lights lights;
@@ -141,7 +141,7 @@ Lights near_lights(const Scene& scene) {
     return lights;
 }
 
-// Between stored views: at the middle of a cell of the grid, where it is farthest from all.
+// Halfway between stored views: the middle of a grid cell is farthest from all.
 void measure_views(Scene scene) {
     scene.settings.samples = 1;
     scene.settings.threads = 1;
@@ -176,7 +176,7 @@ void measure_views(Scene scene) {
         Picture truth;
         reference_ms(between, truth);
         const PictureError error = error_of(result.picture, truth);
-        // What the mean of the stored views' pictures is off by.
+        // The error of the mean of the stored views' pictures.
         Picture mix = truth;
         std::fill(mix.rgb.begin(), mix.rgb.end(), 0.0f);
         for (const ViewTable& stored : tables) {

@@ -18,7 +18,7 @@ std::string numbers(const Vec3& v) {
     return fmt::format("{:a} {:a} {:a};", v.x, v.y, v.z);
 }
 
-// All that these scenes differ by.
+// Everything in which these scenes differ.
 std::string key_of(const Scene& scene, int samples) {
     const RenderSettings& s = scene.settings;
     const Camera& camera = scene.camera;
@@ -79,7 +79,7 @@ Difference difference(const Picture& picture, const Picture& reference) {
             error[c] = static_cast<double>(picture.rgb[3 * i + c]) -
                        static_cast<double>(reference.rgb[3 * i + c]);
             const double e = std::abs(error[c]);
-            // Also true of what is no number.
+            // Also true for NaN.
             if (!(e <= most)) most = e;
             squares += e * e;
         }

@@ -63,14 +63,14 @@ Scene scene_of(const Options& o, const Solid& solid) {
 }
 
 Scene view(Scene scene, int k) {
-    // Face up, then tilted 13 degrees to one side after the other.
+    // Face up, then tilted 13 degrees to different sides.
     const double tilt = k == 0 ? radians(2) : radians(13), around = 2.1 * k + 0.3;
     scene.camera.position = 40.0 * Vec3{std::sin(tilt) * std::cos(around),
                                         std::sin(tilt) * std::sin(around), std::cos(tilt)};
     return scene;
 }
 
-// Readings of every facet's direction, as a bench off by so much would give them.
+// Readings of every facet's direction, with errors of `deg`.
 FitInput input_of(const Solid& read, double deg) {
     FitInput input;
     input.stone.solid = read;
@@ -105,7 +105,7 @@ FitInput input_of(const Solid& read, double deg) {
     return input;
 }
 
-// As an exposure meter would have it: the brightest three in a hundred may clip.
+// Like an exposure meter: the brightest three per cent may clip.
 double bright_of(const Photo& photo) {
     std::vector<float> values;
     for (std::size_t i = 0; i < photo.coverage.size(); ++i) {
@@ -121,7 +121,7 @@ struct Errors {
     int count = 0;
 };
 
-// Of the facets that are no girdle's, after the turn that suits all of them best.
+// Over facets except the girdle's, after the turn that fits all of them best.
 Errors errors_of(const FitResult& fit, const Solid& truth) {
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();

@@ -26,7 +26,7 @@ namespace {
 constexpr double k_least_area = 0.3;  // mm2
 constexpr double k_one_facet = 3;     // degrees
 
-// As the scanner holds it: table down.
+// As in the scanner: table down.
 Solid as_scanned(Solid solid) {
     const auto turned = [](const Vec3& v) { return Vec3{v.x, -v.y, -v.z}; };
     for (Vec3& v : solid.vertices) v = turned(v);
@@ -39,7 +39,7 @@ struct FacetErrors {
     double rms_deg = 0, worst_deg = 0, rms_offset = 0;
 };
 
-// The fit's facets in the scanner's frame, each against the scanner's plane that is nearest.
+// Compares the fit's facets, in the scanner's frame, with the nearest planes of the scanner.
 FacetErrors facet_errors(const FitResult& result, const FrameMotion& to_stone, const Solid& scan) {
     FacetErrors errors;
     double squares = 0, offsets = 0;
@@ -104,7 +104,7 @@ void measure(const std::filesystem::path& folder, const std::string& cut) {
     const Clocks end = clocks();
     const SilhouetteFinding& finding = *result.readings.back().silhouette;
     const SilhouetteMisfit theirs = silhouette_misfit(scan, contours, held_out, {});
-    // The scanner's place to the stone's: as the contours lie to both.
+    // The motion from the scanner's frame to the stone's, estimated from the contours.
     const FacetErrors facets =
         facet_errors(result, input.readings.back().outline_observations->motions[0], scan);
     fmt::print("{}: {} contours, {} held out\n", folder.filename().string(), contours.size(),

@@ -63,7 +63,7 @@ void print_mean_path() {
         light_path_mm(k_usual_width_mm));
     for (const char* name : {"quartz", "corundum", "spinel", "garnet_almandine", "diamond"}) {
         Material material = catalogue_material(name);
-        // Faint and grey: what is lost is the way's length times this.
+        // Weak and grey: the loss is this times the path length.
         constexpr double k_per_mm = 1e-3;
         for (Spectrum& spectrum : material.absorption_per_mm) spectrum = Spectrum(k_per_mm);
         const double n = material.index[0].at(550), r = std::pow((n - 1) / (n + 1), 2);

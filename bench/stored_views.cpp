@@ -14,12 +14,12 @@ namespace culet {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-// A share below this is what rounding leaves of none.
+// Smaller weights are rounding errors of zero.
 constexpr double k_no_share = 1e-9;
 // Sine of the least angle between `up` and a view.
 constexpr double k_upright = 0.02;
 
-// Even steps of a range, and where in them an angle lies.
+// Even steps of a range, and the position of an angle in them.
 struct Steps {
     int count;
     double size;
@@ -33,7 +33,7 @@ struct Place {
     double part;  // of a step, 0..1
     Place(double angle, const Steps& steps) {
         const double at = angle / steps.size;
-        // What is a whole step but for rounding is one.
+        // A whole step apart from rounding counts as whole.
         const double whole = std::round(at);
         const double exact = std::abs(at - whole) < k_no_share ? whole : at;
         below = std::clamp(static_cast<int>(std::floor(exact)), 0, steps.count - 1);
@@ -93,7 +93,8 @@ ScreenPlace::ScreenPlace(const Camera& camera)
     const EyeRays eyes(camera);
     const double w = camera.width, h = camera.height;
     const EyeRay corner = eyes.through(0, 0), right = eyes.through(w, 0), down = eyes.through(0, h);
-    // Of a parallel view origins are linear in the pixel, else directions of a depth of 1 are.
+    // In a parallel view the origins are linear in the pixel, else the directions scaled to a depth
+    // of 1.
     const auto place = [&](const EyeRay& ray) {
         return parallel_ ? ray.origin : ray.direction / glm::dot(ray.direction, forward_);
     };

@@ -54,7 +54,7 @@ Scene scene_of(const Case& which) {
     if (which.engine == std::string("reference")) {
         settings.samples = k_side * k_side;
         settings.depth = k_depth;
-        // With a weight to cut at and a tolerance no pilot is drawn.
+        // With a cut weight and a tolerance given, no pilot is drawn.
         settings.tolerance = 1e-3;
         settings.cut_weight = k_cut;
     }
@@ -78,7 +78,7 @@ Drawing draw_here(const Case& which, bool bare) {
         for (int i = 0; i <= k_drawings; ++i) {
             const double start = clocks().cpu;
             work();
-            // The first finds and fills memory.
+            // The first run warms up memory.
             if (i > 0) drawing.cpu.push_back(clocks().cpu - start);
         }
     };
@@ -135,7 +135,7 @@ double median(std::vector<double> values) {
     return n == 0 ? 0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-// Largest difference of two pictures over the mean of the first.
+// Largest difference of two pictures, relative to the mean of the first.
 double apart(const std::vector<float>& a, const std::vector<float>& b) {
     if (a.size() != b.size() || a.empty()) return std::numeric_limits<double>::infinity();
     double most = 0, mean = 0;
@@ -169,7 +169,7 @@ void compare(const std::string& self, int rounds) {
         const double own = median(cpu[0]);
         fmt::print("{:<20}{:<16}{:>12.2f}\n", k_cases[c].name, "(all effects)", 1e3 * own);
         for (std::size_t who = 1; who < static_cast<std::size_t>(contestants); ++who) {
-            // Of each round by itself: what else the machine does changes from round to round.
+            // Ratios within each round, since the machine's other load changes between rounds.
             std::vector<double> ratios;
             for (std::size_t round = 0; round < cpu[0].size(); ++round)
                 ratios.push_back(cpu[0][round] / cpu[who][round]);

@@ -48,8 +48,8 @@ struct Errors {
     double rms() const { return std::sqrt((squares + far) / std::max(1, count)); }
 };
 
-// Each fitted facet against the true one that faces most as it does, the truth turned by `turn`.
-// Inclinations count from the table.
+// Compares each fitted facet with the true one that faces most nearly the same way, with the truth
+// turned by `turn`. Inclinations count from the table.
 Errors errors_of(const FitResult& fit, const Solid& truth, double turn) {
     const double c = std::cos(turn), s = std::sin(turn);
     const Vec3 table = truth.facets[std::size_t(find_facet(truth, "T"))].plane.normal;
@@ -71,7 +71,7 @@ Errors errors_of(const FitResult& fit, const Solid& truth, double turn) {
         if (!(facet.area > 0.3)) continue;
         errors.squares += off * off;
         ++errors.count;
-        // Another facet's neighbour.
+        // It matches another facet.
         if (most < std::cos(radians(2.0))) errors.far += 1;
     }
     return errors;
@@ -117,7 +117,7 @@ int run(const std::string& cut, int pictures, int size, unsigned seed) {
     options.prior.source = Prior::Source::catalogue;
     const FitResult fit = fit_stone(fit_input(stone_of(catalogue), {written}), options);
     fmt::print("{} in {:.1f} s of processor time\n", name_of(fit.status), clocks().cpu - start);
-    // The catalogue's cut may stand at any of its own turns: the one that fits best.
+    // The catalogue's cut may have any rotation: take the best fit.
     Errors best;
     for (int turn = 0; turn < 360; ++turn) {
         const Errors errors = errors_of(fit, truth, radians(turn));

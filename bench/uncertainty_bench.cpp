@@ -31,7 +31,7 @@ Rows columns(const std::vector<Vec3>& vectors) {
     return rows;
 }
 
-// The true stone where the fit holds it, as a photograph's registration would lay it there.
+// The true stone aligned with the fit, as a photograph's registration would place it.
 Solid laid_on(const Solid& truth, const Solid& fitted) {
     std::vector<Vec3> normals, corners;
     std::vector<Plane> from, to;
@@ -46,7 +46,7 @@ Solid laid_on(const Solid& truth, const Solid& fitted) {
         source.push_back(from[i].normal);
         target.push_back(to[i].normal);
     }
-    // Rotations alone: umeyama takes the mean away, which normals do not have.
+    // Rotations only: umeyama subtracts the mean, which is wrong for normals.
     const Eigen::Matrix3d product = columns(target) * columns(source).transpose();
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant());
@@ -55,7 +55,7 @@ Solid laid_on(const Solid& truth, const Solid& fitted) {
         const Eigen::Vector3d w = turn * Eigen::Vector3d(v.x, v.y, v.z);
         return Vec3{w.x(), w.y(), w.z()};
     };
-    // The shift that brings the planes' distances nearest.
+    // The shift that best matches the planes' distances.
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < from.size(); ++i) {
@@ -118,7 +118,7 @@ Coverage coverage_of(const Picture& truth, const PictureUncertainty& found) {
         const float* bands = found.bands.data() + 4 * p;
         const double mean = luminance(found.mean.data() + 3 * p),
                      sigma = double(found.sigma_luminance[p]), off = std::abs(light - mean);
-        // Rounding of single precision, where nothing is open.
+        // Single-precision rounding, where nothing is uncertain.
         const double rounding = 1e-6 * light;
         ++coverage.pixels;
         coverage.one +=

@@ -16,14 +16,14 @@ namespace culet {
 
 namespace {
 
-// A stored view's ray to about a point, and its share.
+// A stored view's ray through about a point, with its weight.
 struct Source {
     const ViewTable* of = nullptr;
     std::size_t hit = 0;
     double share = 0;
 };
 
-// Leaves first .. end - 1 of a table.
+// Exits first .. end - 1 of a table.
 struct Leaves {
     const RayTable* table = nullptr;
     std::uint32_t first = 0, end = 0;
@@ -84,12 +84,12 @@ public:
     }
 
 private:
-    // Its leaves in every band.
+    // Adds the exits of a ray in every band.
     void put(const TableHit& hit, std::size_t y) {
         const EyeRay eye = eyes_.ray(hit.ray);
-        // Where it meets the plane through the middle across the line of sight: of the planes that
-        // were tried, from the front facets to the far side, what is seen inside moves least
-        // against this one.
+        // Where the ray meets the plane through the middle, perpendicular to the line of sight. Of
+        // the planes that were tried, from the front facets to the far side, what is seen inside
+        // the stone moves least against this one.
         const Camera& camera = scene_.camera;
         const Vec3 forward = glm::normalize(camera.look_at - camera.position);
         const Vec3 at = eye.origin + glm::dot(camera.look_at - eye.origin, forward) /
@@ -106,18 +106,18 @@ private:
         for (std::size_t band = 0; band < content_.bands.size(); ++band) {
             RowLeaves& row = content_.bands[band][y];
             row.count.push_back(0);
-            // What no stored view sees is left out.
+            // Rays that no stored view has are dropped.
             if (sources.empty()) row.cut += 1;
             put_leaves(sources, band, row);
         }
     }
 
-    // A hit of table v near a point, with the same front facet if there is one.
+    // Finds a hit of table v near a point, with the same front facet if there is one.
     bool find_ray(std::size_t v, const Vec3& at, int facet, std::size_t& found) const {
         const RayTable& table = tables_[v].table;
         const std::array<double, 2> place = places_[v].of(at);
         double nearest = 1e300;
-        // The pixel itself first: mostly it is the one.
+        // The pixel itself first, as it is usually the one.
         constexpr int k_around[9][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1},
                                         {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
         for (const auto& [dx, dy] : k_around) {
@@ -135,7 +135,7 @@ private:
                 const auto hit = std::lower_bound(rays.begin(), rays.end(), ray);
                 if (hit == rays.end() || *hit != ray) continue;
                 const auto number = static_cast<std::size_t>(hit - rays.begin());
-                // Farther than any with the right facet.
+                // Penalty that makes it farther than any hit with the right facet.
                 if (front_facet(table, number) != facet) away += 10;
                 if (away >= nearest) continue;
                 nearest = away;
@@ -145,7 +145,7 @@ private:
         return nearest < 1e300;
     }
 
-    // That of the first leaf, unless that was too faint; -1: none.
+    // The facet of the first exit, unless that was too faint; -1: none.
     static int front_facet(const RayTable& table, std::size_t hit) {
         const auto& ends = table.parts().exits_end;
         const std::uint32_t first = hit == 0 ? 0 : ends[hit - 1];
@@ -159,7 +159,7 @@ private:
             row.remainder += source.share * source.of->table.header().remainder;
             row.cut += source.share * source.of->table.header().cut;
         }
-        // Those that go by the same facets, again and again.
+        // Merge those that meet the same facets, until none is left.
         while (!left.empty()) {
             const auto others = std::stable_partition(
                 left.begin(), left.end(), [first = left.front()](const Leaves& more) {

@@ -14,7 +14,7 @@ namespace culet {
 
 namespace {
 
-// A file's name as part of an address (RFC 3986, section 2.3).
+// A file's name as part of a URL (RFC 3986, section 2.3).
 std::string as_address(const std::string& name) {
     constexpr std::string_view k_plain = "-._~";
     std::string address;

@@ -19,16 +19,16 @@ constexpr double k_left = 84, k_right = 24, k_top = 56, k_bottom = 66;
 constexpr double k_text = 15;
 constexpr std::array k_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"};
 
-/// One axis: from values to the page.
+/// One axis: maps values to the page.
 class Axis {
 public:
-    /// `least_share`: length of a plain axis at least, over its largest value.
+    /// `least_share`: least length of a plain axis, as a share of its largest value.
     Axis(std::vector<double> values, bool logarithmic, double from, double to, double least_share)
         : logarithmic_(logarithmic), from_(from), to_(to) {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         low_ = shown(*low);
         high_ = shown(*high);
-        // At least a factor of two, or a plain axis of some length, and air at both ends.
+        // At least a factor of two, or a plain axis of some length, and margins at both ends.
         const double least =
             logarithmic_ ? std::log10(2.0) : std::max(1e-12, least_share * std::abs(high_));
         const double wanted = std::max(least, high_ - low_);
@@ -45,7 +45,7 @@ public:
     };
     std::vector<Tick> ticks() const {
         if (!logarithmic_) return steps(low_, high_);
-        // Less than half a decade shows too few round powers.
+        // Less than half a decade has too few round powers.
         return high_ - low_ < 0.6 ? steps(std::pow(10, low_), std::pow(10, high_)) : decades();
     }
 
@@ -55,7 +55,7 @@ private:
         std::vector<Tick> ticks;
         const double span = high_ - low_;
         if (span > 6) {
-            // Powers of ten alone, and of these as many labelled as there is room for.
+            // Powers of ten only, of which as many are labelled as fit.
             const double every = std::ceil(span / 9);
             for (double decade = std::ceil(low_); decade <= high_; ++decade) {
                 ticks.push_back({std::pow(10, decade), std::fmod(decade, every) == 0});
@@ -146,7 +146,7 @@ std::string frame(const Chart& chart, const Axis& x, const Axis& y) {
     return svg;
 }
 
-// A series without a name goes with the one before it.
+// A series without a name has the colour of the one before it.
 const char* colour_of(const Chart& chart, std::size_t series) {
     std::size_t named = 0;
     for (std::size_t s = 1; s <= series; ++s) named += !chart.series[s].name.empty();
@@ -157,7 +157,7 @@ const char* dash_of(const ChartSeries& series) {
     return series.dashed ? " stroke-dasharray=\"7 5\"" : "";
 }
 
-// Above the chart, in two lines where one is too short.
+// Above the chart, in two lines if one is too short.
 std::string key_of(const Chart& chart) {
     const auto width_of = [](const ChartSeries& series) {
         return 33 + 0.55 * k_text * static_cast<double>(series.name.size()) + 26;
@@ -203,7 +203,7 @@ std::string draw_chart_svg(const Chart& chart) {
         }
     }
     if (xs.empty()) return {};
-    // Small differences in height are not made to look large.
+    // Small differences in height must not look large.
     const Axis x(std::move(xs), chart.log_x, k_left, k_width - k_right, 0.01);
     const Axis y(std::move(ys), chart.log_y, k_height - k_bottom, k_top, 1);
     std::string svg = fmt::format(

@@ -66,7 +66,7 @@ std::string about_text(const CuttingSheet& sheet) {
     return text + ".";
 }
 
-// What of the words below the table this sheet uses.
+// Explanations below the table of the words that this sheet uses.
 std::vector<std::string> word_notes(const CuttingSheet& sheet) {
     std::vector<std::string> notes{
         "\"meet A, B\": until the facet reaches the corner that A and B make."};
@@ -96,7 +96,7 @@ std::vector<std::string> word_notes(const CuttingSheet& sheet) {
     return notes;
 }
 
-// The facets called by their tiers.
+// The solid with facets named by their tiers.
 Solid named_by_tiers(const CuttingSheet& sheet) {
     Solid solid = sheet.solid;
     for (const CuttingStep& step : sheet.steps) {

@@ -18,8 +18,8 @@ constexpr double k_size = 1000;  // of a view's longer side, in its own units
 
 struct DrawnView {
     std::string content;
-    double left = 0, width = 0, height = 0;  // x runs from -left; width is all of it
-    double top = 0;                          // y runs from -top; height is all of it
+    double left = 0, width = 0, height = 0;  // x starts at -left; width is the total
+    double top = 0;                          // y starts at -top; height is the total
 };
 
 std::string point_list(const std::vector<glm::dvec2>& corners) {
@@ -47,7 +47,7 @@ std::string label_svg(const FacetLabel& label) {
         label.at.x, label.at.y + 0.35 * label.size, label.size, turn, escaped(label.text));
 }
 
-// A tick for every tooth round the axis, outside all that is drawn; about sixteen have numbers.
+// A tick for every tooth around the axis, outside the drawing; about sixteen have numbers.
 void add_wheel(const FacetView& view, ViewSide side, const IndexWheel& wheel, DrawnView& drawn) {
     const int teeth = static_cast<int>(std::lround(std::abs(wheel.gear)));
     if (teeth < 1 || side == ViewSide::girdle) return;
@@ -137,7 +137,7 @@ DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetP
         "<g class=\"led\" aria-hidden=\"true\" font-family=\"{0}\" font-weight=\"600\" "
         "fill=\"#10161a\" pointer-events=\"none\">{2}</g>\n",
         k_svg_font, names, led);
-    // Names beside the drawing take the same room on both sides, so that it stays in the middle.
+    // Both sides get the same room for names, so that the drawing stays in the middle.
     result.left = std::max(labels.left, labels.right);
     result.width = view.width + 2 * result.left;
     result.height = view.height;
@@ -157,7 +157,7 @@ const char* short_name(ViewSide side) {
     return "";
 }
 
-// A ramp as many small steps, which every program draws alike.
+// A ramp of many small steps, which every program draws alike.
 std::string ramp(const PaintLegend& legend, double x, double y, double width) {
     std::string svg;
     constexpr int k_steps = 40;

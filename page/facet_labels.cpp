@@ -16,7 +16,7 @@ constexpr double k_led = 22, k_least_led = 11;
 constexpr double k_gap = 26;         // between drawing and led names
 constexpr double k_letter = 0.74;    // width of a capital of a bold sans-serif
 constexpr double k_line = 0.95;      // height of a line
-constexpr double k_turn_gain = 1.3;  // a turned name must be so much larger to be worth it
+constexpr double k_turn_gain = 1.3;  // a turned name must be larger by this factor
 constexpr std::size_t k_longest = 14;
 
 // At most so many characters (of UTF-8: bytes that begin one).
@@ -60,10 +60,10 @@ glm::dvec2 centre_of(const std::vector<glm::dvec2>& corners) {
     return std::abs(area) > 1e-9 ? sum / (6 * area) : mean;
 }
 
-// The largest box of the given proportions (half width, half height, at size 1) that a polygon
-// holds, in the box's own frame. The size is the least over the edges of distance / reach, a
-// concave function of the middle: a pattern search finds its top. Being far from the middle of the
-// facet costs a little, and what is larger than a name may be gains nothing.
+// The largest box of the given proportions (half width, half height, at size 1) in a polygon, in
+// the box's own frame. The size is the least over the edges of distance / reach, a concave function
+// of the box's middle, and a pattern search finds its maximum. Distance from the facet's middle
+// costs a little; size beyond a name's largest gains nothing.
 Fitted largest_box(const std::vector<glm::dvec2>& corners, double half_width, double half_height) {
     struct Side {
         glm::dvec2 inward;
@@ -112,7 +112,7 @@ glm::dvec2 turned(const glm::dvec2& p, double angle) {
     return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-// Direction in which the corners scatter most, so that text along it reads from left to right.
+// Direction in which the corners scatter most, with text along it reading from left to right.
 double long_axis(const std::vector<glm::dvec2>& corners) {
     const glm::dvec2 centre = centre_of(corners);
     double xx = 0, xy = 0, yy = 0;
@@ -147,12 +147,13 @@ FacetLabel inside(const SeenFacet& seen, const std::string& text) {
     return label;
 }
 
-// Names of one side in the order of their feet, pushed apart to one line each.
+// Arranges the names of one side in the order of their feet, at least one line apart.
 double stack(std::vector<FacetLabel*>& column, double height) {
     if (column.empty()) return 0;
     const double size = std::min(k_led, height / (1.12 * static_cast<double>(column.size())));
     if (size < k_least_led) {
-        // No room: the largest facets keep their names nowhere else, so none is preferred.
+        // No room: drop the rest. The order does not matter, since large facets have their names
+        // inside.
         const auto keep = static_cast<std::size_t>(height / (1.12 * k_least_led));
         for (std::size_t i = keep; i < column.size(); ++i) column[i]->size = 0;
         column.resize(keep);

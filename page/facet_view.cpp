@@ -13,7 +13,7 @@ namespace {
 constexpr double k_margin = 12;
 constexpr double k_least_facing = 0.01;  // sine of half a degree
 
-// Rows: where right, up and towards the viewer lie in the stone.
+// Rows: the directions right, up and towards the viewer in the stone's frame.
 glm::dmat3 view_from_stone(ViewSide side) {
     switch (side) {
         case ViewSide::crown:

@@ -20,7 +20,7 @@ struct Angles {
     double inclination_deg = 0, azimuth_deg = 0;
 };
 
-// Inclination from the horizontal, pavilion facets positive too; azimuth counter-clockwise.
+// Inclination from the horizontal, positive for pavilion facets too; azimuth counter-clockwise.
 Angles angles_of(const Vec3& normal) {
     const double level = std::hypot(normal.x, normal.y);
     double azimuth = degrees(std::atan2(normal.y, normal.x));
@@ -41,7 +41,7 @@ View change_row(const Solid& before, const Facet& old_facet, const Solid& after,
                 const Facet& new_facet) {
     const Angles a = angles_of(old_facet.plane.normal), b = angles_of(new_facet.plane.normal);
     const double old_area = area(before, old_facet), new_area = area(after, new_facet);
-    // A level facet has no azimuth; a turn is the short way round.
+    // A level facet has no azimuth. Azimuths differ by the shorter way round.
     const bool level = std::min(a.inclination_deg, b.inclination_deg) < 0.05;
     const double turn = std::remainder(b.azimuth_deg - a.azimuth_deg, 360.0);
     const View none{{"known", false}, {"before", "–"}, {"after", "–"}, {"change", "–"}};
@@ -104,7 +104,7 @@ std::string change_drawings(const Solid& start, const Solid& fitted) {
         }
         paint.push_back(own);
     }
-    // Never finer than a tenth of a degree: equal stones look equal.
+    // At least a tenth of a degree, so that equal stones look equal.
     const double range = std::max(0.1, std::ceil(10 * worst) / 10);
     for (std::size_t f = 0; f < paint.size(); ++f) {
         if (!paint[f].colour.empty()) continue;

@@ -10,7 +10,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Does `name` fit `pattern` with `*` for any run of characters; also inside mean(), min(), max().
+/// Matches `name` with `pattern`, where `*` stands for any run of characters; also inside mean(),
+/// min(), max().
 bool names_facet(std::string pattern, const std::string& name) {
     for (const char* wrapper : {"mean(", "min(", "max("}) {
         if (pattern.starts_with(wrapper) && pattern.ends_with(")")) {
@@ -18,7 +19,7 @@ bool names_facet(std::string pattern, const std::string& name) {
             pattern.pop_back();
         }
     }
-    // One star can be handled by going back to it: linear in practice, no recursion.
+    // Backtracks to the last star only: linear in practice, no recursion.
     std::size_t p = 0, n = 0, star = std::string::npos, back = 0;
     while (n < name.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

@@ -1,4 +1,4 @@
-// What the reader of a fit should look at: suspects, what stands out, what is open, what to read
+// What the reader of a fit should look at: suspects, outliers, undetermined facets, what to read
 // next.
 
 #include <algorithm>
@@ -56,7 +56,8 @@ std::vector<std::string> denied(const Json& fit) {
         for (const Json& advice : array_at(*meets, "proposals")) add(advice);
     }
     for (const Json& finding : array_at(fit, "shape")) {
-        // Open edges are common and follow from the sigmas; what the readings deny is news.
+        // Undetermined edges are common and follow from the sigmas; contradictions with the
+        // readings are news.
         if (text_at(finding, "kind").ends_with("_vanishes")) add(text_at(finding, "what"));
     }
     std::erase(sentences, "");

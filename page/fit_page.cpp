@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// All that the fit says in sentences.
+/// All sentences of the fit.
 std::string fit_words(const Json& fit) {
     std::vector<View> sentences;
     for (const Json& sentence : array_at(fit, "summary")) {

@@ -33,7 +33,7 @@ std::string freedoms_of(const Json& fit, const std::string& facet) {
     return freedoms;
 }
 
-/// 1, 2 or 5 times a power of ten, not below.
+/// The next 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
     const double decade = std::pow(10, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0}) {
@@ -42,8 +42,8 @@ double rounded_up(double value) {
     return 10 * decade;
 }
 
-// Nine facets of ten lie within the scale; those that the readings hardly hold would else make all
-// the others look alike.
+// Nine facets of ten lie within the scale. A few poorly determined ones would otherwise make all
+// others look alike.
 double top_of(std::vector<double> sigmas) {
     std::erase_if(sigmas, [](double s) { return !(s > 0) || !std::isfinite(s); });
     if (sigmas.empty()) return 1;
@@ -90,7 +90,7 @@ FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         const Json* facet = facet_in(fit, name);
         sigmas.push_back(facet ? direction_sigma(*facet) : std::nullopt);
-        // What is not determined at all says nothing about the others.
+        // Facets that are not determined at all do not count for the scale.
         if (sigmas.back() && freedoms_of(fit, name).empty()) known.push_back(*sigmas.back());
     }
     const double top = top_of(known);

@@ -31,8 +31,8 @@ View row(const std::string& name, const std::string& about, const std::vector<Vi
     return {{"name", name}, {"about", about}, {"values", values}};
 }
 
-// The one diameter of a stone that is not quite round is an average: what the caliper shows on the
-// way round stands beside it.
+// The single diameter of a stone that is not quite round is an average. The range of the caliper's
+// widths stands beside it.
 std::vector<View> calipers(const Json& proportions) {
     std::vector<View> values;
     for (const auto& [name, words] : {std::pair{"caliper min", "least"},

@@ -29,7 +29,7 @@ View residual_bar(const std::optional<double>& normalized) {
             {"colour", css_colour(ColourMap::residual, size)}};
 }
 
-// Relations (meets, symmetry) have no value, only how nearly they hold.
+// Relations (meets, symmetry) have no value, only a residual.
 std::string read_as(const std::optional<double>& value, const std::optional<double>& sigma,
                     const std::string& unit) {
     if (value) return quantity(value, sigma, unit);

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A row for several facets gives readings `r16.S1`, `r16.S2`, ...; ids of people's own are rows.
+/// A row for several facets gives readings `r16.S1`, `r16.S2`, ...; a user's own id is one row.
 std::size_t rows_of(const Json& readings) {
     std::set<std::string> rows;
     for (const Json& reading : readings) {
@@ -29,7 +29,7 @@ std::size_t rows_of(const Json& readings) {
     return rows.size();
 }
 
-/// Of the prior that filled what was not read; empty: none did.
+/// The source of the prior that replaced missing readings; empty: none.
 std::string prior_source(const Json& fit) {
     const auto prior = fit.find("prior");
     const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");
@@ -48,7 +48,7 @@ std::string readings_tile(const Json& fit) {
     std::string about = suspects == 0 ? "none suspect" : fmt::format("{} suspect", suspects);
     const std::size_t rows = rows_of(readings);
     if (rows < readings.size()) about = fmt::format("from {} rows; {}", rows, about);
-    // Beside a prior few are: each is held against its tier instead.
+    // With a prior there are few such readings: each is checked against its tier instead.
     const std::string source = prior_source(fit);
     if (unchecked > 0 && source.empty()) {
         about += fmt::format("; nothing checks {} of them", unchecked);

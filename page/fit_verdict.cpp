@@ -41,7 +41,7 @@ std::string remedy_for(const Json* proposal, const std::string& unit) {
                           : "Read it again; if it stands, the slip may be in " + others + ".";
 }
 
-/// A suspect that no line of the first check tells of.
+/// A suspect that no line of the first check mentions.
 std::string suspect_words(const Json& reading, const Json* proposal, const std::string& unit) {
     std::string text = text_at(reading, "id") + ": " + reading_words(reading);
     const auto value = number_at(reading, "value");
@@ -96,7 +96,7 @@ Verdict contradiction(const Json& fit) {
                        : fmt::format("{} readings contradict the others", suspects.size());
     verdict.sentences.push_back(suspects.front().what + ".");
     if (suspects.size() > 1) verdict.sentences.push_back("The others are listed below.");
-    // The fit says behind its doubts whether the others agree.
+    // After its doubts the fit says whether the other readings agree.
     const auto doubts = texts_at(fit, "doubts"), summary = texts_at(fit, "summary");
     if (!doubts.empty() && summary.size() > doubts.size()) {
         verdict.sentences.push_back(summary[doubts.size()]);
@@ -148,7 +148,7 @@ std::vector<SuspectLine> suspect_lines(const Json& fit) {
         (out && !doubts.empty() ? doubted : others).push_back(id);
     }
     for (std::size_t i = 0; i < doubts.size(); ++i) {
-        // A doubted row may hold several readings: only then the two lists do not go together.
+        // A doubted row may hold several readings, and then the two lists do not correspond.
         const Json* proposal =
             doubted.size() == doubts.size() ? with_id(proposals, doubted[i]) : nullptr;
         const Json* reading =
@@ -200,7 +200,7 @@ std::vector<std::string> open_sentences(const Json& fit) {
         by_facet.push_back(
             fmt::format("Nothing measured fixes the {} of {}.", listed(freedoms[facet]), facet));
     }
-    // The fit's words tell of several facets together where they are alike.
+    // The fit's own words treat equal facets together.
     return words.empty() || (!by_facet.empty() && by_facet.size() < words.size()) ? by_facet
                                                                                   : words;
 }

@@ -29,7 +29,7 @@ struct Row {
     double factor;
 };
 
-// In per cent throughout, so that figures can be held against each other.
+// All in per cent, so that figures can be compared.
 constexpr Row k_rows[] = {
     {"Light return, even light", "ISO", "face_up.iso.whole", "iso", 1},
     {"through the table", "ISO", "face_up.iso.table", "iso_table", 1},
@@ -80,7 +80,7 @@ std::optional<double> value_of(const Json& grade, const char* path) {
 std::string shown(const Json& grade, const Row& row) {
     const std::optional<double> value = value_of(grade, row.path);
     if (!value) return "–";
-    // One pattern alone is as even as can be: that says nothing.
+    // A single pattern is always perfectly even, which says nothing.
     const std::string path = row.path;
     if (path.ends_with(".evenness")) {
         const std::string count = path.substr(0, path.find('.')) + ".count";
@@ -99,7 +99,7 @@ std::string name_in(const Json& grade) {
     return name.empty() ? "the stone" : name;
 }
 
-// For the key of a chart, which has room for little.
+// For a chart's key, which has little room.
 std::string short_name(const Json& grade, std::size_t number) {
     constexpr std::size_t k_room = 14;
     const std::string name = name_in(grade);
@@ -163,7 +163,8 @@ Chart tilt_chart(const std::string& title, const std::string& axis) {
     return chart;
 }
 
-// Of one design a chart an axis with all models; of several a chart a model with all designs.
+// For one design a chart per axis with all models; for several designs a chart per model with all
+// of them.
 std::vector<View> charts_view(const std::vector<Json>& grades) {
     std::vector<Chart> charts;
     const auto axis_words = [](double degrees) {
@@ -235,7 +236,7 @@ std::vector<View> headline(const std::vector<Json>& grades) {
     return lines;
 }
 
-// A stone and its drawing are one; a design and what `culet optimize` made of it are one.
+// A stone and its drawing count as one; so do a design and what `culet optimize` made of it.
 std::string title_of(const std::vector<Json>& grades, bool optimized) {
     const std::string name = name_in(grades.front());
     if (optimized) return name_in(grades.back()) + ": before and after";

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double k_width = 640, k_air = 4;  // around it, as the template has it
+constexpr double k_width = 640, k_air = 4;  // around it, as in the template
 
 struct Box {
     double left = std::numeric_limits<double>::infinity(), right = -left, low = left, high = -left;

@@ -19,7 +19,7 @@ const char* const k_minus = "\xe2\x88\x92";
 const char* const k_dash = "\xe2\x80\x93";
 
 std::string with_true_minus(std::string number) {
-    // -0.00 is no smaller than 0.00.
+    // Writes 0.00 instead of -0.00.
     if (number.find_first_of("123456789") == std::string::npos && number.starts_with('-')) {
         number.erase(0, 1);
     }

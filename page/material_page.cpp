@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;  // rays in their order
+using OrderedJson = nlohmann::ordered_json;  // keeps the order of the rays
 
 std::string lab_of(const OrderedJson& colour) {
     std::string lab;

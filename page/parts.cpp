@@ -59,7 +59,7 @@ std::string verdict_card(const char* style, const char* symbol, const std::strin
 }
 
 std::string short_list(const std::vector<ListItem>& items) {
-    // Ten lines are read; with two more nothing would be won by folding them.
+    // People read ten lines; collapsing two more would gain nothing.
     constexpr std::size_t k_shown = 8, k_unfolded = 10;
     if (items.empty()) return {};
     const std::size_t shown = items.size() <= k_unfolded ? items.size() : k_shown;

@@ -14,7 +14,7 @@ namespace culet {
 namespace {
 
 constexpr const char* k_none = "–";
-// Two digits of a sigma over this are no longer written out.
+// From here on two digits of a sigma are not written out.
 constexpr double k_largest_written = 1e7;
 constexpr double k_right_angle_deg = 90;
 
@@ -22,8 +22,8 @@ bool given(const std::optional<double>& value) {
     return value && std::isfinite(*value);
 }
 
-/// Decimal place of sigma's second digit: 2 for 0.099, -1 for 120. Sigma as rounded counts, so
-/// that 0.0996 is 0.10 and not 0.100.
+/// Decimal place of sigma's second digit: 2 for 0.099, -1 for 120. Counted after rounding, so that
+/// 0.0996 is 0.10 and not 0.100.
 int place_of(double sigma) {
     const auto exponent = [](double s) { return static_cast<int>(std::floor(std::log10(s))); };
     int place = 1 - exponent(sigma);
@@ -38,7 +38,7 @@ std::string in_place(double value, int place) {
     return decimals(std::round(value / unit) * unit, 0);
 }
 
-/// To the unit's finest place, without zeros that say nothing.
+/// To the unit's finest place, without trailing zeros.
 std::string trimmed(double value, std::string_view unit) {
     if (!(std::abs(value) < k_largest_written)) return significant(value, 6);
     std::string text = decimals(value, static_cast<int>(std::round(-std::log10(finest_of(unit)))));
@@ -90,7 +90,7 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
     if (*sigma >= k_largest_written || std::abs(*value) >= k_largest_written * k_largest_written) {
         return significant(*value, 2) + " ± " + significant(*sigma, 2) + suffix;
     }
-    // One digit of sigma at least.
+    // At least one digit of sigma.
     const int place = place_of(*sigma), shown = std::min(place, std::max(most_places, place - 1));
     return in_place(*value, shown) + " ± " + in_place(*sigma, shown) + suffix;
 }

@@ -16,14 +16,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A tenth of the variance is five per cent of the uncertainty: less is not worth the work.
+// A tenth of the variance is five per cent of the uncertainty; a smaller gain is not worth the
+// work.
 constexpr double k_worth_it = 0.1;
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("+-.0123456789") == std::string::npos;
 }
 
-// Readings that a bench takes, as an order.
+// Readings that a bench can take, as an instruction.
 std::string order(const Json& help) {
     const std::string kind = text_at(help, "kind");
     if (kind == "weight") return "weigh the stone";

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Every setting by its engine; the front as a line, the automatic settings as another.
+// Every setting by its engine; the front as one line, the automatic settings as another.
 Chart picture_time_chart(const Json& study) {
     Chart chart;
     chart.title = "What accuracy costs in time";
@@ -53,7 +53,7 @@ Chart picture_time_chart(const Json& study) {
         if (true_at(row, "automatic")) automatic.points.push_back(point(row, tolerance_of(row)));
     }
     if (!automatic.points.empty()) chart.series.push_back(std::move(automatic));
-    // As wide as the settings are.
+    // As wide as the range of the settings.
     double least = INFINITY, most = 0;
     for (const Json& row : array_at(study, "settings")) {
         const double at = 1000 * value_at(row, "cpu_seconds");

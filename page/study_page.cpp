@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 struct SweepWords {
     const char *sweep, *name, *about;
-    bool line;  // its settings are in an order
+    bool line;  // its settings are ordered
 };
 
 constexpr SweepWords k_sweeps[] = {
@@ -87,7 +87,7 @@ Chart fit_time_chart(const Json& study) {
                              std::nan(""),
                              std::nan(""),
                              false};
-            // Some of its fits found no stone: the error is that of the others.
+            // Some of its fits found no stone; the error is that of the others.
             point.hollow = number_at(row, "sound") != number_at(row, "fits");
             series.points.push_back(std::move(point));
         }

@@ -12,7 +12,7 @@ namespace {
 
 namespace mustache = kainjow::mustache;
 
-// The library itself lets a name that is missing pass for nothing.
+// The library itself silently ignores missing names.
 class StrictContext : public mustache::context<std::string> {
 public:
     explicit StrictContext(const mustache::data* data) : context(data) {}

@@ -31,7 +31,7 @@ fs::path engine_file() {
     return {};
 }
 
-// Without a name and a time, so that the same engine is the same bytes.
+// Without a name and a time, so that the same engine gives the same bytes.
 std::string gzipped(const std::string& bytes) {
     z_stream stream{};
     constexpr int k_level = 6, k_gzip = 16, k_memory = 8;

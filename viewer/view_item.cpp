@@ -28,8 +28,8 @@ namespace culet {
 
 namespace {
 
-// The small picture stands for a moment only. Wavelengths where the eye's three colours are told
-// apart best, as the page has them while a stone moves (page/scene_settings.js).
+// The small picture is shown only for a moment. The wavelengths are those that the page uses while
+// a stone moves, where the eye's three colours are separated best (page/scene_settings.js).
 constexpr double k_still_tolerance = 0.2;
 constexpr std::array k_still_nm{450.0, 540.0, 610.0};
 
@@ -50,7 +50,8 @@ bool is_scene_file(const ViewSource& source) {
            read_toml(source.file).kind("stone") != TomlTable::Kind::table;
 }
 
-// A scene file without its stone; of a stone without a scene, what `read_any_scene` shows it in.
+// A scene file without its stone. For a stone without a scene, the scene in which `read_any_scene`
+// shows it.
 std::string scene_text(const ViewSource& source, const Scene& scene) {
     std::vector<std::string> keys = source.overrides;
     const bool of_scene = is_scene_file(source);
@@ -70,7 +71,7 @@ std::string scene_text(const ViewSource& source, const Scene& scene) {
                           {"stone", "mesh", "material", "unit", "convex", "name", "object"});
 }
 
-// A first picture of the whole, small.
+// A small first picture of the whole stone.
 std::string still_of(Scene scene, const std::string& refused) {
     Camera& camera = scene.camera;
     const double scale = static_cast<double>(k_still_size) / std::max(camera.width, camera.height);
@@ -99,7 +100,7 @@ std::string still_of(Scene scene, const std::string& refused) {
     return png_uri(png_of(result.picture, look));
 }
 
-// Of the fit report, by the facets' names.
+// From the fit report, by the facets' names.
 std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json) {
     std::vector<std::string> names;
     for (const Facet& facet : solid.facets) names.push_back(facet.name);
@@ -131,8 +132,8 @@ Scene scene_of(const ViewSource& source) {
     return culet::scene_of(root, &stone, light);
 }
 
-// Where a stone that is not convex has its notch, as seen from above: the mean of the edges at
-// which it bends inwards, from the middle. Nothing where there is none on one side.
+// Direction from the middle to the notch of a stone that is not convex, seen from above: the mean
+// of the edges at which it bends inwards. Nothing if there is none on one side.
 std::optional<Vec3> notch_of(const Solid& solid) {
     constexpr double k_least = 1e-6, k_least_apart = 1e-3;  // of the stone's size
     const double size = diameter(solid);
@@ -164,7 +165,7 @@ std::optional<Vec3> notch_of(const Solid& solid) {
     return glm::normalize(sum);
 }
 
-// A heart stands on its tip, its notch above; where a scene file has no word in it.
+// A heart stands on its tip, with the notch up, unless a scene file decides.
 ViewSource upright(const ViewSource& source, const Scene& scene) {
     ViewSource turned = source;
     if (scene.stone.convex || is_scene_file(source)) return turned;
@@ -176,14 +177,14 @@ ViewSource upright(const ViewSource& source, const Scene& scene) {
     return turned;
 }
 
-// In the material of the stone that is looked at.
+// In the material of the shown stone.
 std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_at) {
     Stone catalogue = looked_at;
     if (source.catalogue != nullptr) {
         catalogue.solid = *source.catalogue;
     } else if (!source.before.empty()) {
         StoneScene choices;
-        choices.material = "diamond";  // not looked at
+        choices.material = "diamond";  // not used
         const Stone before = read_any_scene(source.before, {}, choices).stone;
         catalogue.solid = before.solid;
         catalogue.name = before.name;

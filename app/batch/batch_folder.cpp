@@ -38,8 +38,8 @@ void make_folder(const fs::path& folder) {
     if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
 }
 
-// The lock of a folder that stays there: the last to leave takes it away. -1 where it went in the
-// meantime. Throws InputError where another process has it and keeps it for `tries` pauses.
+// Locks a folder. The lock's file is removed by the last process that leaves; returns -1 if that
+// happened meanwhile. Throws InputError if another process keeps the lock for `tries` pauses.
 int try_lock(const fs::path& folder, int tries) {
     const fs::path file = folder / k_lock_file;
     const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -95,16 +95,16 @@ BatchFolder::BatchFolder(fs::path folder, const std::string& work) : folder_(std
     make_folder(folder_ / "jobs");
     work_ = folder_ / "unfinished" / work;
     for (int i = 0; lock_ < 0 && i < k_tries; ++i) {
-        // Another share that comes to its end may take `unfinished` away in between.
+        // Another share that ends now may remove `unfinished` in between.
         std::error_code problem;
         fs::create_directories(work_, problem);
         if (problem && problem != std::errc::no_such_file_or_directory)
             throw InputError(work_, fmt::format("cannot be made: {}", problem.message()));
-        // A worker of a batch that was killed holds its lock until it is ended too, a moment later.
+        // A worker of a killed batch holds its lock until it is killed too, a moment later.
         lock_ = try_lock(work_, k_tries);
     }
     if (lock_ < 0) throw InputError(work_, "comes and goes: is another culet batch at work?");
-    // What a process left that was killed.
+    // Remove what a killed process left.
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(work_, ignored)) {
         if (entry.path().filename() != k_lock_file) fs::remove_all(entry.path(), ignored);
@@ -114,7 +114,7 @@ BatchFolder::BatchFolder(fs::path folder, const std::string& work) : folder_(std
 BatchFolder::~BatchFolder() {
     std::error_code ignored;
     fs::remove_all(work_, ignored);
-    // Only where no other share is at work.
+    // Succeeds only if no other share is at work.
     fs::remove(folder_ / "unfinished", ignored);
     ::close(lock_);
 }
@@ -130,7 +130,7 @@ void remove_unfinished(const fs::path& folder) {
             fs::remove_all(share, ignored);
             if (lock >= 0) ::close(lock);
         } catch (const InputError&) {
-            // At work.
+            // This share is at work.
         }
     }
     fs::remove(folder / "unfinished", ignored);

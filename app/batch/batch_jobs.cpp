@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::size_t k_longest_name = 100, k_most_jobs = 1000000;
 
-// A name for a folder: letters, digits, and what is harmless in shells, pages and file systems.
+// A name for a folder: letters, digits, and characters that are harmless in shells, pages and file
+// systems.
 std::string plain_name(const std::string& written) {
     constexpr std::string_view k_harmless = "._-+=,@";
     const std::string text = utf8_from_windows1252(written);
@@ -43,7 +44,7 @@ std::string plain_name(const std::string& written) {
     return name;
 }
 
-// `name` where it is short enough for a folder, else its beginning and a hash of all of it.
+// `name` if it is short enough for a folder, else its beginning and a hash of the whole.
 std::string fitting(const std::string& name, BatchList& list) {
     if (name.size() <= k_longest_name) return name;
     const std::string hash = "_" + hash_of(name).substr(0, 8);
@@ -55,7 +56,7 @@ std::string fitting(const std::string& name, BatchList& list) {
     return name.substr(0, end) + hash;
 }
 
-// Why the file is no job; empty: it is one. What cannot be read is one, and will fail as one.
+// Why the file is not a job; empty: it is one. Unreadable files are jobs, which will fail.
 std::string no_job(const fs::path& file) {
     if (is_solid_file(file)) return {};
     if (extension_of(file) != "toml") return "of another kind";
@@ -111,7 +112,7 @@ BatchList read_folder(const fs::path& folder) {
         BatchJob job;
         job.stone = file.filename().string();
         job.name = plain_name(file.stem().string());
-        // ring.toml and ring.asc stay apart.
+        // Keeps ring.toml and ring.asc apart.
         if (stems[job.name] > 1) job.name = plain_name(job.stone);
         job.name = fitting(job.name, list);
         if (!names.insert(job.name).second)

@@ -21,8 +21,8 @@ namespace {
 
 using PlanJson = nlohmann::ordered_json;
 
-// Fowler, Noll and Vo's hash (draft-eastlake-fnv, variant 1a, 64 bits). Parts of a text are told
-// apart by their lengths.
+// Fowler, Noll and Vo's hash (draft-eastlake-fnv, variant 1a, 64 bits). The length of each part is
+// hashed too, so that moving a boundary changes the hash.
 class Fingerprint {
 public:
     void add(std::string_view text) {
@@ -70,7 +70,7 @@ bool is_file(const fs::path& file) {
     return fs::is_regular_file(file, ignored);
 }
 
-// Adds `file` and what it names.
+// Adds `file` and the files that it names.
 void gather(const fs::path& file, std::set<fs::path>& files);
 
 void gather_named(const std::string& name, const fs::path& folder, std::set<fs::path>& files) {
@@ -94,7 +94,7 @@ void gather(const fs::path& file, std::set<fs::path>& files) {
     try {
         gather_texts(toml::parse(decoded_text(read_text(file), file)), file.parent_path(), files);
     } catch (const toml::parse_error&) {
-        // Its own bytes are all that count.
+        // Not readable as TOML: only its own bytes count.
     } catch (const InputError&) {
     }
 }
@@ -157,7 +157,7 @@ std::string fingerprint_of(const BatchList& list, const BatchJob& job,
         if (is_file(material)) files.push_back(material);
     }
     for (const fs::path& file : files) {
-        // Where the batch lies does not count.
+        // The batch's location does not count.
         print.add(file.lexically_proximate(list.folder).generic_string());
         try {
             print.add(read_text(file));

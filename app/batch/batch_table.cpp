@@ -47,10 +47,10 @@ double number_in(const TableJson& record, const char* part, const char* key) {
     return value != table->end() && value->is_number() ? value->get<double>() : std::nan("");
 }
 
-// How far each light return is from the usual one, in units of the usual deviation (1.4826 times
-// the median, which for normally distributed values is their standard deviation).
+// How far each light return is from the median, in units of 1.4826 times the median deviation (the
+// standard deviation of normally distributed values).
 std::vector<double> deviations(const std::vector<TableJson>& records) {
-    constexpr std::size_t k_fewest = 8;  // of fewer no deviation is unusual
+    constexpr std::size_t k_fewest = 8;  // with fewer, none counts as unusual
     std::vector<double> known;
     for (const TableJson& record : records) {
         const double value = number_in(record, "grade", "iso");
@@ -68,7 +68,7 @@ std::vector<double> deviations(const std::vector<TableJson>& records) {
     return result;
 }
 
-// What is most in need of a look has the largest.
+// Larger for jobs that need a look more.
 int urgency(const TableJson& record) {
     const std::string status = record.value("status", "");
     if (status == "failed") return 3;
@@ -77,7 +77,7 @@ int urgency(const TableJson& record) {
     return code != record.end() && *code == exit_good ? 0 : 1;
 }
 
-// Of the figures of a part the names that any job has, in the order of their first job.
+// The names of a part's figures that any job has, in the order of their first job.
 std::vector<std::string> names_in(const std::vector<TableJson>& records, const char* part) {
     std::vector<std::string> names;
     for (const TableJson& record : records) {
@@ -94,7 +94,7 @@ std::string csv_field(const TableJson& value) {
     if (value.is_null()) return {};
     if (!value.is_string()) return value.dump();
     std::string text = value.get<std::string>();
-    // Spreadsheets take these for the beginning of a formula.
+    // Spreadsheets would take these for formulas.
     if (!text.empty() && std::string_view("=+-@").find(text[0]) != std::string_view::npos)
         text.insert(0, 1, '\'');
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -165,7 +165,7 @@ BatchPageJob page_job(const TableJson& row, const fs::path& folder, bool with_pi
 
 std::string page_of(const std::vector<TableJson>& rows, const BatchCounts& counts,
                     const fs::path& folder) {
-    // A page of more would be slow to open.
+    // More would make the page slow to open.
     constexpr std::size_t k_most_pictures = 1000;
     std::vector<const TableJson*> order;
     for (const TableJson& row : rows) order.push_back(&row);

@@ -57,7 +57,7 @@ GradeChoices choices_of(const BatchJob& job, const BatchSettings& settings) {
     return choices;
 }
 
-// The largest of |normalized|, with its reading.
+// The largest |normalized|, with its reading.
 void add_worst_reading(const FitResult& result, RecordJson& fit) {
     const FittedReading* worst = nullptr;
     for (const FittedReading& reading : result.readings) {
@@ -96,7 +96,7 @@ RecordJson grade_row(const Graded& graded) {
     return row;
 }
 
-// Small, face up, in the light that pictures are usually taken in; clear, in one wavelength.
+// A small picture: face up, in the usual light for pictures, clear, in one wavelength.
 void draw_small(const GradeInput& input, double index, const fs::path& file) {
     Scene scene;
     scene.stone = input.stone;
@@ -118,7 +118,7 @@ void draw_small(const GradeInput& input, double index, const fs::path& file) {
     write_picture(drawn.picture, file, look);
 }
 
-// A job on its way: what is known of it so far.
+// A job in progress: what is known of it so far.
 struct JobInWork {
     const BatchJob& job;
     const BatchSettings& settings;
@@ -128,7 +128,7 @@ struct JobInWork {
     bool trusted = true;
 };
 
-// The stone as fitted; nothing for one without readings.
+// The fitted stone; nothing for one without readings.
 std::optional<GradeInput> fit_job(JobInWork& work) {
     const fs::path file = work.job.stone;
     if (kind_of(file, work.choices.overrides) != FileKind::stone) return {};
@@ -205,7 +205,7 @@ void do_job(JobInWork& work) {
             make_ready(work.choices, *fitted);
             grade_job(work, std::move(*fitted));
         } catch (const InputError& error) {
-            // What could not be trusted may be no stone; a good fit must grade.
+            // An untrusted fit may not give a stone; a good fit must be gradable.
             if (work.trusted) throw;
             work.record["message"] = fmt::format(
                 "{}; not graded: {}", work.record["message"].get<std::string>(), error.what());
@@ -230,7 +230,7 @@ int work_on_job(const BatchList& list, const BatchJob& job, const BatchSettings&
     JobInWork work{
         job, settings, choices_of(job, settings), fs::absolute(folder), record_of(job, fingerprint),
         true};
-    // A material of the command line is seen from where the command was given.
+    // A material file on the command line is relative to where the command was given.
     if (job.material.empty() && fs::path(settings.material).extension() == ".toml")
         work.choices.material = fs::absolute(settings.material).string();
     fs::current_path(list.folder);

@@ -41,14 +41,14 @@ double cpu_seconds_of(const rusage& usage) {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Those that the process may run on: a cluster gives a job but some of a machine's.
+// The processors on which this process may run: a cluster gives a job only some of a machine's.
 int usable_processors() {
     cpu_set_t set;
     CPU_ZERO(&set);
     return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
-// SIGCHLD is held back, to be waited for.
+// Blocks SIGCHLD so that it can be waited for.
 class HeldChildSignal {
 public:
     HeldChildSignal() {
@@ -61,7 +61,7 @@ public:
     HeldChildSignal& operator=(const HeldChildSignal&) = delete;
 
     void restore() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
-    /// Until a child ends, a signal comes, or a quarter of a second is over.
+    /// Waits until a child ends, a signal comes, or a quarter of a second has passed.
     void wait() const {
         const timespec most{0, 250000000};
         sigtimedwait(&child_, nullptr, &most);
@@ -71,7 +71,7 @@ private:
     sigset_t child_{}, before_{};
 };
 
-// What a child was given to do.
+// The task of a child process.
 struct AtWork {
     std::size_t job = 0;
     std::string fingerprint;
@@ -85,7 +85,7 @@ public:
         : list_(list), settings_(settings), folder_(folder), options_(options) {
         fflush(nullptr);
     }
-    // No job outlives the batch, whatever ends it.
+    // No job outlives the batch, however that ends.
     ~Workers() {
         for (const auto& [child, work] : at_work_) ::kill(child, SIGKILL);
         for (const auto& [child, work] : at_work_) ::waitpid(child, nullptr, 0);
@@ -94,7 +94,7 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     std::size_t busy() const { return at_work_.size(); }
-    /// Until one ends, a signal comes, or a quarter of a second is over.
+    /// Waits until a child ends, a signal comes, or a quarter of a second has passed.
     void wait() const { signals_.wait(); }
 
     void start(std::size_t number, std::string fingerprint) {
@@ -110,7 +110,7 @@ public:
         at_work_[child] = {number, std::move(fingerprint), Clock::now()};
     }
 
-    /// Puts what has ended among the finished jobs; how many have.
+    /// Moves ended jobs to the finished ones; returns their number.
     std::size_t collect() {
         std::size_t ended = 0;
         int status = 0;
@@ -133,10 +133,10 @@ public:
 private:
     [[noreturn]] void become_worker(const BatchJob& job, const std::string& fingerprint,
                                     const fs::path& folder, pid_t parent) const {
-        // It ends with its parent, even with one that was killed.
+        // The child ends with its parent, even if that is killed.
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (::getppid() != parent) ::_exit(exit_interrupted);
-        // The lock is the parent's alone, and so are Ctrl-C and the terminal.
+        // The lock, Ctrl-C and the terminal belong to the parent alone.
         ::close(folder_.lock());
         std::signal(SIGINT, SIG_IGN);
         std::signal(SIGTERM, SIG_DFL);
@@ -148,7 +148,7 @@ private:
         try {
             code = work_on_job(list_, job, settings_, fingerprint, folder);
         } catch (const InputError&) {
-            code = exit_impossible;  // the record is missing: the parent says so
+            code = exit_impossible;  // the record is missing: the parent reports that
         } catch (...) {
         }
         ::_exit(code);
@@ -159,7 +159,7 @@ private:
         const fs::path folder = folder_.begun(job.name);
         std::error_code problem;
         if (WIFSIGNALED(status)) {
-            // Half of what it wrote may be missing.
+            // What it wrote may be incomplete.
             write_failure(job, work.fingerprint, exit_internal, died_of(WTERMSIG(status)),
                           folder_.begin(job.name));
         } else if (!fs::exists(folder / k_job_record, problem)) {
@@ -234,7 +234,7 @@ ShareResult work_on_share(const BatchList& list, const BatchSettings& settings, 
             const BatchJob& job = list.jobs[jobs[next]];
             std::string fingerprint = fingerprint_of(list, job, settings);
             const auto end = folder.end_of(job.name);
-            // A failure may have passed: too little memory, a full disk.
+            // Failures are tried again: the cause (too little memory, a full disk) may be gone.
             const bool keep = end && end->fingerprint == fingerprint &&
                               (end->exit_code == exit_good || end->exit_code == exit_untrusted);
             if (keep) {

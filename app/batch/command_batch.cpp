@@ -1,4 +1,4 @@
-// culet batch JOBS -o DIR: many stones fitted and graded, here or shared out over many machines.
+// culet batch JOBS -o DIR: fits and grades many stones, on one machine or many.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ struct BatchCommand {
     bool resume = false;
 };
 
-// What no job could be done with is said before the first.
+// Reports before the first job what would make all of them fail.
 void check_settings(const BatchSettings& settings) {
     grade_options(settings.head_deg, settings.tilts);
     if (settings.index && !(*settings.index > 1 && *settings.index < 10))

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder for the outputs; taken away again if nothing was put into it.
+/// The folder for the outputs; removed again if nothing was written to it.
 class OutputFolder {
 public:
     explicit OutputFolder(const fs::path& folder) : folder_(folder) {
@@ -39,7 +39,7 @@ public:
     }
     ~OutputFolder() {
         std::error_code ignored;
-        if (made_) fs::remove(folder_, ignored);  // fails, as it should, when it is not empty
+        if (made_) fs::remove(folder_, ignored);  // fails, as intended, if the folder is not empty
     }
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
@@ -57,7 +57,7 @@ CompareOptions options_of(const CompareArguments& a) {
     return options;
 }
 
-// What one photograph came to.
+// The result for one photograph.
 struct Compared {
     Comparison comparison;
     std::optional<CalibratedVerdict> calibrated;
@@ -92,7 +92,7 @@ Compared compare_with_render(const CompareArguments& a, const std::string& versi
     return result;
 }
 
-// What is read beside the scene, once for all photographs.
+// Inputs other than the scene, read once for all photographs.
 struct SceneExtras {
     std::optional<Solid> start;
     std::optional<StoneUncertainty> uncertainty;
@@ -137,7 +137,7 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
 }
 
 void say_result(const CompareArguments& a, const Comparison& comparison, bool calibrated) {
-    // What a calibration says is a sentence by itself.
+    // A calibration's reason is a complete sentence.
     say(calibrated ? comparison.reason + "."
                    : fmt::format("{}: {}", verdict_words(comparison.verdict), comparison.reason),
         a.common.quiet);
@@ -161,7 +161,7 @@ void say_result(const CompareArguments& a, const Comparison& comparison, bool ca
     for (const std::string& note : comparison.notes) say("  " + note, a.common.quiet);
 }
 
-// Throws InputError where what was asked does not go together.
+// Throws InputError for options that contradict each other.
 void check_asked(const CompareArguments& a) {
     if (a.pictures.size() < 2) {
         throw InputError(

@@ -36,14 +36,14 @@ namespace culet {
 
 namespace {
 
-// What corners of a stone read from a file may be off its planes by.
+// Allowed distance of the corners of a stone read from a file from its planes.
 constexpr double k_step_tolerance_mm = 1e-5;
 
 struct ConvertOptions {
     CommonOptions common;
     std::filesystem::path in, out;
     CutReading cut;
-    std::string width;  // empty: as it is
+    std::string width;  // empty: not scaled
     std::string material, clearance;
 };
 
@@ -86,7 +86,7 @@ std::vector<std::string> write_gltf(const ExportInput& input, const std::filesys
     return material.notes;
 }
 
-// In mm, the girdle's plane at z = 0, the table up.
+// In mm, with the girdle's plane at z = 0 and the table up.
 int convert_for_others(const ConvertOptions& options) {
     ExportChoices choices{options.common.set, options.cut, options.material, {}};
     if (!options.width.empty()) choices.width_mm = length_mm(options.width, "--width");
@@ -127,8 +127,8 @@ ExportedScene exported(const Scene& scene, const std::filesystem::path& out) {
     return povray_scene(scene);
 }
 
-// A scene, or a stone in the usual light, for another renderer. The file that names the others is
-// written last.
+// Writes a scene, or a stone in the usual light, for another renderer. The file that names the
+// others is written last.
 int convert_scene(const ConvertOptions& options) {
     StoneScene choices;
     choices.material = options.material;
@@ -148,7 +148,7 @@ int convert_scene(const ConvertOptions& options) {
     return exit_good;
 }
 
-// A solid, or the stone of a stone file as it is drawn.
+// A solid, or the stone of a stone file as drawn.
 struct ConvertInput {
     Solid solid;
     std::optional<Material> material;
@@ -176,11 +176,11 @@ ConvertInput converted_input(const ConvertOptions& options) {
     return input;
 }
 
-// The design that the solid was cut by, or the one that its drawing shows; its index is the
-// material's where one is named.
+// The design that the solid was cut by, or the one that its drawing shows. The index is the
+// material's if one is named.
 std::vector<std::string> write_asc(const ConvertInput& input, const std::filesystem::path& out) {
     Design design = cutting_design(input.solid);
-    // The index of a design is given to four decimals at most.
+    // Designs state the index to four decimals at most.
     if (input.material)
         design.refractive_index = std::round(1e4 * grade_index(&*input.material, {}).n) / 1e4;
     std::vector<std::string> notes = write_gemcad_asc(input.solid, design, out);
@@ -212,7 +212,7 @@ int convert(const ConvertOptions& options) {
                          "or .pbrt");
     }
     const ConvertInput input = converted_input(options);
-    // A mesh may be bent or dented and still be worth converting: it is written as it is.
+    // A bent or dented mesh may still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
         find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
     std::vector<std::string> notes_on_writing;
@@ -221,7 +221,7 @@ int convert(const ConvertOptions& options) {
     } else {
         write_mesh(input.solid, options.out);
     }
-    // Only now: when nothing could be written, the error is all there is to say.
+    // Only now: if nothing could be written, only the error is reported.
     const bool quiet = options.common.quiet;
     say_of(options.in, input.notes, quiet);
     say_of(options.in, input.details, quiet || !options.common.verbose);

@@ -1,5 +1,4 @@
-// culet cut NAME [--param VALUE...] -o MESH: every cut is a command of its own, made from its
-// table.
+// culet cut NAME [--param VALUE...] -o MESH: each cut is a subcommand, made from its table.
 
 #include <fmt/format.h>
 
@@ -32,8 +31,8 @@ struct CutOptions {
 };
 
 double height_of(const Solid& solid, bool crown) {
-    // Crown: table over the highest girdle corner; pavilion: the lowest girdle corner over the
-    // culet.
+    // Crown: from the highest girdle corner to the table. Pavilion: from the culet to the lowest
+    // girdle corner.
     double top = -1e300, bottom = 1e300, girdle_top = -1e300, girdle_bottom = 1e300;
     for (const Vec3& v : solid.vertices) {
         top = std::max(top, v.z);
@@ -97,7 +96,7 @@ void list_cuts() {
     }
 }
 
-// `words` are what no option of the cut took.
+// `words` are those that match no option of the cut.
 [[noreturn]] void refuse(const CutKind& kind, const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const CutParameter& p : kind.parameters) names.push_back("--" + p.name);
@@ -120,7 +119,7 @@ int run_cut(const std::string& name, const CutOptions& options) {
     if (cut_kind(name).convex) solid.design = std::make_shared<const Design>(drawn_design(solid));
     std::string proportions;
     if (!options.json.empty()) {
-        // Length and width are those of the stone before it is turned.
+        // Length and width are those before the stone is turned.
         auto unturned = options.values;
         unturned["azimuth"] = 0;
         proportions = proportions_json(name, make_cut(name, unturned), options);
@@ -149,7 +148,7 @@ int run_cut(const std::string& name, const CutOptions& options) {
     }
     Stone stone;
     stone.name = name;
-    // STL keeps no names: the form is of the mesh as it will be read.
+    // STL has no names, so make the form for the mesh as it will be read.
     stone.solid = read_solid(options.out).solid;
     stone.convex = cut_kind(name).convex;
     for (const std::string& line : write_form(options.form, stone, false, options.out)) {
@@ -167,8 +166,8 @@ void add_command_cut(CLI::App& program, int& exit_code) {
     auto unknown = std::make_shared<std::vector<std::string>>();
     command->add_flag("--list", *list, "the cuts, their parameters, defaults and ranges");
     command->require_subcommand(0, 1);
-    command->allow_extras();  // of a cut that does not exist: its name is answered first
-    // A word that is no cut is answered with the nearest cut.
+    command->allow_extras();  // of an unknown cut: its name is reported first
+    // An unknown cut is reported with the nearest name.
     command->add_option("name", *unknown, "round-brilliant, step (emerald), princess, oval, ...")
         ->type_name("NAME");
     command->footer(
@@ -190,7 +189,7 @@ void add_command_cut(CLI::App& program, int& exit_code) {
             ->type_name("NAME");
         add_form_options(*cut, options->form);
         for (const CutParameter& p : kind.parameters) {
-            // 6.5, 6.5mm, 57%: with the unit or without.
+            // 6.5, 6.5mm, 57%: with or without the unit.
             cut->add_option_function<std::string>(
                    "--" + p.name,
                    [options, key = p.name, unit = p.unit](const std::string& text) {
@@ -212,7 +211,7 @@ void add_command_cut(CLI::App& program, int& exit_code) {
             fmt::format("Examples:\n  culet cut {0} -o {0}.obj\n  culet cut {0} --{1} {2} --girdle "
                         "3 -o {0}.asc --json proportions.json",
                         kind.name, first.name, first.value));
-        cut->allow_extras();  // so that a misspelt parameter is answered with the nearest
+        cut->allow_extras();  // so that a misspelt parameter is reported with the nearest
         cut->callback([kind, cut, options, &exit_code] {
             if (const auto words = cut->remaining(); !words.empty()) refuse(kind, words);
             exit_code = run_cut(kind.name, *options);

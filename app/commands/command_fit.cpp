@@ -26,7 +26,7 @@ struct FitCommand {
     bool find_symmetry = false, allow_topology = false;
 };
 
-// A solid that was fitted before, with the facets of the mesh.
+// A solid that was fitted before, if it has the mesh's facets.
 Solid earlier_fit(const std::string& name, const Solid& mesh) {
     Solid solid = read_solid(name).solid;
     require_earlier_result(solid, mesh, name);

@@ -1,4 +1,4 @@
-// culet info FILE: what a file holds, and what is wrong with it.
+// culet info FILE: what a file contains, and what is wrong with it.
 
 #include <fmt/format.h>
 
@@ -33,12 +33,12 @@ struct InfoOptions {
     SheetOptions sheet;
 };
 
-// The form for the stone of a file: a mesh, a cut design or a stone file.
+// The form for a file's stone: a mesh, a cut design or a stone file.
 std::vector<std::string> form_of(const InfoOptions& options) {
     const std::filesystem::path& file = options.describe.file;
     FormOptions form = options.form;
     const auto take_gear = [&](const Solid& solid) {
-        // A wheel that is turned against the stone has teeth of its own: none are told.
+        // The teeth of a wheel that is turned against the stone would be wrong, so none are given.
         if (solid.design) form.gear = solid.design->gear_offset == 0 ? solid.design->gear : 0;
         if (options.describe.cutting.gear != 0) form.gear = options.describe.cutting.gear;
     };
@@ -167,7 +167,7 @@ Description describe_file(const DescribeOptions& options) {
 
 namespace {
 
-// Of a mesh or a cut design.
+// Options for meshes and cut designs.
 void add_solid_options(CLI::App& command, InfoOptions& options) {
     command
         .add_option("--meet-tolerance", options.describe.cut.meet_tolerance,

@@ -1,4 +1,4 @@
-// culet light PHOTO... -o ENV.exr: mirror-ball photographs to an environment.
+// culet light PHOTO... -o ENV.exr: an environment from mirror-ball photographs.
 
 #include <fmt/format.h>
 
@@ -197,7 +197,7 @@ int run_light(const LightArguments& a) {
     return probe.usable() ? exit_good : exit_untrusted;
 }
 
-// The photographs, and what is known of how they were taken.
+// The photographs, and how they were taken.
 void add_view_options(CLI::App& command, LightArguments& a) {
     command.add_option("PHOTO", a.photos,
                        "photographs: one view, or two to six from places up to 90 degrees from "

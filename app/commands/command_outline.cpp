@@ -30,7 +30,7 @@ struct OutlineArguments {
     double step_deg = 0, pixel_mm = 0, width_mm = 0;
 };
 
-// So that the axis is upright: turned by a quarter, its left end up.
+// Turns the picture by a quarter, left end up, to make the axis upright.
 Photo quarter_turned(const Photo& photo) {
     Photo turned = photo;
     turned.coverage.clear();
@@ -56,7 +56,7 @@ std::vector<BackLitOutline> traced(const OutlineArguments& a) {
         if (progress && !progress(double(i) / double(a.photos.size()))) throw Interrupted();
         const std::filesystem::path file = a.photos[i];
         Photo photo = read_photo(file);
-        // Frames of one camera: what holds for all of them is said once.
+        // Notes that hold for all frames of a camera are printed once.
         std::erase_if(photo.notes, [&](const auto& note) { return !told.insert(note).second; });
         say_notes(a.photos[i], photo.notes, a.common.quiet);
         if (i == 0) {
@@ -79,10 +79,10 @@ double scale_of(const OutlineArguments& a, const OutlineWidths& widths) {
     return a.pixel_mm > 0 ? a.pixel_mm : a.width_mm / widths.least;
 }
 
-// As given, or in the order of the numbers in the files' names where a turntable explains that much
-// better: a shell lists turn-10 before turn-2.
+// As given, or sorted by the numbers in the files' names if a turntable explains that much better:
+// a shell lists turn-10 before turn-2.
 Turntable ordered(const OutlineArguments& a, std::vector<BackLitOutline>& outlines) {
-    // Backwards a stone turns the other way, and fits as well: only what is far better counts.
+    // In reverse order the stone turns the other way and fits as well: require a large improvement.
     constexpr double k_better = 0.5;
     const double step = radians(a.step_deg);
     const Turntable as_given = turntable_of(outlines, step);
@@ -116,7 +116,7 @@ Json contours_json(const std::vector<PlacedOutline>& placed, const Turntable& ta
                 {"residual_px", table.residual_px},
                 {"trouble", table.trouble}}},
               {"contours", Json::array()}};
-    // A hundredth of a micrometre is far below a pixel.
+    // Rounds to a hundredth of a micrometre, far below a pixel.
     const auto rounded = [](double mm) { return std::round(mm * 1e5) / 1e5; };
     for (const PlacedOutline& outline : placed) {
         Json points = Json::array();

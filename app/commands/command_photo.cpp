@@ -1,4 +1,4 @@
-// culet photo SHOT... -o PHOTO.exr: one or several shots to one picture in linear light.
+// culet photo SHOT... -o PHOTO.exr: combines one or several shots to one picture in linear light.
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -73,7 +73,7 @@ Bracket read_and_merge(const PhotoArguments& a) {
     return merge_bracket(shots, options, progress_line("merging", a.common.quiet));
 }
 
-// Light over the file's value, a line a channel, beside sRGB's.
+// Light against the file's value, one line per channel, beside sRGB's.
 std::string plot_of(const ResponseCurve& curve) {
     Chart chart;
     chart.title = "Response of the camera";
@@ -97,13 +97,13 @@ std::string plot_of(const ResponseCurve& curve) {
     return draw_chart_svg(chart);
 }
 
-// Returns what is said of it in the JSON.
+// Returns the description for the JSON.
 Json balance_white(const PhotoArguments& a, Bracket& merged) {
     Photo& photo = merged.photo;
     Json white;
     Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
     say_notes(a.white, other.notes, a.common.quiet);
-    // Of the same camera: its values mean what those of the shots do.
+    // It is of the same camera, so its values have the same meaning as those of the shots.
     if (merged.curve && other.encoding.starts_with("8-bit sRGB"))
         apply_response(*merged.curve, other);
     const Photo& with_card = a.white.empty() ? photo : other;
@@ -144,8 +144,8 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
 }
 
 int run_photo(const PhotoArguments& a) {
-    // Photos come and go by the dozen: their memory is kept for the next one, since the system
-    // wipes what it gives anew, which takes a quarter of the time.
+    // Keep freed memory for the next photo: the system clears new memory, which takes a quarter of
+    // the time.
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
     for (const std::string& file : {a.out, a.json, a.plot}) require_writable(file);

@@ -59,7 +59,7 @@ int run_probe(const ProbeArguments& options) {
         fmt::print("the ray misses the stone\n");
         return exit_good;
     }
-    // The ellipse at the eye of unpolarised light that comes this way.
+    // The polarisation ellipse at the eye of unpolarised light along this path.
     fmt::print("{:>9}  {:<22} {:>9} {:>7} {:>7}  {}\n", "weight", "sees", "polarised", "azimuth",
                "ellipt.", "facets, and the wave between them: o e, slow s fast f, c both, a air");
     int shown = 0;

@@ -45,7 +45,7 @@ std::vector<RefinePhotograph> photographs_of(const RefineArguments& a) {
     std::set<std::string> names;
     for (std::size_t i = 1; i + 1 < a.files.size(); ++i) {
         std::string name = fs::path(a.files[i]).filename().string();
-        // Of two folders, say.
+        // Photographs of the same name, from two folders.
         while (!names.insert(name).second) name += "'";
         RefinePhotograph& photograph = photographs.emplace_back();
         photograph.name = name;
@@ -55,7 +55,7 @@ std::vector<RefinePhotograph> photographs_of(const RefineArguments& a) {
     return photographs;
 }
 
-// How sure the facets are, in the middle, before and after.
+// Median sigma of the facets.
 double usual_sigma_deg(const FitResult& fit) {
     std::vector<double> sigmas;
     for (const FittedFacet& facet : fit.facets) {

@@ -1,4 +1,4 @@
-// culet run JOB.toml -o DIR: fit, render and compare in one go, with one report.
+// culet run JOB.toml -o DIR: fit, render and compare in one run, with one report.
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ struct RunOptions {
 
 struct Job {
     std::string name;
-    fs::path stone, scene, photo, mask;  ///< empty: that step is not asked for
-    fs::path picture;                    ///< a render that is there already, in the scene's place
+    fs::path stone, scene, photo, mask;  ///< empty: skip that step
+    fs::path picture;                    ///< an existing render, instead of the scene
     bool simulated = false, start = false;
 };
 
@@ -86,7 +86,7 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
     return job;
 }
 
-// What the files of a job hold: all that can be wrong with them is found before any output.
+// The contents of a job's files; all of them are read and checked before any output.
 struct JobInput {
     StoneFile file;
     FitInput fit;
@@ -122,7 +122,7 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
     return input;
 }
 
-// What was made of it.
+// The results.
 struct JobResult {
     std::optional<FitResult> fit;
     std::optional<RenderResult> rendered, started;
@@ -167,7 +167,7 @@ JobResult make(const Job& job, JobInput& input, bool quiet) {
 
 void put_pictures(const JobResult& made, const fs::path& folder) {
     write_picture(made.rendered->picture, folder / "render.exr");
-    // For people to look at: the linear values are in the EXR.
+    // For viewing only: the linear values are in the EXR.
     PngLook look;
     look.exposure = exposure_for_stone(made.rendered->picture);
     write_picture(made.rendered->picture, folder / "render.png", look);
@@ -211,7 +211,7 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
     return report;
 }
 
-// The stone as fitted, in the job's scene, or face up where it has none.
+// The fitted stone in the job's scene, or face up without a scene.
 std::string viewer_of(const Job& job, const JobInput& input, const JobResult& made,
                       const std::string& fit_json) {
     ViewSource source;

@@ -31,7 +31,7 @@ struct SettingCommand {
     CommonOptions common;
     std::filesystem::path stone, out, scene, json;
     std::string style = "prong", metal = "gold", material;
-    std::string ring, prong_diameter, clearance;  // as written; empty: the usual
+    std::string ring, prong_diameter, clearance;  // as written; empty: default
     int prongs = -1;
     bool no_shank = false;
     int smoothness = SettingOptions{}.smoothness;
@@ -147,7 +147,7 @@ int run_setting(const SettingCommand& command) {
         throw InputError(command.out,
                          "cannot be written: a setting ends in .obj, .off, .ply or .stl");
     for (const auto& file : {command.out, command.scene, command.json}) require_writable(file);
-    // Names of the catalogue are told from files as scenes tell them.
+    // Distinguish catalogue names from files as scenes do.
     if (!command.material.empty() && extension_of(command.material) != "toml")
         catalogue_material(command.material);
     if (command.style == "bezel" && command.prongs > 0)

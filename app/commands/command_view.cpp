@@ -1,4 +1,4 @@
-// culet view STONE|SCENE|CUT|DIR -o PAGE: the stone in one's hand, in a page of its own.
+// culet view STONE|SCENE|CUT|DIR -o PAGE: a page in which the stone can be turned by hand.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ struct ViewOptions {
     bool open = false;
 };
 
-// Of a folder: stones, scenes and designs, by name.
+// The stones, scenes and designs of a folder, by name.
 std::vector<fs::path> shown_in(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -41,7 +41,7 @@ std::vector<fs::path> shown_in(const fs::path& folder) {
             if (kind == FileKind::solid || kind == FileKind::stone || kind == FileKind::scene)
                 files.push_back(entry.path());
         } catch (const InputError&) {
-            files.push_back(entry.path());  // what is wrong with it is said when it is read
+            files.push_back(entry.path());  // reading it will report what is wrong
         }
     }
     std::sort(files.begin(), files.end());
@@ -81,7 +81,7 @@ ViewDocument gallery_of(const ViewOptions& options) {
         try {
             std::vector<std::string> notes;
             ViewItem item = view_item(source_of(options, files[i]), notes);
-            // Files may call their stones alike.
+            // Stones of different files may have the same name.
             item.name = files[i].filename().string();
             document.items.push_back(std::move(item));
         } catch (const InputError& error) {

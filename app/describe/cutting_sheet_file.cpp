@@ -35,7 +35,7 @@ void write_cutting_sheet(const SheetOptions& options, const DescribeOptions& des
     sheet.design = cutting_design(input.solid);
     sheet.steps = cutting_list(input.solid, describe.cutting);
     sheet.teeth = gear_of(input.solid, describe.cutting);
-    // A design has no unit; a mesh that is as large as a stone is in mm.
+    // A design has no unit; a mesh of a stone's size is in mm.
     const bool is_mesh = mesh_format(describe.file).has_value();
     if (describe.width_mm > 0 || (is_mesh && doubtful_size(input.solid).empty())) sheet.unit = "mm";
     if (!options.report.empty()) {

@@ -27,7 +27,7 @@ const char* word_for(OpticCharacter optic) {
 }  // namespace
 
 void describe_material(const Material& material, Description& about) {
-    // The sodium line, by which the trade states indices.
+    // At the sodium line, where the trade states indices.
     Json object{{"id", material.id}, {"name", material.name}, {"optic", word_for(material.optic)}};
     std::string line =
         fmt::format("material {}: {}", material.name.empty() ? material.id : material.name,

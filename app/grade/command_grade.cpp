@@ -1,4 +1,4 @@
-// culet grade STONE|CUT... : what the cut does with light.
+// culet grade STONE|CUT...: what the cut does with light.
 
 #include "app/grade/command_grade.h"
 
@@ -48,7 +48,7 @@ GradeOptions options_of(const GradeCommand& command) {
     return options;
 }
 
-// One object; of several designs they stand in "designs".
+// One object; several designs are in the list "designs".
 std::string json_of(const std::vector<Graded>& all) {
     if (all.size() == 1) return all.front().json;
     nlohmann::ordered_json json{{"schema", 1}, {"designs", nlohmann::ordered_json::array()}};
@@ -127,7 +127,7 @@ int run_grade(GradeCommand command) {
             all.push_back(
                 grade_input(std::move(input), options, command.draws, command.common.quiet));
         } catch (const InputError& error) {
-            // Drawn by hand, its facets need not be planar: what was asked for is the fitted stone.
+            // Facets drawn by hand need not be planar, and the user asked for the fitted stone.
             if (!as_drawn) throw;
             say(fmt::format("the mesh as drawn is left out: {}", error.what()),
                 command.common.quiet);

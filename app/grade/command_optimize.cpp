@@ -1,4 +1,4 @@
-// culet optimize STONE|CUT -o BETTER.asc : better angles, meets kept.
+// culet optimize STONE|CUT -o BETTER.asc: better angles with the meets kept.
 
 #include "render/optimize/optimize.h"
 
@@ -64,7 +64,7 @@ nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) 
     return json;
 }
 
-// By the titles of the cutting sheet, tier by tier; tiers of a design that stand alike were changed
+// Tier by tier with the titles of the cutting sheet. Tiers of a design that are equal were changed
 // together.
 std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
     Solid solid = result.start;
@@ -137,16 +137,16 @@ void print_result(const Optimized& result, const std::vector<std::string>& names
     print_lines(text);
 }
 
-// What the design says of itself, or the drawing shows; where it has no title, the stone's name.
+// The solid's design, or the one that its drawing shows. Without a title it gets the stone's name.
 Design design_of(const OptimizeOptions& options, const GradeInput& input) {
     Design design = cutting_design(input.stone.solid);
     if (design.headings.empty()) design.headings.push_back(input.name);
-    // To as many decimals as designs give.
+    // Designs state four decimals.
     design.refractive_index = std::round(1e4 * options.merit.index.n) / 1e4;
     return design;
 }
 
-// What a buyer may ask for and the objective did not.
+// Prints figures that got worse, which a buyer may ask for but the objective ignored.
 void print_losses(const Optimized& result, const OptimizeOptions& options) {
     GradeOptions grade;
     grade.head = options.merit.head;
@@ -155,7 +155,7 @@ void print_losses(const Optimized& result, const OptimizeOptions& options) {
         return figures_of(grade_stone(solid, options.merit.index, grade));
     };
     const std::vector<GradeFigure> before = figures(result.start), now = figures(result.better);
-    // Below this, in points, nobody sees it.
+    // Points; smaller changes are invisible.
     constexpr double k_seen = 0.05;
     for (const GradeFigure& was : before) {
         if (!was.percent && was.name != "weighted_light_return") continue;
@@ -203,7 +203,7 @@ int run_optimize(OptimizeCommand command) {
         print_result(result, names, command);
         if (result.found && !result.interrupted) print_losses(result, options);
     }
-    // The last one of a fit that is not trusted is told below.
+    // The last note of an untrusted fit is printed below.
     for (std::size_t i = 0; i + (input.trusted ? 0 : 1) < input.notes.size(); ++i)
         say(fmt::format("{}: {}", input.file, input.notes[i]), command.common.quiet);
     if (result.interrupted) {

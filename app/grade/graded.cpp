@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t k_most_tilts = 361;
 
-// "FROM:TO:STEP", or angles with commas between them; radians.
+// "FROM:TO:STEP", or angles separated by commas; radians.
 std::vector<double> tilts_in(const std::string& text) {
     const std::string expected =
         "--tilts is FROM:TO:STEP or a list of angles, in degrees, within " +
@@ -90,7 +90,7 @@ GradeDesign design_for_page(const Graded& graded, const std::filesystem::path& f
     design.json = graded.json;
     Stone stone = graded.input.stone;
     if (!graded.input.has_material || graded.input.index) {
-        // What was graded: an index alone has no dispersion.
+        // The material that was graded: an index alone has no dispersion.
         stone.material = graded.input.has_material ? stone.material : Material();
         if (!graded.input.has_material) stone.material.index[0].n = graded.grade.index.n;
     }

@@ -21,7 +21,7 @@ namespace {
 
 using ReportJson = nlohmann::json;
 
-// null, which stands for what is not known, is NaN.
+// NaN for null, which means unknown.
 double number_or_nan(const ReportJson& value) {
     return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
@@ -31,7 +31,7 @@ double value_in(const ReportJson& facet, const char* key) {
     return number_or_nan(found == facet.end() ? ReportJson() : *found);
 }
 
-// The stone's lengths over those of the report.
+// The stone's unit of length relative to the report's.
 double unit_ratio(const ReportJson& report, const Stone& stone) {
     const auto unit = report.find("unit");
     if (unit == report.end() || !unit->is_string()) return 1;
@@ -39,7 +39,7 @@ double unit_ratio(const ReportJson& report, const Stone& stone) {
     return read ? mm_per(*read) / mm_per(stone.unit) : 1;
 }
 
-// Radians and the stone's unit. Empty where the report has none.
+// In radians and the stone's unit. Empty where the report has none.
 std::vector<double> covariance_in(const ReportJson& report, const fs::path& file,
                                   std::size_t facets, double ratio) {
     const auto found = report.find("facet_covariance");
@@ -61,8 +61,8 @@ std::vector<double> covariance_in(const ReportJson& report, const fs::path& file
     return covariance;
 }
 
-// A facet of another stone, or of the mesh that the fit began with, stands elsewhere. A small one
-// read from a file is off by the digits of its corners.
+// Facets of another stone, or of the mesh that the fit started from, differ by more. Small facets
+// read from a file are off by the rounding of their corners.
 constexpr double k_same_facet = radians(0.5);
 
 void require_same_inclinations(const ReportJson& facets, const Stone& stone, const fs::path& file) {

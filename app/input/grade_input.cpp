@@ -37,7 +37,7 @@ void take_material(const GradeChoices& choices, GradeInput& input) {
                          "names no material: say which with --material NAME (culet info "
                          "--materials lists them), or --index N");
     }
-    // A design's own index is for who names no material.
+    // A design's own index is used only if no material is named.
     if (input.has_material && !choices.index) input.index.reset();
 }
 

@@ -47,7 +47,7 @@ KindWords words_of(FileKind kind) {
     return {"", ""};
 }
 
-// By the text that culet render leaves in a picture's header.
+// Recognised by the text that culet render writes into a picture's header.
 bool is_render(const std::filesystem::path& file) {
     constexpr std::size_t k_longest_header = 1 << 16;
     std::ifstream stream(file, std::ios::binary);

@@ -7,11 +7,11 @@ namespace culet {
 
 std::string viewer_for_report(const ViewSource& source, const std::string& title) {
     ViewDocument document;
-    std::vector<std::string> notes;  // said when the scene was drawn
+    std::vector<std::string> notes;  // printed when the scene was drawn
     try {
         document.items.push_back(view_item(source, notes));
     } catch (const InputError&) {
-        return {};  // the report is about more than this
+        return {};  // the report does not depend on the viewer
     }
     if (!document.items.front().refused.empty()) return {};
     document.title = title;

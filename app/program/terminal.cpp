@@ -30,7 +30,7 @@ struct LineState {
     std::string last;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
-    // The line is wiped when the work lets go of it, so that the next message starts clean.
+    // Wipes the line when the work ends, so that the next message starts on a clean line.
     ~LineState() {
         if (drawn) std::fputs("\r\033[K", stderr);
     }
@@ -39,11 +39,11 @@ struct LineState {
 }  // namespace
 
 std::string progress_text(double fraction, double seconds) {
-    // Too little is done to tell.
+    // Too little is done to estimate.
     constexpr double k_least = 0.01;
     if (!(fraction >= k_least)) return fmt::format("{:.0f} s", seconds);
     const double left = seconds * (1 - fraction) / fraction;
-    // To two digits: more is not known, and would flicker.
+    // Rounded to about two digits: more is not known, and would flicker.
     const double step = left < 20 ? 1 : left < 100 ? 5 : 10;
     return fmt::format("{:3.0f} %, about {:.0f} s left", 100 * fraction,
                        std::max(1.0, step * std::ceil(left / step)));

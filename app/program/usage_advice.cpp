@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// The command that the words name, and the subcommand of it.
+// The command, and its subcommand, that the words name.
 const CLI::App* command_of(const CLI::App& program, const std::vector<std::string>& words,
                            std::string& name) {
     const CLI::App* command = &program;
@@ -36,7 +36,7 @@ std::vector<std::string> long_options(const CLI::App& command) {
     return names;
 }
 
-// Empty: every word that looks like a long option is one of the command's.
+// Empty: every word that looks like a long option belongs to the command.
 std::string unknown_option(const CLI::App& command, const std::string& name,
                            const std::vector<std::string>& words) {
     const std::vector<std::string> known = long_options(command);
@@ -65,7 +65,7 @@ std::string usage_advice(const CLI::App& program, const std::vector<std::string>
     if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr ||
         dynamic_cast<const CLI::ValidationError*>(&error) != nullptr) {
         for (const std::string& word : words) {
-            // The value as it was written: messages name it in words of their own.
+            // The value as written: messages quote it in various ways.
             const std::string value = word.substr(word.find('=') + 1);
             if (message.find(value) == std::string::npos) continue;
             if (const std::string advice = number_advice(value); !advice.empty()) {

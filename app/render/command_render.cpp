@@ -1,4 +1,4 @@
-// culet render SCENE|STONE -o IMAGE: one picture, of a scene or of a stone alone.
+// culet render SCENE|STONE -o IMAGE: one picture of a scene or of a stone alone.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -64,7 +64,7 @@ Frames frames_of(const RenderOptions& options) {
             options.exposure,           options.tonemap,  options.spectral};
 }
 
-// As the file and the command line say; what there is to note about it is said.
+// The scene of the file and the command line; prints its notes.
 Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
     std::vector<std::string> settings = settings_of(options);
     if (plan != nullptr)
@@ -94,7 +94,7 @@ int explain_plan(const RenderOptions& options) {
     return exit_good;
 }
 
-// Pictures on their way to the file, for who watches at a terminal.
+// Writes drafts of the picture to the file while somebody watches at a terminal.
 class Drafts {
 public:
     Drafts(const RenderOptions& options, const PictureOutput& output, const Scene& scene)
@@ -133,7 +133,7 @@ private:
     bool wanted_, any_ = false;
 };
 
-// What contradicts itself on the command line.
+// Throws for options that contradict each other.
 void require_sense(const RenderOptions& options) {
     if (options.out.empty() && options.stats.empty())
         throw InputError("render needs -o IMAGE, --stats FILE, or --explain");
@@ -149,7 +149,7 @@ void require_sense(const RenderOptions& options) {
         throw InputError("--plan says how to draw: leave out --set render...., or --plan");
 }
 
-// Layers of what the stone's fit leaves open.
+// Adds layers of the uncertainty that the stone's fit leaves.
 void add_uncertainty(const RenderOptions& options, const Scene& scene,
                      const StoneUncertainty& uncertainty, RenderResult& result) {
     const bool quiet = options.common.quiet;
@@ -179,7 +179,7 @@ void add_uncertainty(const RenderOptions& options, const Scene& scene,
             quiet);
 }
 
-// All frames of a turntable, of which the first is the picture; else the picture alone, written.
+// Draws all frames of a turntable and returns the first, or draws and writes the single picture.
 RenderResult draw(const RenderOptions& options, const Scene& scene,
                   const std::optional<SavedPlan>& saved,
                   const std::optional<StoneUncertainty>& uncertainty, const PictureOutput& output,

@@ -30,7 +30,7 @@ void require_ffmpeg(const fs::path& movie) {
 void write_movie(const fs::path& folder, const fs::path& movie) {
     OutputFile output(movie);
     const fs::path messages = folder / "ffmpeg.txt";
-    // Players want sides of even length, and colours at half the resolution.
+    // Players need even sides and chroma at half the resolution.
     const int status =
         run_program({"ffmpeg", "-y", "-loglevel", "error", "-framerate", "25", "-i",
                      (folder / "frame-%05d.png").string(), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",

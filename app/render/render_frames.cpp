@@ -49,7 +49,7 @@ void require_frames(const Frames& frames) {
         throw InputError(
             "--frames writes many pictures: say where their numbers go, -o frame-####.png, or name "
             "a film, -o turn.mp4");
-    // Every ending and place is like the first.
+    // All frames have the same extension and folder as the first.
     PictureOutput(frame_name(frames.out, 0), frames.spectral);
 }
 
@@ -73,7 +73,7 @@ RenderResult draw_frames(const Frames& frames, const Scene& scene,
         if (frame == 0) {
             result = first(scene);
             plan = plan_drawn(scene, result.stats);
-            // A stone that turns does not make the lamp flicker.
+            // A constant exposure, so that the turning stone does not make the light flicker.
             exposure = fmt::format("{}", output.exposure_of(result.picture));
         } else {
             const std::string what = fmt::format("frame {} of {}", frame + 1, frames.count);

@@ -29,7 +29,7 @@ void add_stone_options(CLI::App& command, StoneScene& stone) {
         ->type_name("MM");
 }
 
-// What [render] of a scene says too; a plan has all of it.
+// Options that a scene's [render] has too; a plan sets all of them.
 void add_settings(CLI::App& command, RenderOptions& options, CLI::Option* plan) {
     command
         .add_option("--engine", options.engine, fmt::format("{}", fmt::join(engine_names(), ", ")))

@@ -14,7 +14,7 @@ SavedPlan read_saved_plan(const std::filesystem::path& file) {
     using Json = nlohmann::json;
     const Json stats = Json::parse(read_text(file), nullptr, false);
     if (stats.is_discarded()) throw InputError(file, "is no JSON: --plan takes what --stats wrote");
-    // What `--explain --stats` writes is the plan itself.
+    // `--explain --stats` writes the plan itself.
     const Json plan = stats.is_object() && stats.contains("plan") ? stats["plan"] : stats;
     if (!plan.is_object() || !plan.contains("settings") || !plan["settings"].is_object() ||
         !plan.contains("stone_and_light") || !plan["stone_and_light"].is_string())
@@ -23,7 +23,7 @@ SavedPlan read_saved_plan(const std::filesystem::path& file) {
                          "where the scene leaves something to culet");
     SavedPlan saved;
     saved.file = file;
-    // Read as a scene's own settings are, with the same checks. JSON's values are TOML's, too.
+    // Read like a scene's own settings, with the same checks. JSON's values are valid TOML.
     for (const auto& [key, value] : plan["settings"].items())
         saved.settings.push_back("render." + key + "=" + value.dump());
     saved.stone_and_light = plan["stone_and_light"].get<std::string>();

@@ -40,7 +40,7 @@ struct Sitter {
     Solid model;
 };
 
-/// POV-Ray's picture in linear light; `sky`: a panorama to put round the scene.
+/// POV-Ray's picture in linear light; `sky`: a panorama around the scene.
 Picture by_povray(const Scene& scene, const fs::path& sky, const fs::path& folder) {
     std::string text = povray_scene(scene).text;
     if (!sky.empty()) {
@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
                 scene.camera = synthetic::camera_at(sitter.model, place);
                 scene.settings.wavelengths_nm = {589.3};
                 scene.settings.depth = 10;
-                // Without a panorama a room of caps, whose floor is of one tone.
+                // Without a panorama, a room of caps with a floor of one tone.
                 if (sky.empty()) scene.lights = synthetic::named_lights("ring");
                 const Picture picture = by_povray(scene, sky, folder);
                 Photo photo = synthetic::photographed(picture, {}, random);
@@ -117,7 +117,8 @@ int main(int argc, char** argv) {
                 options.limits.angle = radians(1);
                 options.limits.shift_px = 1;
                 if (!sky.empty()) {
-                    // What a person would paint: a panorama behind the stone is no plain ground.
+                    // As a person would paint the mask: a panorama behind the stone is not a plain
+                    // background.
                     Scene plain = scene;
                     plain.lights = synthetic::named_lights("ring");
                     plain.settings.engine = "preview";

@@ -19,7 +19,7 @@
 namespace culet {
 namespace {
 
-// Table level: the shortest turn that levels it (Rodrigues).
+// Levels the table by the shortest turn (Rodrigues).
 Solid levelled(Solid scan) {
     Vec3 up{0};
     for (const Facet& f : scan.facets) {

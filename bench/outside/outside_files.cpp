@@ -1,4 +1,4 @@
-// Designs, meshes and polyhedra of other hands.
+// Designs, meshes and polyhedra by others.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 using namespace culet::test;
 
-// Counts and ratios found independently from the same files (metrics.json; half-spaces by Qhull,
+// Counts and ratios computed independently from the same files (metrics.json; half-spaces by Qhull,
 // meets contracted at 3e-4 of the width).
 TEST(OutsideDesigns, HaveThePublishedCountsAndRatios) {
     const auto designs = designs_in(outside::folder() / "designs");
@@ -41,7 +41,7 @@ TEST(OutsideDesigns, HaveThePublishedCountsAndRatios) {
         EXPECT_EQ(edge_count(solid), known["edges"].get<int>());
         EXPECT_EQ(cut.unused_planes.size(), known["unused_planes"].get<std::size_t>());
         EXPECT_EQ(cut.repeated_planes.size(), known["repeated_planes"].get<std::size_t>());
-        // Corners differ by what meets miss, so lengths agree to 3e-4 only.
+        // Corners differ by as much as meets miss, so lengths agree only to 3e-4.
         const Proportions p = proportions(solid);
         const double near = 3e-4;
         EXPECT_NEAR(p.width / known["W"].get<double>(), 1, near);
@@ -61,7 +61,7 @@ TEST(OutsideDesigns, HaveThePublishedCountsAndRatios) {
     }
 }
 
-// The same design in both forms of file: planes agree to 5e-9.
+// The same design in both file formats: planes agree to 5e-9.
 TEST(OutsideDesigns, GemAndAscAgree) {
     const std::filesystem::path folder = outside::folder() / "designs";
     for (const char* name : {"SRB", "Turkey", "Compear125", "CubeIllusionTri"}) {
@@ -99,7 +99,7 @@ TEST(OutsideDesigns, RoundTripAsMeshesAndDesigns) {
     }
 }
 
-// Two files of another hand: planar to 5e-6 of the size, as their notes say, with these counts.
+// Two files by others, planar to 5e-6 of the size as their notes say, with these counts.
 TEST(OutsideMeshes, HaveTheirFacets) {
     const std::filesystem::path folder = outside::folder() / "meshes";
     struct Case {
@@ -114,8 +114,8 @@ TEST(OutsideMeshes, HaveTheirFacets) {
     }
 }
 
-// Two polished diamonds as a scanner's own program found their polyhedra: from its planes the same
-// counts of vertices, edges and facets must come, and the vertices that it states to 1e-12.
+// Two polished diamonds with the polyhedra that a scanner's own program found. Its planes must give
+// the same counts of vertices, edges and facets, and the stated vertices to 1e-12.
 TEST(OutsideScans, HaveTheScannersPolyhedra) {
     const std::filesystem::path folder = outside::folder() / "scans";
     for (const char* name : {"1_GIA", "Pear63"}) {
@@ -157,7 +157,7 @@ TEST(OutsideScans, HaveTheScannersPolyhedra) {
             for (const Vec3& stated : vertices) {
                 nearest = std::min(nearest, glm::length(v - stated));
             }
-            // Nearly parallel planes spread the rounding of their coefficients (1e-12).
+            // Nearly parallel planes amplify the rounding of their coefficients (1e-12).
             EXPECT_LT(nearest, 1e-7);
         }
     }

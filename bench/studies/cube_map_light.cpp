@@ -9,7 +9,7 @@
 namespace culet {
 
 EnvironmentMap light_at_origin(const Lights& lights, int width) {
-    // One radiance for all colours: one wavelength.
+    // One wavelength: one radiance for all colours.
     const LightField field(lights, WavelengthSet({540}));
     EnvironmentMap map;
     map.width = width;

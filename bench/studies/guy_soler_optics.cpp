@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-// The table of section 4.2, with the indices that section 6.1 lists for the same stones; zircon and
-// emerald, which it does not list, with those of handbooks.
+// The table of section 4.2, with the indices of section 6.1 for the same stones. Zircon and emerald
+// are not listed there and have handbooks' indices.
 struct ReportedAngle {
     const char* stone;
     double n_o, n_e, degrees;

@@ -13,8 +13,8 @@
 namespace culet {
 namespace {
 
-// Their table of section 4.2, 2.328 and 0.324 degrees. Handbooks give birefringences to three
-// decimals; the one that each angle stands for must round to the handbook's.
+// Their table of section 4.2: 2.328 and 0.324 degrees. Handbooks give birefringences to three
+// decimals; the one that each angle corresponds to must round to the handbook's.
 TEST(GuySoler, AnglesOfZirconAndEmeraldStandForTheBirefringencesOfHandbooks) {
     const auto stands_for = [](double n_o, double n_e, double reported_deg) {
         return std::abs(n_e - n_o) * radians(reported_deg) / largest_wave_angle(n_o, n_e).angle;
@@ -23,9 +23,8 @@ TEST(GuySoler, AnglesOfZirconAndEmeraldStandForTheBirefringencesOfHandbooks) {
     EXPECT_NEAR(stands_for(1.582, 1.576, 0.324), 0.006, 0.0005);
 }
 
-// The closed form is exact to first order in the birefringence, so that what it is off by falls
-// with its square: to a quarter where that is halved. The next order makes the ratio 4 (1 +
-// O(0.01)).
+// The closed form is exact to first order in the birefringence, so its error is quadratic: a
+// quarter where the birefringence is halved. The next order makes the ratio 4 (1 + O(0.01)).
 TEST(GuySoler, TheClosedFormIsOffBySecondOrder) {
     const auto off = [](double difference) {
         const double n_o = 1.6 - difference / 2, n_e = 1.6 + difference / 2;
@@ -40,7 +39,7 @@ TEST(GuySoler, TheLargestAngleIsAtGrazingIncidenceWithTheAxisInItsPlane) {
     EXPECT_NEAR(found.axis.y, 0, 1e-4);
 }
 
-// Energy: what enters and what is reflected of s, and of p, is all that arrived.
+// Energy balance: for s and for p, what enters plus what is reflected equals what arrives.
 TEST(GuySoler, BothFacesKeepAllLight) {
     const Vec3 axis = glm::normalize(Vec3{0.5, 0.4, 0.7});
     for (const double incidence : {0.0, 0.4, 0.9, 1.4}) {
@@ -52,8 +51,8 @@ TEST(GuySoler, BothFacesKeepAllLight) {
     }
 }
 
-// Fresnel's coefficients are smooth in the indices: half the birefringence, half the difference, to
-// the second order, some hundredths here.
+// Fresnel's coefficients are smooth in the indices: half the birefringence gives half the
+// difference, up to second order (some hundredths here).
 TEST(GuySoler, MergedCoefficientsAreOffInProportionToTheBirefringence) {
     const Vec3 axis = glm::normalize(Vec3{0.5, 0.4, 0.7});
     const double whole = largest_face_difference(1.925, 1.984, axis, 900),

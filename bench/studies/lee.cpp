@@ -14,7 +14,7 @@ namespace culet {
 
 namespace {
 
-// By a ray table, with `change` made to the scene.
+// Drawn by a ray table, with `change` applied to the scene.
 template <class Change>
 CaptionedPicture by_table(const std::string& caption, Scene scene, const Change& change) {
     scene.settings.engine = k_raytable_engine;

@@ -27,7 +27,7 @@ FacePowers merged_face(double n_o, double n_e, const Vec3& axis, double incidenc
     const double n = 0.5 * (n_o + n_e), k = std::sin(incidence);
     const FaceAmplitudes glass = fresnel(1, n, std::cos(incidence));
     const Vec3 wave{k / n, 0, std::sqrt((1 - k / n) * (1 + k / n))}, s{0, -1, 0};
-    // The ordinary wave vibrates across the axis and the wave normal.
+    // The ordinary wave vibrates perpendicular to the axis and the wave normal.
     const Vec3 across = glm::cross(axis, wave);
     const double length = glm::length(across),
                  o_along_s = length > 0 ? glm::dot(across, s) / length : 1,

@@ -25,10 +25,10 @@ Scene brilliant(double diameters, int pixels, int depth) {
                       pixels, depth);
 }
 
-// Perspective refraction is right to first order in the angle between the rays of a front facet,
-// which falls with the distance; so does the width of the strips along edges where it is wrong:
-// half at twice the distance, to the next order of some twentieth. What is counted are pixels: four
-// standard deviations of a count, as if pixels were independent; in strips a few go together.
+// Perspective refraction is right to first order in the angle between a front facet's rays, which
+// falls with the distance. So does the width of the strips along edges where it is wrong: half at
+// twice the distance, up to the next order of about a twentieth. The tolerance is four standard
+// deviations of a count of independent pixels; in strips a few go together.
 TEST(VoelkerHamann, PerspectiveRefractionIsOffInProportionToTheFieldOfView) {
     const auto off = [](double diameters) {
         Scene scene = drawn_as(brilliant(diameters, 240, 6), Drawing::exact, 0);
@@ -40,10 +40,10 @@ TEST(VoelkerHamann, PerspectiveRefractionIsOffInProportionToTheFieldOfView) {
     EXPECT_NEAR(near / far, 2, 2 * (0.05 + chance));
 }
 
-// Reflections between planes have no chaos: the number of sequences of facets grows more slowly
+// Reflections between planes are not chaotic: the number of sequences of facets grows more slowly
 // than any exponential (Katok, The growth rate for the number of singular and periodic orbits for a
-// polygonal billiard, 1987). So the factor from one depth to the next falls; it would stay if every
-// beam split in as many.
+// polygonal billiard, 1987). So the factor from one depth to the next falls; it would be constant
+// if every beam split into as many.
 TEST(VoelkerHamann, BeamsDoNotGrowExponentiallyWithTheDepth) {
     const Scene scene = brilliant(6, 400, 8);
     const FacetNet net(scene.stone.solid);
@@ -63,7 +63,7 @@ TEST(VoelkerHamann, BeamsDoNotGrowExponentiallyWithTheDepth) {
     }
 }
 
-// What is cut would have seen the brightest light at most: lobes of 4.7, 2 and 1 and 0.1 from all
+// A cut path would have seen at most the brightest light: lobes of 4.7, 2 and 1 and 0.1 from all
 // around, together less than 7.8.
 TEST(GuySoler, ATreeCutAtFourPerCentLosesNoMoreThanItReports) {
     const auto drawn = [](double cut) {
@@ -81,7 +81,7 @@ TEST(GuySoler, ATreeCutAtFourPerCentLosesNoMoreThanItReports) {
     EXPECT_LE(lost, 7.8 * (cut.stats.remainder - whole.stats.remainder));
 }
 
-// Without dispersion three trees are three times the same one.
+// Without dispersion the three trees are the same.
 TEST(GuySoler, OneTreeServesThreeWavelengthsOfOneIndex) {
     Material glass;
     glass.index[0].n = 1.7;
@@ -98,21 +98,21 @@ TEST(GuySoler, TheirStonesHaveAsManyFacets) {
         EXPECT_EQ(stone_of_facets(facets).facets.size(), static_cast<std::size_t>(facets));
 }
 
-// docs/ray-tables.md: a picture from a table is the reference's but for rounding in single
-// precision and 4e-7 radians of direction; the light changes by less than 20 of its peak a radian
-// (lobes of exponent 16).
+// docs/ray-tables.md: a table's picture is the reference's up to single-precision rounding and
+// direction errors of 4e-7 radians. The light changes by less than 20 of its peak per radian (lobes
+// of exponent 16).
 TEST(Lee, NewLightFromATableIsTheReferencesPicture) {
     const TableCost cost = table_cost(brilliant(6, 60, 6));
     EXPECT_LT(cost.difference, 20 * 4e-7 + 1e-5);
 }
 
-// A ray of a convex stone leaves at the front, by reflection, and then at most once a face.
+// A ray of a convex stone leaves at the front, by reflection, and then at most once per face.
 TEST(Lee, ATableOfAConvexStoneHasAtMostOneExitAFace) {
     for (const int depth : {2, 5, 9}) {
         const TableCost cost = table_cost(brilliant(6, 40, depth));
         EXPECT_LE(cost.exits, cost.hits * depth) << depth;
         EXPECT_GE(cost.exits, cost.hits) << depth;
-        // Exits, and of each ray 4 bytes for its pixel, its distance and its last exit.
+        // Exits, and for each ray 4 bytes for its pixel, its distance and its last exit.
         EXPECT_NEAR(cost.bytes,
                     static_cast<double>(cost.exits) * static_cast<double>(exit_bytes(1)) +
                         static_cast<double>(cost.hits) * 12,
@@ -121,13 +121,13 @@ TEST(Lee, ATableOfAConvexStoneHasAtMostOneExitAFace) {
     }
 }
 
-// The closed form holds to the bisection's width.
+// The closed form agrees to the bisection's width.
 TEST(DiamondWebgl, TheTablesColourFlipsWhereTheLawOfRefractionSays) {
     for (const double n : {2.2, 2.4175, 2.65})
         EXPECT_NEAR(table_flip_deg(n), closed_form_table_flip_deg(n), 2e-6) << n;
 }
 
-// Light is neither made nor lost where a boundary moves; a smaller head is less blue.
+// Moving a boundary neither makes nor loses light; a smaller head gives less blue.
 TEST(DiamondWebgl, ItsBoundariesMoveLightFromOneColourToAnother) {
     const EyeLight light = EyeLightTracer(make_cut("round-brilliant")).trace({0, 0, 1}, 2.4175);
     const AsetShares ags = aset_shares(light),
@@ -138,9 +138,9 @@ TEST(DiamondWebgl, ItsBoundariesMoveLightFromOneColourToAnother) {
     EXPECT_LT(other.green, ags.green);
 }
 
-// Across a stone of diameter 1 the direction to a window turns by 1 / distance: an edge of light is
-// misplaced by as much, and the error is its share. Half at twice the distance, to the next order,
-// 1 / distance.
+// Across a stone of diameter 1 the direction to a window changes by 1 / distance. An edge of light
+// is misplaced by that much, and the error is proportional: half at twice the distance, up to the
+// next order, 1 / distance.
 TEST(DiamondWebgl, ACubeMapsErrorFallsWithTheDistanceOfTheLight) {
     Scene scene = brilliant(6, 120, 6);
     const double size = diameter(scene.stone.solid);
@@ -149,11 +149,11 @@ TEST(DiamondWebgl, ACubeMapsErrorFallsWithTheDistanceOfTheLight) {
     EXPECT_NEAR(near / far, 2, 2 * 2 / 6.0);
 }
 
-// Sixteen times the rays: a quarter of the noise, where they are independent. Spread evenly over a
-// pixel they do better at edges, rays^-3/4 there at best: an eighth (Mitchell, Consequences of
-// stratified sampling in graphics, 1996). A tenth for the chance of a small picture. The sun is
-// left out: what one ray in a thousand sees through the glass ball has no variance to speak of in
-// few.
+// Sixteen times the rays give a quarter of the noise if they are independent. Spread evenly over a
+// pixel they do better at edges, at best rays^-3/4, an eighth (Mitchell, Consequences of stratified
+// sampling in graphics, 1996). A tenth is allowed for chance in a small picture. The sun is
+// excluded: what one ray in a thousand sees through the glass ball cannot be estimated from few
+// samples.
 TEST(Deng, NoiseFallsWithTheRootOfTheRaysAtLeast) {
     const auto noise = sampling_noise(CULET_SOURCE_DIR "/samples/plain-shading/spheres.toml", 64,
                                       {4, 64}, {"light.cap.0.radiance=0"});

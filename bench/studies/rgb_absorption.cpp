@@ -11,7 +11,7 @@ double linear_absorption_error(double x) {
 }
 
 double thickness_of_linear_error(double error) {
-    // exp(-x) - 1 + x grows with x: Newton's method from its leading term, x^2 / 2.
+    // exp(-x) - 1 + x increases with x: Newton's method from its leading term, x^2 / 2.
     double x = std::sqrt(2 * error);
     for (int i = 0; i < 50; ++i) x -= (std::expm1(-x) + x - error) / -std::expm1(-x);
     return x;

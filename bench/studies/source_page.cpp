@@ -16,7 +16,7 @@ namespace culet {
 
 namespace {
 
-// A page holds a dozen pictures: as JPEG they are a sixth of what they are as PNG.
+// A page has a dozen pictures; JPEGs are a sixth of the size of PNGs.
 constexpr int k_jpeg_quality = 88;
 
 std::string jpeg_uri(const CaptionedPicture& shown) {

@@ -59,7 +59,6 @@ TEST(StudyParameters, SayWhatIsMissing) {
     EXPECT_THROW(parameters.count("a"), InputError);
 }
 
-// Every study finds its table in the file.
 TEST(StudyParameters, HaveATableForEveryStudy) {
     const TomlTable all = read_toml(CULET_SOURCE_DIR "/bench/studies/parameters.toml");
     for (const SourceStudy& study : source_studies())

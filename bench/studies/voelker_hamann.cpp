@@ -120,7 +120,7 @@ void write_depths(SourcePage& page, Parameters& parameters) {
 void write_rivals(SourcePage& page, Parameters& parameters) {
     page.section("Beams against ray tracing (fig. 9)");
     Scene scene = brilliant_scene(parameters);
-    scene.lights = smooth_lights(0.9);  // a PNG, which POV-Ray writes, holds no more than 1
+    scene.lights = smooth_lights(0.9);  // POV-Ray writes a PNG, whose values end at 1
     Scene truth = scene;
     truth.settings.engine = k_reference_engine;
     truth.settings.check = Check::none;
@@ -208,7 +208,7 @@ void write_microscope(SourcePage& page, Parameters& parameters) {
         "makes of a stone: below the table little is sharp, and colours overlap.");
 }
 
-// Of the tier of that name, after.
+// The optimised angle of the tier of that name.
 double tier_deg(const Optimized& found, const char* name) {
     for (const OptimizedTier& tier : found.tiers)
         if (tier.tier.name == name) return degrees(tier.to);

@@ -35,8 +35,8 @@ WaveAngle at(double n_o, double n_e, double incidence, double polar, double azim
 }  // namespace
 
 WaveAngle largest_wave_angle(double n_o, double n_e) {
-    // A grid over all, then ever finer ones about the best so far. A turn of the axis by 180
-    // degrees changes nothing, and neither does a mirror in the plane of incidence.
+    // A grid over the whole range, then ever finer ones about the best so far. Turning the axis by
+    // 180 degrees changes nothing, nor does mirroring it in the plane of incidence.
     constexpr int k_steps = 18, k_rounds = 40;
     double middle[3] = {k_pi / 4, k_pi / 2, k_pi / 2}, half[3] = {k_pi / 4, k_pi / 2, k_pi / 2};
     WaveAngle best;

@@ -1,4 +1,4 @@
-// Photographs against renders and scenes.
+// Compares photographs with renders and scenes.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,4 +1,4 @@
-// Fits, with what they know of each facet.
+// Fits, with the uncertainty of each facet.
 
 #include "fit/fit.h"
 
@@ -79,7 +79,7 @@ PythonFit fit_of(const PythonStone& drawn, const py::object& progress, const py:
     return fit;
 }
 
-// One number of each facet.
+// One number per facet.
 template <class Number>
 py::array_t<double> of_facets(const PythonFit& fit, Number number) {
     std::vector<double> values;
@@ -87,7 +87,7 @@ py::array_t<double> of_facets(const PythonFit& fit, Number number) {
     return array_of(values, {static_cast<py::ssize_t>(values.size())});
 }
 
-// Degrees and the stone's unit; empty: None.
+// In degrees and the stone's unit; None if empty.
 py::object covariance_of(const PythonFit& fit) {
     std::vector<double> values = fit.result.facet_covariance;
     if (values.empty()) return py::none();

@@ -1,4 +1,4 @@
-// What a cut does with light.
+// Grades: what a cut does with light.
 
 #include "render/grade/grade.h"
 

@@ -1,4 +1,4 @@
-// The compiled half of Python's culet. What people call stands in culet/*.py.
+// The compiled half of Python's culet. Users call culet/*.py.
 
 #include "python/bindings/rooms.h"
 #include "stone/text/errors.h"
@@ -9,7 +9,7 @@ PYBIND11_MODULE(_culet, module) {
     using namespace culet;
     module.doc() = "The compiled half of culet: import culet instead.";
     module.attr("version") = CULET_VERSION;
-    // The last registered is asked first.
+    // pybind11 tries the translator that was registered last first.
     const py::object& error =
         py::register_exception<InternalError>(module, "InternalError", PyExc_RuntimeError);
     error.doc() = "culet was wrong, not its input: please report it.";

@@ -19,12 +19,12 @@ namespace {
 using Shape = std::vector<py::ssize_t>;
 constexpr py::ssize_t k_largest_side = 1 << 16;
 
-// Planes of one picture, one after the other.
+// Appends the planes of one picture.
 void append(std::vector<float>& to, const std::vector<std::vector<float>>& planes) {
     for (const std::vector<float>& plane : planes) to.insert(to.end(), plane.begin(), plane.end());
 }
 
-// The array under a key, of the shape that it must have; empty: there is none.
+// The array under a key, checked for its shape; empty: missing.
 std::vector<float> floats_in(const py::dict& arrays, const char* key, const Shape& shape) {
     if (!arrays.contains(key) || arrays[key].is_none()) return {};
     const auto array = FloatArray::ensure(arrays[key]);

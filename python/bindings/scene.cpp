@@ -23,7 +23,7 @@ namespace culet {
 
 namespace {
 
-// A material that the stone does not have cannot be guessed.
+// If the stone has no material, it cannot be guessed.
 void require_material(const PythonStone& stone, const StoneScene& choices) {
     if (!stone.has_material && choices.material.empty())
         throw InputError(stone.file,

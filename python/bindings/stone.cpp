@@ -54,7 +54,7 @@ PythonStone load_stone(const fs::path& file, const std::vector<std::string>& ove
     return result;
 }
 
-// Facets that leave the stone no part of its surface are told.
+// Facets that get no part of the stone's surface are reported.
 PythonStone stone_of_planes(const DoubleArray& normals, const DoubleArray& offsets,
                             std::vector<std::string> names, const std::string& material) {
     if (normals.ndim() != 2 || normals.shape(1) != 3 || offsets.ndim() != 1 ||
@@ -180,7 +180,7 @@ py::array_t<double> vertices_of(const PythonStone& s) {
     return array_of(values, Sizes{size_of(s.stone.solid.vertices), 3});
 }
 
-// One number a facet.
+// One number per facet.
 py::array_t<double> of_facets(const PythonStone& s, const auto& number) {
     std::vector<double> values;
     for (const Facet& f : s.stone.solid.facets) values.push_back(number(f));

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A picture of more would not fit a page's memory.
+// A larger picture would not fit a page's memory.
 constexpr int k_widest = 8192;
 constexpr double k_most_pixels = 3.4e7;
 

@@ -35,7 +35,7 @@ std::string key_of(const std::string& source) {
     return fmt::format("{:016x}", hash);
 }
 
-// A golden step through the pattern: any first few are spread over the pixel.
+// Golden-ratio steps through the pattern, so that any first few are spread over the pixel.
 std::size_t spread(std::size_t i, std::size_t count) {
     std::size_t step = std::max<std::size_t>(1, count * 618 / 1000);
     while (std::gcd(step, count) != 1) ++step;
@@ -53,7 +53,7 @@ GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int s
     options.depth = std::min(setup.depth, k_deepest_on_gpu);
     options.cut_weight = setup.cut_weight;
     GpuProgram program = gpu_program(scene, setup.optics, setup.colours, options);
-    // From the stone to the lights is the turn back: its columns are the turn's rows.
+    // The inverse turn leads from the stone to the lights: its columns are the turn's rows.
     for (GpuUniform& uniform : program.uniforms) {
         if (uniform.name == "u_light_turn")
             uniform.values.assign(request.turn.begin(), request.turn.end());

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Whatever may stand in a text of TOML and on a command line without quotes.
+// A name that needs no quotes in TOML and on a command line.
 std::string plain_name(const std::string& name) {
     std::string plain;
     for (const char c : name.substr(name.find_last_of("/\\") + 1))
@@ -19,7 +19,7 @@ std::string plain_name(const std::string& name) {
     return plain.empty() ? "panorama" : plain;
 }
 
-// The mean of squares of `by` pixels.
+// Averages squares of `by` x `by` pixels.
 Picture reduced(const Picture& picture, int by) {
     Picture small;
     small.width = picture.width / by;
@@ -40,7 +40,8 @@ Picture reduced(const Picture& picture, int by) {
 }  // namespace
 
 std::string pfm_of(int width, int height, const std::vector<float>& rgb) {
-    // Rows from the bottom; a negative scale: little-endian, as all machines that culet runs on.
+    // Rows from the bottom. The negative scale means little-endian, as are all machines that culet
+    // runs on.
     std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", width, height);
     const std::size_t row = 3 * static_cast<std::size_t>(width) * sizeof(float);
     const std::size_t start = bytes.size();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<double, 9> k_unturned{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-// Turned maps are sampled anew; while the stone moves a coarse one does.
+// Turning a map samples it anew; while the stone moves, a coarse map is used.
 constexpr int k_quick_map_width = 256;
 
 std::shared_ptr<const EnvironmentMap> coarse(const EnvironmentMap& map) {
@@ -36,7 +36,7 @@ std::shared_ptr<const EnvironmentMap> coarse(const EnvironmentMap& map) {
     return small;
 }
 
-// Whatever of a stone beams are built from: another of these is another stone.
+// Everything of a stone from which beams are built; a change needs new beams.
 std::string body_of(const Stone& stone) {
     nlohmann::ordered_json body = json_of(stone.material);
     for (const Vec3& axis : stone.crystal.axes) body["crystal"].push_back(json_of(axis));
@@ -46,7 +46,7 @@ std::string body_of(const Stone& stone) {
 }  // namespace
 
 std::string refused_by_page(Scene scene) {
-    scene.stone.convex = true;  // not asked for
+    scene.stone.convex = true;  // skips the test
     return refused_by_beams(scene);
 }
 

@@ -232,7 +232,7 @@ Json ViewerEngine::State::panorama(const Json& arguments, std::string_view bytes
             {"notes", panorama.notes}};
 }
 
-// The one list of what a page may ask, whether the engine is in its worker or in the program.
+// The only list of a page's calls, whether the engine runs in a worker or in the program.
 const ViewerEngine::State::Call ViewerEngine::State::k_calls[] = {
     {"open", [](State& s, const Json& a, std::string_view text) { return s.open(a, text); }},
     {"set", [](State& s, const Json& a, std::string_view) { return s.set(a); }},

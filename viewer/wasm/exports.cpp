@@ -1,4 +1,4 @@
-// The engine as a page's worker calls it: texts and bytes by their place in memory.
+// The engine's functions for a page's worker; texts and bytes are passed by their place in memory.
 
 #include <emscripten/emscripten.h>
 
@@ -36,7 +36,7 @@ EMSCRIPTEN_KEEPALIVE void culet_give_back(void* place) {
     std::free(place);
 }
 
-/// 1: `culet_answer` is what was asked for; 0: it is {"error": "..."}.
+/// 1: `culet_answer` is the answer; 0: it is {"error": "..."}.
 EMSCRIPTEN_KEEPALIVE int culet_call(const char* call, std::size_t call_size, const char* arguments,
                                     std::size_t arguments_size, const char* attached,
                                     std::size_t attached_size) {

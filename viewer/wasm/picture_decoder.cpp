@@ -1,6 +1,6 @@
-// Pictures of light for a page: PFM and HDR by the program's own readers, JPEG and PNG by
-// stb_image, EXR by tinyexr. The others of the program's readers need libraries that are not to be
-// had for WebAssembly.
+// Decodes pictures of light for a page: PFM and HDR by the program's own readers, JPEG and PNG by
+// stb_image, EXR by tinyexr. The program's other readers need libraries that do not exist for
+// WebAssembly.
 
 #include <array>
 #include <cstdlib>

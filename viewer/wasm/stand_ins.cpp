@@ -1,4 +1,4 @@
-// What the engine leaves to the program: files, and what needs libraries that a page does without.
+// Stand-ins for what only the program has: files, and what needs libraries that a page lacks.
 
 #include "render/engine/engine.h"
 #include "render/image/colour_profile.h"
@@ -60,7 +60,7 @@ bool ColourProfile::is_srgb() const {
 }
 void ColourProfile::linear(const float*, std::size_t, float*) const {}
 
-// A scene may name any; the page draws by beams.
+// A scene may name any engine; the page draws with beams.
 std::vector<std::string> engine_names() {
     return {
         k_auto_engine, k_reference_engine, k_beam_engine,     k_preview_engine, "flat", "gouraud",
@@ -69,7 +69,7 @@ std::vector<std::string> engine_names() {
 
 const Engine& reference_engine();  // render/reference/reference_engine.cpp
 
-// Others are drawn by frames of beams.
+// Other stones are drawn by frames of beams.
 const Engine& engine_named(const std::string& name) {
     check(name == k_reference_engine, "a page has one engine for stones that are not convex");
     return reference_engine();
@@ -80,12 +80,12 @@ void add_glare(std::vector<float>&, const PictureSize&, double, double) {
     throw InternalError("a page draws no glare");
 }
 
-// Asked for stones of more than some ten thousand facets only (convexity.cpp).
+// Called only for stones of more than some ten thousand facets (convexity.cpp).
 HalfEdges half_edges(const Solid&) {
     throw InputError("the stone has too many facets for a page");
 }
 
-// Beams draw one stone alone.
+// Beams draw a single stone only.
 std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
                                                     const WavelengthSet& wavelengths) {
     if (scene.has_objects()) throw InputError("a page draws one stone alone, without objects");
