@@ -1,5 +1,6 @@
-// The reference renderer beside POV-Ray 3.7: the same scenes at max_trace_level 2..10, difference
-// of the pictures and CPU time of both, each on one thread. docs/rendering.md says how to read it.
+// Compares the reference renderer with POV-Ray 3.7: the same scenes at max_trace_level 2..10, the
+// difference of the pictures, and the CPU time of each on one thread. docs/rendering.md explains
+// the results.
 //
 //   against_povray [PIXELS [SCENE.toml]]      a table on stdout
 //

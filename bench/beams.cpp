@@ -1,6 +1,6 @@
-// The renderer by beams: pictures a second and error, one parameter at a time about a base case
-// (bench_scenes.h), beside the reference, a plain ray tracer and POV-Ray. docs/engines.md says
-// how to read it.
+// Measures the engine beams: pictures per second and error, varying one parameter at a time about a
+// base case (bench_scenes.h), beside the reference, a plain ray tracer and POV-Ray. docs/engines.md
+// explains the results.
 //
 //   bench_beams [--pixels N] [--section NAME] [--json FILE] [--cache DIR]
 

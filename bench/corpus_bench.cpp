@@ -1,5 +1,5 @@
-// Two states of the fit held against each other, fit by fit: which were found, which are lost, and
-// at what cost.
+// Compares two states of the fit, fit by fit: which stones were found, which were lost, and the
+// cost.
 //
 //   bench_corpus --json after.json --against docs/benchmarks/fit-corpus.json
 //   bench_corpus --read after.json --against before.json        (compares only)

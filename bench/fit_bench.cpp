@@ -1,6 +1,6 @@
-// The fit: how often it finds the stone from how bad a mesh, whether it ever calls a broken stone
-// good, and how long it takes. Random stones, made from seeds; docs/accuracy.md has its figures,
-// docs/fit-times.md its times.
+// Measures the fit: how often it finds the stone by the error of the start mesh, whether it ever
+// calls a broken stone good, and its time. Random stones from seeds; docs/accuracy.md has the
+// figures, docs/fit-times.md the times.
 //
 //   bench_fit [--seeds N] [--section NAME] [--stone NAME] [--at PERCENT] [--json FILE]
 

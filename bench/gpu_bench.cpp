@@ -1,12 +1,12 @@
-// The GPU kernel beside the reference and the beams: bench_gpu [--pixels N] [--json FILE]
+// Compares the GPU kernel with the reference and the beams: bench_gpu [--pixels N] [--json FILE]
 //
-// A round brilliant of 73 facets at depth 7, one ray a pixel, the same rays for all three. A frame
-// of the kernel is one pass of all wavelengths with the program compiled; processor time is that of
-// all threads of the driver, which computes on the processor (Mesa's llvmpipe) or not at all.
-// RMSE is relative to the mean, over pixels that are not at an edge of the path pattern ("inner" of
-// all "pixels" of the stone: tests/render/gpu/path_pattern.h). "off" are pixels of all that differ
-// by more than a hundredth of the mean: rays that pass an edge within single precision.
-// The last table is what a person who turns the stone in a large window waits for.
+// A round brilliant of 73 facets at depth 7, one ray per pixel, the same rays for all three. A
+// frame of the kernel is one pass of all wavelengths with the program compiled. Processor time is
+// that of all threads of the driver, which computes on the processor (Mesa's llvmpipe) or not at
+// all. RMSE is relative to the mean, over the pixels ("inner" of all "pixels" of the stone) that
+// are not at an edge of the path pattern (tests/render/gpu/path_pattern.h). "off" are all pixels
+// that differ by more than a hundredth of the mean: rays that pass an edge within single precision.
+// The last table is the waiting time of a person who turns the stone in a large window.
 
 #include <fmt/format.h>
 

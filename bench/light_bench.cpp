@@ -1,5 +1,5 @@
-// Light from two simulated photographs of a mirror ball: how far off it is by the ball's size, and
-// whether the turn between the cameras is as sure as it is said to be.
+// Light from two simulated photographs of a mirror ball: its error by the ball's size, and whether
+// the stated uncertainty of the turn between the cameras is right.
 //
 //   build/bench_light --seeds 20 --radius 110
 //   build/bench_light --seeds 1 --radius 400 --panorama studio.exr --width 256 -v

@@ -1,9 +1,9 @@
-// How well the calibrated comparison tells right stones from wrong ones, and how near the
-// equivalent facet error comes: simulated photographs of stones whose facet error is known.
+// How well the calibrated comparison tells right stones from wrong ones, and how accurate the
+// equivalent facet error is. It uses simulated photographs of stones with known facet error.
 //
-// The model is an irregular stone (a standard cut with 0.6 degrees of facet error): a fit. The
-// photographs are of that stone with further errors, of the same stone under another light or in
-// another pose, of the standard cut it comes from, and of another stone of the same class.
+// The model is a fit: an irregular stone (a standard cut with 0.6 degrees of facet error). The
+// photographs show that stone with further errors, the same stone under another light or in another
+// pose, the standard cut that it comes from, and another stone of the same class.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
-// Objects around the stone, by the reference engine: time of a ring, and pictures beside POV-Ray's
-// where both compute the same (mirrors, glass, things that shine). docs/objects.md has the figures.
+// Objects around the stone in the reference engine: the time of a ring, and pictures beside
+// POV-Ray's where both compute the same (mirrors, glass, luminous objects). docs/objects.md has the
+// figures.
 //
 //   bench_objects            a table on stdout
 

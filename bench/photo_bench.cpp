@@ -1,6 +1,5 @@
-// culet photo with a long series of large JPEGs: processor time, memory, the size of the file, and
-// how far its light is off. The camera is moved between shots, so that each of them is shifted
-// back.
+// Measures culet photo on a long series of large JPEGs: processor time, memory, file size, and the
+// error of the light. The camera moves between shots, so each has to be shifted back.
 //
 //     bench_photo [--shots 18] [--width 5616] [--still]
 

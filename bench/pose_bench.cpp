@@ -1,5 +1,5 @@
-// Registration on simulated photographs: how near the camera found comes to the camera that took
-// the picture, whether the uncertainty given is true, and whether what is wrong is refused.
+// Registers simulated photographs: how accurate the found camera is, whether its stated uncertainty
+// is right, and whether wrong photographs are refused.
 //
 //   build/bench_pose --seeds 100 --as-taken --stone-px 200 400
 //   build/bench_pose --seeds 100 --as-taken --fault other-cut

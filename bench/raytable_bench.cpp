@@ -1,10 +1,10 @@
-// Ray tables against the reference: bench_raytable [PIXELS]
+// Compares ray tables with the reference: bench_raytable [PIXELS]
 //
-// The round brilliant of bench_scenes.h at depth 5, one ray a pixel, all on one thread: how large
-// its table is, what making and relighting take, and how far the pictures are from the reference's
-// along the same rays. Then the same with a body colour, with dispersion, in a crystal, and of a
-// stone that is not convex. Errors are over the stone's pixels, relative to their mean; "worst" is
-// the largest difference over the brightest pixel.
+// Uses the round brilliant of bench_scenes.h at depth 5, one ray per pixel, on one thread. Measures
+// the table's size, the time to make it and to relight, and the pictures' error against the
+// reference along the same rays. Then the same with a body colour, with dispersion, for a crystal,
+// and for a stone that is not convex. Errors are over the stone's pixels, relative to their mean;
+// "worst" is the largest difference relative to the brightest pixel.
 
 #include <fmt/format.h>
 

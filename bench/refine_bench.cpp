@@ -1,5 +1,5 @@
-// Facets from photographs: stones whose readings are off by a known angle, photographed (simulated)
-// in known light, refined, and compared with the true stone.
+// Refines facets from photographs. The stones' readings are off by a known angle; the stones are
+// photographed (simulated) in known light, refined, and compared with the truth.
 //
 //     bench_refine [--stones 8] [--deg 0.3] [--photographs 3] [--light lobes|windows]
 

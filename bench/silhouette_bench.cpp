@@ -1,5 +1,5 @@
-// Scanned stones from half of their contours, held against the other half and against the scanner's
-// own polyhedron.
+// Fits scanned stones to half of their contours, and compares with the other half and with the
+// scanner's own polyhedron.
 //   bench_silhouettes FOLDER round-brilliant [FOLDER pear ...]
 // FOLDER holds shadow_contours.dat and polyhedron.dat of one stone.
 

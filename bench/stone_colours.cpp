@@ -1,10 +1,10 @@
-// The catalogue's stones held against published colours: bench_stone_colours
+// Compares the catalogue's stones with published colours: bench_stone_colours
 //
-// Body colour (render/colour/material_colour.h) at 6.5 mm, and the mean of a round brilliant of 6.5
-// mm seen face up in white light from everywhere, which is what a spectrophotometer with a sphere
-// measures of a cut stone. Measured with one, natural rubies have L* 32 to 44, a* 6 to 27, b* -5 to
-// 4 in D65 (Influence of Light Source and Cathodoluminescence on the Color Parameters of Ruby Red,
-// Key Eng. Mater. 492, 379, 2011, abstract).
+// Prints the body colour (render/colour/material_colour.h) at 6.5 mm, and the mean of a round
+// brilliant of 6.5 mm face up in white light from everywhere, which is what a spectrophotometer
+// with a sphere measures on a cut stone. So measured, natural rubies have L* 32 to 44, a* 6 to 27,
+// b* -5 to 4 in D65 (Influence of Light Source and Cathodoluminescence on the Color Parameters of
+// Ruby Red, Key Eng. Mater. 492, 379, 2011, abstract).
 
 #include <fmt/format.h>
 

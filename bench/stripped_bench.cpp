@@ -1,9 +1,9 @@
-// What effects that are off cost: an isotropic, clear stone in unpolarised light at one wavelength,
-// drawn by the renderer as it is, by the renderer compiled without any effect
-// (render/setup/built_effects.h), and by a tracer written for nothing else (bare_tracer.h).
+// The cost of effects that are off. A clear isotropic stone in unpolarised light at one wavelength
+// is drawn by the normal renderer, by the renderer compiled without any effect
+// (render/setup/built_effects.h), and by a minimal tracer (bare_tracer.h).
 //
-// This source is built twice: bench_stripped asks, in alternating order, itself and
-// bench_stripped_without for one drawing at a time, and compares processor times and pictures.
+// This source is built twice. bench_stripped runs itself and bench_stripped_without in alternating
+// order, one drawing at a time, and compares processor times and pictures.
 
 #include <fmt/format.h>
 

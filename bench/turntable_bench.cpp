@@ -1,5 +1,4 @@
-// Pictures of a simulated turntable, and how near the facets come that are fitted to their
-// outlines.
+// Fits facets to the outlines in pictures of a simulated turntable, and measures their error.
 //   bench_turntable [--cut NAME] [--pictures N] [--size PIXELS] [--seed N]
 
 #include <fmt/format.h>

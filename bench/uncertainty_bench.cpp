@@ -1,6 +1,6 @@
-// Do pictures of stones drawn from a fit's uncertainty hold the true stone's picture as often as
-// they say? Stones that are known are read by noisy instruments, fitted, and drawn; of the truth's
-// pixels 68.3 in 100 are to lie within one sigma, 95.4 within two.
+// Do pictures of stones drawn from a fit's uncertainty contain the true stone's picture as often as
+// they claim? Known stones are measured with simulated noise, fitted, and drawn. Of the truth's
+// pixels 68.3 % should lie within one sigma and 95.4 % within two.
 //   bench_uncertainty [--stones N] [--draws N] [--size PIXELS]
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// The viewer's engine as the program has it, one thread: milliseconds of the pictures that
-// viewer_bench.py times in a browser, as JSON. usage: bench_viewer REPEATS
+// Times the viewer's engine in the program, on one thread: milliseconds of the pictures that
+// viewer_bench.py times in a browser, as JSON. Usage: bench_viewer REPEATS
 
 #include <fmt/format.h>
 

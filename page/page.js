@@ -1,6 +1,6 @@
 "use strict";
-// Without this script the page still shows everything; it only moves the dividers and repeats a
-// facet's title in a line that touch screens can see.
+// Without this script the page still shows everything. The script only moves the dividers and
+// repeats a facet's title in a line that touch screens can show.
 for (const slider of document.querySelectorAll(".slider")) {
   const control = slider.querySelector("input");
   const pictures = slider.querySelector(".slider-pictures");
@@ -24,7 +24,7 @@ for (const slider of document.querySelectorAll(".slider")) {
   pictures.style.touchAction = "pan-y";
   pictures.style.cursor = "ew-resize";
   move(control.value);
-  // The one, then the other, in the same place: what differs jumps. Twice a second is slow enough
+  // Shows both in turn in the same place, so that differences jump. Twice a second is slow enough
   // for people whom flicker harms (WCAG 2.3.1 allows three).
   const blink = slider.querySelector(".blink");
   if (!blink) continue;
@@ -53,7 +53,7 @@ for (const drawings of document.querySelectorAll(".drawings")) {
     facet.addEventListener("focus", () => choose(facet));
   }
 }
-// The viewer is a page of its own inside this one, made when it is first asked for.
+// The viewer is a separate page inside this one, made when it is first opened.
 const viewer = document.getElementById("viewer");
 if (viewer) {
   let frame = null;
@@ -76,8 +76,8 @@ if (viewer) {
   for (const picture of document.querySelectorAll(".turns img")) picture.addEventListener("click", open_viewer);
   viewer.querySelector(".viewer-close").addEventListener("click", () => viewer.close());
 }
-// Paper cannot be clicked: what is folded is printed open. It says when it was printed, which the file
-// does not: the same input gives the same bytes.
+// Paper cannot be clicked, so print collapsed parts open. The date is added at printing because the
+// file has none: the same input gives the same bytes.
 const opened = [];
 const printed = document.createElement("p");
 printed.className = "printed note";

@@ -1,6 +1,6 @@
-// Photographs by POV-Ray, a camera that shares nothing with culet but the scene: of cuts, and of a
-// real diamond as scanned where the scan is at hand, under a real panorama where one is installed
-// (package blender-data); each is registered, and the camera found is held against POV-Ray's.
+// Registers photographs by POV-Ray, a camera that shares only the scene with culet, and compares
+// the found camera with POV-Ray's. The photographs show cuts and, where the scan is available, a
+// real diamond; under a real panorama where one is installed (package blender-data).
 //
 //   sh bench/cameras/run.sh
 

@@ -1,5 +1,5 @@
 // The sample real-brilliant, fitted to its rounded readings, against the unrounded planes of the
-// scan that they were taken from: polyhedron.dat of stone "1_GIA" in
+// scan that they come from: polyhedron.dat of stone "1_GIA" in
 // ilya-palachev/polyhedra-correction-library.
 
 #include <fmt/format.h>

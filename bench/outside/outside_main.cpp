@@ -1,4 +1,4 @@
-// Reading and fitting what other hands made: their designs, meshes and scans.
+// Reads and fits designs, meshes and scans that others made.
 //   bench_outside FOLDER [GoogleTest's options]
 // FOLDER holds designs/*.asc, *.gem and metrics.json, meshes/*.stl, scans/*/polyhedron.dat.
 

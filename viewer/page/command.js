@@ -9,7 +9,7 @@ class Command {
     const [width, height] = this.page.picture.size(), stone = this.page.shown_index(),
                   values = this.page.state.values;
     const settings = this.page.settings(stone);
-    // The scene's own light by its name: a stone without a scene has none that could be turned.
+    // The scene's own light by its name. A stone without a scene has no light of its own to turn.
     if (this.page.own_light() && !settings.some((key) => key.startsWith("light")))
       settings.push(`light.preset=${toml_text(this.page.own_light())}`);
     const rays = this.page.drawn_by_rays;
@@ -25,11 +25,11 @@ class Command {
       lights_turned: values.polariser === null ? this.page.lights_turn() : null,
     });
   }
-  // As far as the file. A standard cut is made first.
+  // The command up to the file. A standard cut is made first.
   of_stone(index) {
     const {cut, convex, material} = this.page.item().stones[index];
     const changed = this.page.state.get("cut");
-    // What --light says would hide every light that is set.
+    // --light would hide all other light settings.
     if (!changed && this.page.item().command)
       return this.page.item().command.replace(/ --light (?:'[^']*'|\S+)/, "");
     if (!cut) return "culet render STONE";
@@ -39,7 +39,7 @@ class Command {
       sizes.join("")} -o design.obj && culet render design.obj --material ${
       quoted(material.id || "diamond")}${convex === false ? " --set convex=false" : ""}`;
   }
-  // What the command does not say.
+  // What the command cannot express.
   limits() {
     const values = this.page.state.values, limits = [];
     if (values.light === "panorama" && this.page.panorama)

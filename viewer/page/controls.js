@@ -1,5 +1,5 @@
 "use strict";
-// Small parts of which the panels are made. Text goes in as text, never as HTML.
+// The elements of the panels. Text is inserted as text, never as HTML.
 
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
@@ -26,7 +26,7 @@ function svg_element(tag, attributes = {}, ...children) {
 let count_of_controls = 0;
 function new_id(word) { return word + "-" + ++count_of_controls; }
 
-// A part of a panel: its heading, an optional line of explanation, its controls.
+// A part of a panel: heading, optional explanation, controls.
 function group(title, note, ...controls) {
   const id = new_id("group");
   return element("section", {class: "group", "aria-labelledby": id}, element("h3", {id}, title),
@@ -37,7 +37,7 @@ function button(text, onclick, attributes = {}) {
   return element("button", {type: "button", onclick, ...attributes}, text);
 }
 
-// A number by a slider, and beside it as text. `options`: {label, least, most, step, unit, digits,
+// A number with a slider and a text field. `options`: {label, least, most, step, unit, digits,
 // value, what, onchange(value, done)}; `done` is false while the slider is dragged.
 function slider(options) {
   const id = new_id("slider");
@@ -99,8 +99,8 @@ function toggle(label, onchange, attributes = {}) {
     return made;
 }
 
-// One of several. `choices`: [{value, label, what}]; `style`: "cards" (each with its line) or
-// "segments" (side by side).
+// One of several choices. `choices`: [{value, label, what}]; `style`: "cards" (each with its
+// explanation) or "segments" (side by side).
 function choice(legend, choices, onchange, style, name) {
     const group_name = new_id("choice");
     const inputs = choices.map(({value}) => element("input", {
@@ -125,7 +125,7 @@ function choice(legend, choices, onchange, style, name) {
     return made;
 }
 
-// Degrees by a dial that is dragged, and the same by a number field.
+// An angle in degrees, with a dial to drag and a number field.
 function dial(label, onchange, name) {
     const id = new_id("dial");
     const needle = svg_element("line", {x1: 3, y1: 20, x2: 37, y2: 20, class: "needle"});
@@ -173,7 +173,7 @@ function dial(label, onchange, name) {
     return made;
 }
 
-// A file of the person's own.
+// Opens a file of the user's.
 function file_button(label, accept, onfile) {
     const input = element("input", {
       type: "file",

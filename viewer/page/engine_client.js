@@ -1,11 +1,11 @@
 "use strict";
-// The engine in its worker: calls and their answers. One worker at a time; a dead one is replaced
-// by `start`.
+// The engine in its worker: calls and their answers. There is one worker at a time; `start`
+// replaces a dead one.
 
 class EngineError extends Error {}
 
 class EngineClient {
-  // `ondeath(line)` hears when the worker ends by itself.
+  // `ondeath(line)` is called when the worker ends unexpectedly.
   constructor(ondeath) {
     this.ondeath = ondeath;
     this.waiting = new Map();
@@ -14,7 +14,7 @@ class EngineClient {
     this.turns = Promise.resolve();
   }
 
-  // Why there can be no engine on this page; empty: there can.
+  // Why this page can have no engine; empty: it can.
   static refusal() {
     if (typeof WebAssembly !== "object")
       return "This browser has no WebAssembly, so the stone cannot be turned here: the picture is what culet drew.";
@@ -41,7 +41,7 @@ class EngineClient {
       event.preventDefault();
       if (this.worker === worker) this.died(event.message || "the engine stopped");
     };
-    // What base64 text is kept here is not needed again in this form.
+    // The base64 text is not needed again.
     return this.call("start", {engine: EngineClient.text_of("culet-engine")})
       .finally(() => URL.revokeObjectURL(address));
   }
@@ -66,7 +66,7 @@ class EngineClient {
       this.worker.postMessage({id, call, ...args}, transfer);
     });
   }
-  // Work of several calls, between which nobody else's come. Not to be nested.
+  // Runs several calls without calls of others between them. Must not be nested.
   in_turn(work) {
     const mine = this.turns.then(work);
     this.turns = mine.catch(() => {});

@@ -1,5 +1,5 @@
 "use strict";
-// What is known of the facet that is pointed at.
+// Shows what is known about the facet under the pointer.
 
 function with_sigma(value, sigma) {
   if (!Number.isFinite(sigma) || sigma <= 0) return value.toFixed(2) + "\u00b0";

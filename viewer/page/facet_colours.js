@@ -1,13 +1,13 @@
 "use strict";
-// Facets coloured by what a fit says of them: the colours and words of the fit report's drawings
-// (page/colour_maps.cpp, page/fit_paint.cpp; tests/viewer holds the stops to be the same).
+// Colours facets by their fit, with the colours and words of the fit report's drawings
+// (page/colour_maps.cpp, page/fit_paint.cpp; tests/viewer checks that the stops are the same).
 
 const k_residual_stops =
   ["#ffffcc", "#ffeda0", "#fed976", "#feb24c", "#fd8d3c", "#fc4e2a", "#e31a1c", "#bd0026"];
 const k_uncertainty_stops =
   ["#ffffd9", "#edf8b1", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8"];
 const k_plain_facet = "#d9dde0";
-const k_worst_shown = 4;  // times its uncertainty: beyond, every residual has the last colour
+const k_worst_shown = 4;  // sigmas: all larger residuals have the last colour
 
 function colour_between(stops, share) {
   const at = Math.min(1, Math.max(0, share)) * (stops.length - 1);
@@ -20,7 +20,7 @@ function colour_between(stops, share) {
     ")";
 }
 
-// 1, 2 or 5 times a power of ten, not below.
+// The next 1, 2 or 5 times a power of ten.
 function rounded_up(value) {
   const decade = Math.pow(10, Math.floor(Math.log10(value)));
   for (const step of [1, 2, 5])
@@ -28,8 +28,8 @@ function rounded_up(value) {
   return 10 * decade;
 }
 
-// Where the scale of uncertainties ends: nine facets of ten lie within it, since those that the
-// readings hardly hold would else make all the others look alike.
+// The end of the scale of uncertainties. Nine facets of ten lie within it; a few poorly determined
+// ones would otherwise make all others look alike.
 function top_of_sigmas(facets) {
   const known =
     facets.filter((f) => f.fit && f.fit.determined !== false && f.fit.direction_sigma_deg > 0)
@@ -40,7 +40,7 @@ function top_of_sigmas(facets) {
 
 function significant(value, digits) { return String(Number(value.toPrecision(digits))); }
 
-// {colour, text, marked} of each facet, and the legend: {what, stops, ends, mark}.
+// {colour, text, marked} for each facet, and the legend: {what, stops, ends, mark}.
 function facet_colours(facets, kind) {
   if (kind === "residual") {
     return {

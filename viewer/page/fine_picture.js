@@ -1,6 +1,6 @@
 "use strict";
-// The picture as the scene asks for it, all wavelengths and both waves of a crystal, once the stone
-// rests: by an engine in a worker of its own, so that the hand never waits for it.
+// The picture with all that the scene asks for (all wavelengths, both waves of a crystal), once the
+// stone rests. An engine in a worker of its own draws it, so that the hand never waits.
 
 class FinePicture {
   constructor(page) {
@@ -9,7 +9,7 @@ class FinePicture {
       this.key = "";
     });
     this.key = "";     // of what the engine holds
-    this.busy = null;  // whose picture is being drawn
+    this.busy = null;  // the picture that is being drawn
   }
 
   stop() {
@@ -18,7 +18,7 @@ class FinePicture {
     this.busy = null;
   }
 
-  // The scene as the page's other engine holds it: the item, a changed cut, a panorama.
+  // Opens the scene as the page's other engine holds it: the item, a changed cut, a panorama.
   async open() {
     const page = this.page, item = page.state.get("item");
     const key = JSON.stringify([item, page.scene_version]);
@@ -34,8 +34,8 @@ class FinePicture {
     this.key = key;
   }
 
-  // [side, picture] of each side, or nothing where the page has moved on. What an earlier call
-  // still draws is given up.
+  // Returns [side, picture] for each side, or nothing if the page shows something else by now.
+  // Cancels an earlier call's drawing.
   async draw(sides, width, height, exposure, engine) {
     if (this.busy) this.stop();
     const mine = this.busy = {};

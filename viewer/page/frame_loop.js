@@ -1,17 +1,17 @@
 "use strict";
-// When to draw, and how finely: quick frames while something moves, as large as the time of the
-// last ones allows; the whole picture once it rests, then refined. One picture is on its way at a
-// time.
+// Decides when to draw, and how finely. While something moves: quick frames, of a size that the
+// last frames' times allow. At rest: the whole picture, then refinements. Only one picture is drawn
+// at a time.
 
 const k_quick_ms = 33;       // of a frame while the stone moves
-const k_ray_ms = 90;         // of one of a stone that is not convex
-const k_rest_ms = 140;       // without a move, after which the whole picture is drawn
-const k_least_scale = 0.35;  // of the screen's resolution: coarser is no picture any more
+const k_ray_ms = 90;         // the same for a stone that is not convex
+const k_rest_ms = 140;       // without a move, before the whole picture is drawn
+const k_least_scale = 0.35;  // of the screen's resolution; coarser is unrecognisable
 const k_least_ray_scale = 0.25;
-const k_fine_ms = 250;       // without a move, after which the fine picture is begun
-const k_quick_depth = 12;    // faces of a path: a diamond's others bring 1.5 % of its light
-// Of a stone that is not convex: first without light that meets it again after it left, then as
-// culet render draws it, which takes ten times as long.
+const k_fine_ms = 250;       // without a move, before the fine picture begins
+const k_quick_depth = 12;    // faces of a path: in a diamond the rest brings 1.5 % of its light
+// For stones that are not convex: first without light that re-enters the stone, then as culet
+// render draws it, which takes ten times as long.
 const k_ray_rounds = ["preview", "beams"];
 const k_levels = {
   quick: 0,
@@ -26,14 +26,14 @@ class FrameLoop {
     this.level = k_levels.quick;
     this.last_move = -Infinity;
     this.running = false;
-    this.paused = false;     // while others need the engine: recording
+    this.paused = false;     // while others (recording) need the engine
     this.set_key = "";       // what the engine was last told to draw
     this.exposure = null;    // of the last whole picture
-    this.milliseconds = {};  // last of each way of drawing
+    this.milliseconds = {};  // the last time of each way of drawing
     this.idle_waiters = [];
   }
 
-  // Something moves: quick frames now, the whole picture later.
+  // Something moved: quick frames now, the whole picture later.
   moved() {
     this.last_move = performance.now();
     this.changed();
@@ -44,11 +44,11 @@ class FrameLoop {
     if (this.wake) this.wake();
     if (!this.running && !this.paused) this.run();
   }
-  // The engine forgot all: it was started anew.
+  // The engine was restarted and has lost its state.
   forget() { this.set_key = ""; }
   moving() { return performance.now() - this.last_move < k_rest_ms; }
 
-  // Resolves once the whole picture of what is now asked for is on the page.
+  // Resolves once the whole picture of the current request is on the page.
   idle() {
     if (!this.running && (this.level === k_levels.done || !this.page.ready()))
       return Promise.resolve();
@@ -72,7 +72,7 @@ class FrameLoop {
             this.level = this.is_fine() ? k_levels.done : k_levels.whole;
           continue;
         }
-        // What the hand does meanwhile comes first.
+        // Input from the hand comes first.
         const woken = new Promise((resolve) => {
           this.wake = resolve;
         });
@@ -81,7 +81,7 @@ class FrameLoop {
         if (version === this.version) this.level = k_levels.done;
       }
     } catch (error) {
-      // One line, once: the same attempt would only fail again.
+      // One message only: another attempt would fail too.
       this.level = k_levels.done;
       this.page.failed(error);
     }
@@ -90,7 +90,7 @@ class FrameLoop {
       for (const resolve of this.idle_waiters.splice(0)) resolve();
     }
   }
-  // Nothing new to draw yet: until the next frame of the screen, at most until the stone rests.
+  // Nothing new to draw: wait for the screen's next frame, at most until the stone rests.
   pause(begin) {
     const version = this.version;
     return new Promise((resolve) => {
@@ -104,7 +104,7 @@ class FrameLoop {
     });
   }
 
-  // Tells the engine which stone and scene, if it does not know.
+  // Tells the engine stone and scene if it does not know them.
   async prepare(stone, settings) {
     const held = this.page.engine_stone(stone), info = this.page.info;
     const key = JSON.stringify([held, settings, this.page.scene_version]);
@@ -115,8 +115,8 @@ class FrameLoop {
     this.set_key = key;
     this.page.took_settings(answer);
   }
-  // One question about a stone in its scene. Nothing where the page shows something else by now, or
-  // beams refuse the scene.
+  // Asks the engine about a stone in its scene. Returns nothing if the page shows something else by
+  // now, or beams refuse the scene.
   ask(stone, settings, call, args) {
     const info = this.page.info;
     return this.page.engine.in_turn(async () => {
@@ -127,8 +127,8 @@ class FrameLoop {
     });
   }
 
-  // Of frames that must come quickly, and of the first whole picture: three wavelengths, a
-  // crystal's waves merged, and paths of few faces.
+  // For quick frames and the first whole picture: three wavelengths, a crystal's waves merged, and
+  // short paths.
   settings(stone) {
     const settings = this.page.settings(stone), values = this.page.state.values;
     if (!values.wavelengths) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
@@ -160,7 +160,7 @@ class FrameLoop {
     }
   }
 
-  // Which stone stands on which side.
+  // The stones with their sides.
   sides() {
     return this.page.state.get("compare") === "one" ? [["left", this.page.shown_index()]]
                                                     : [["left", 0], ["right", 1]];
@@ -169,7 +169,7 @@ class FrameLoop {
   async draw(quick) {
     const page = this.page, info = page.info;
     const sides = this.sides();
-    // By rays a large picture takes seconds, for which the hand would wait.
+    // By rays a large picture takes seconds, and the hand would have to wait.
     const rays = page.drawn_by_rays, rest_scale = rays ? Math.min(1, 2.5 * this.scale) : 1;
     const [width, height] = page.picture.size(quick ? this.scale : rest_scale);
     let spent = 0, shading = 0, exposure = this.exposure_for(quick);
@@ -193,7 +193,7 @@ class FrameLoop {
       spent += drawn.milliseconds;
       shading += drawn.milliseconds - (drawn.build_ms || 0);
       page.picture.take(drawn, side);
-      // Two stones beside each other are shown alike.
+      // Two stones side by side get the same exposure.
       if (side === "left" && typeof drawn.exposure === "number") exposure = drawn.exposure;
     }
     if (sides.length === 1) page.picture.pictures.delete("right");
@@ -204,19 +204,19 @@ class FrameLoop {
     page.drawn(quick, !quick);
   }
 
-  // While something moves the exposure stays: a picture that brightens and darkens is restless.
+  // The exposure is constant while something moves: changing brightness is unpleasant.
   exposure_for(quick) {
     const exposure = this.page.exposure();
     return exposure === "auto" && quick && this.exposure ? this.exposure : exposure;
   }
 
-  // Before it is known how long a frame takes.
+  // For the time before the duration of a frame is known.
   start_coarsely() {
     if (this.milliseconds.preview === undefined) this.scale = k_least_ray_scale;
   }
 
-  // Fewer pixels shorten the shading only: a frame whose beams alone take longer than it may is not
-  // drawn more coarsely for that.
+  // Fewer pixels shorten only the shading: if the beams alone take too long, coarser frames would
+  // not help.
   adapt(milliseconds, shading) {
     const rays = this.page.drawn_by_rays, frame_ms = rays ? k_ray_ms : k_quick_ms;
     const least = rays ? k_least_ray_scale : k_least_scale;

@@ -1,5 +1,6 @@
 "use strict";
-// All stones of a page with several: a strip of small pictures, arrow keys from one to the next.
+// The stones of a page that has several: a strip of small pictures, with arrow keys to move along
+// it.
 
 class Gallery {
   constructor(page, nav) {
@@ -10,7 +11,7 @@ class Gallery {
     nav.hidden = false;
     this.buttons = this.items.map((item, index) => {
       const one = button("", () => this.go(index), {class: "thumb"});
-      // Pictures come in the page; anything else would be somebody's address.
+      // Only pictures inside the page; anything else could be a foreign address.
       if (/^data:image\/(png|jpeg|webp);/.test(item.picture || ""))
         one.append(element("img", {src: item.picture, alt: "", loading: "lazy"}));
       one.append(element("span", {}, item.name));

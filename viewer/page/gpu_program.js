@@ -1,6 +1,6 @@
 "use strict";
 // culet's GPU kernel in WebGL2: compiles its sources, holds its textures and sums, draws samples.
-// What the source asks for is said in render/gpu/gpu_program.h.
+// render/gpu/gpu_program.h documents what the sources need.
 
 class GpuProgramError extends Error {}
 
@@ -19,13 +19,13 @@ class GpuProgram {
     this.fill(program);
   }
 
-  // Other values of the same source.
+  // Takes new values for the same source.
   fill(program) {
     const gl = this.gl;
     this.passes = program.passes;
     gl.useProgram(this.kernel);
     this.set(program.uniforms);
-    if (!program.textures) return;  // they are as before
+    if (!program.textures) return;  // they are unchanged
     for (const texture of this.textures) gl.deleteTexture(texture.made);
     this.textures = program.textures.map((texture) => {
       const made =
@@ -84,7 +84,7 @@ class GpuProgram {
     return texture;
   }
 
-  // Sums of that size, empty.
+  // Clears the sums and sets their size.
   begin(width, height) {
     const gl = this.gl;
     this.keep = 0;
@@ -102,7 +102,7 @@ class GpuProgram {
     this.size = [width, height];
   }
 
-  // Adds one sample a pixel; `uniforms` are of the view at this sample.
+  // Adds one sample per pixel; `uniforms` belong to this sample's view.
   add(uniforms) {
     const gl = this.gl;
     gl.useProgram(this.kernel);
@@ -127,7 +127,8 @@ class GpuProgram {
     }
   }
 
-  // `exposure` is over the number of samples; `tone_map` a number (render/image/film_look.h).
+  // `exposure` is already divided by the number of samples; `tone_map` is a number
+  // (render/image/film_look.h).
   show(exposure, tone_map) {
     const gl = this.gl;
     gl.useProgram(this.display);

@@ -1,10 +1,10 @@
 "use strict";
-// The picture by the GPU, where it can draw the scene and is faster than the engine's pixels: one
-// sample a pixel while the stone moves, then more and more of them.
+// The picture by the GPU, if it can draw the scene and is faster than the engine: one sample per
+// pixel while the stone moves, then more and more.
 
 const k_gpu_samples = 64;
-const k_gpu_ms = 8000;  // after which a slow GPU leaves it at the samples it has
-// Of display.frag.glsl, as in render/image/film_look.h.
+const k_gpu_ms = 8000;  // after this a slow GPU keeps the samples it has
+// For display.frag.glsl, as in render/image/film_look.h.
 const k_gpu_tone_maps = {
   none: 0,
   reinhard: 1,
@@ -18,28 +18,28 @@ class GpuView {
     this.canvas = canvas;
     this.shown = false;
     this.drew = false;
-    this.scene_refusal = "";  // of the scene that is set
+    this.scene_refusal = "";  // of the current scene
     this.own_refusal = "";    // of this machine
     this.lost = false;
     this.program = null;
     this.program_key = "";
-    this.sample_ms = null;  // of one sample a pixel, per million pixels
+    this.sample_ms = null;  // of one sample per pixel, for a million pixels
     canvas.addEventListener("webglcontextlost", (event) => {
-      event.preventDefault();  // else it never comes back
+      event.preventDefault();  // otherwise it is never restored
       this.lost = true;
       this.hide();
       page.loop.changed();
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
-      this.gl.getExtension("EXT_color_buffer_float");  // a context that comes back has none
+      this.gl.getExtension("EXT_color_buffer_float");  // a restored context has lost it
       this.program = null;
       this.program_key = "";
       page.loop.changed();
     });
   }
 
-  // Made when it is first asked for: most pages never need it.
+  // Created on first use: most pages never need it.
   context() {
     if (this.gl || this.own_refusal) return this.gl;
     const gl = this.canvas.getContext("webgl2", {
@@ -57,7 +57,7 @@ class GpuView {
     if (this.gl) {
       const about = gl.getExtension("WEBGL_debug_renderer_info");
       const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
-      // A GPU that is a program on the processor competes with the engine for it, and loses.
+      // A GPU that is emulated on the processor competes with the engine for it, and loses.
       this.software = /swiftshader|llvmpipe|software|basic render/i.test(name);
     }
     return this.gl;
@@ -76,7 +76,7 @@ class GpuView {
     if (this.scene_refusal || !this.context()) return false;
     if (how === "gpu") return true;
     if (this.software) return false;
-    // As long as it is not known: the GPU is tried, once.
+    // While its speed is unknown, the GPU is tried once.
     const {preview} = this.page.loop.milliseconds;
     return this.sample_ms === null || preview === undefined || this.sample_ms < preview;
   }
@@ -100,7 +100,7 @@ class GpuView {
     }
   }
 
-  // Of a small picture by the engine.
+  // From a small picture by the engine.
   async exposure_to_the_stone(settings, width, height) {
     const page = this.page, scale = 200 / Math.max(200, width, height);
     const stone = page.shown_index();
@@ -140,12 +140,12 @@ class GpuView {
       const begin = performance.now();
       this.program.add(answer.samples[sample]);
       this.program.show(exposure / (sample + 1), tone_map);
-      // Waits until it is drawn: only then is its time known.
+      // Waits until the sample is drawn, to measure its time.
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
       if (gl.isContextLost()) return;
       const spent = performance.now() - begin;
       if (quick) page.loop.adapt(spent, spent);
-      // The first may have waited for the kernel to be compiled.
+      // The first may include the kernel's compilation.
       const late = performance.now() - started > k_gpu_ms;
       if (sample > 0 || count === 1 || late) page.loop.milliseconds.gpu = this.sample_ms = spent;
       this.shown = this.drew = true;

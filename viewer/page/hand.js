@@ -1,6 +1,6 @@
 "use strict";
-// The hand on the stone: mouse, pen, fingers, wheel. It turns the stone (or the lights), moves the
-// picture, zooms, points at facets and clicks on them.
+// Mouse, pen, fingers and wheel: turn the stone (or the lights), move the picture, zoom, point at
+// facets and click on them.
 
 const k_click_pixels = 4;
 
@@ -24,7 +24,7 @@ class Hand {
     const box = this.surface.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
-  // On the ball about the stone, in its radii, y up.
+  // A point of the stage on the ball around the stone, in its radii, y up.
   on_ball([x, y]) {
     const {middle, radius} = this.page.ball();
     return [(x - middle[0]) / radius, (middle[1] - y) / radius];
@@ -47,7 +47,7 @@ class Hand {
       this.gesture.apart = this.apart();
     }
   }
-  // From here on the gesture is counted anew.
+  // Starts a new gesture.
   begin(kind, at) {
     const view = this.page.view();
     this.gesture = {
@@ -103,7 +103,7 @@ class Hand {
     const gesture = this.gesture;
     this.gesture = null;
     if (this.pointers.size === 1) {
-      // One finger stays: it turns from where it is.
+      // One finger remains: it turns from where it is.
       this.begin("turn", [...this.pointers.values()][0]);
       return;
     }
@@ -113,7 +113,7 @@ class Hand {
     else if (gesture.kind === "turn")
       this.page.motion.let_go(this.speed(gesture));
   }
-  // Of the turn when the hand let go: axis times radians a millisecond.
+  // Rotation speed at release: axis times radians per millisecond.
   speed(gesture) {
     const now = performance.now(), trail = gesture.trail.filter(([time]) => now - time < 90);
     if (trail.length < 2) return [0, 0, 0];

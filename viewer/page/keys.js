@@ -1,5 +1,5 @@
 "use strict";
-// The keyboard, and the overlay that tells its keys.
+// The keyboard, and the overlay that lists its keys.
 
 const k_keys = [
   ["Arrows", "turn the stone (with Ctrl a little)"],
@@ -106,7 +106,7 @@ class Keys {
       Escape: () => page.put_away(),
     };
     const act = acts[event.key] || acts[event.key.toLowerCase()];
-    // In a slider Home and the page keys have their own meaning.
+    // In a slider, Home and the page keys have their own meaning.
     const in_slider = event.target instanceof Element &&
       event.target.closest("input[type=range], [role=slider], [role=tablist]");
     if (!act || in_slider && ["Home", "PageUp", "PageDown"].includes(event.key)) return;

@@ -1,10 +1,10 @@
 "use strict";
-// Which facets make the flash that was clicked: the light paths behind one point of the picture, as
-// `culet probe` tells them.
+// Which facets make the flash that was clicked: the light paths at one point of the picture, as
+// `culet probe` lists them.
 
 const k_most_paths = 6;
 
-// Of the kinds of lights, as `culet probe` numbers them, in plain words.
+// The kinds of lights that `culet probe` lists (with numbers), in plain words.
 const k_plain_lights = {
   constant: "the even light of the room",
   environment: "the surroundings",
@@ -83,7 +83,7 @@ class LightPath {
     page.say(`Light path: ${first.facets.join(", ")}; sees ${plain_light(first.light)}`, true);
   }
 
-  // `weight` is the share of the light along this way that reaches the eye.
+  // `weight` is the share of the light on this path that reaches the eye.
   item(path, index, choose) {
     const share = path.weight;
     const crossed = path.facets.map((name, i) => {

@@ -1,5 +1,5 @@
 "use strict";
-// The page: puts the parts together and says what each of them asks of the others.
+// The page: connects the parts.
 
 function by_id(id) { return document.getElementById(id); }
 
@@ -16,12 +16,11 @@ class Page {
     this.card = new FacetCard(this, by_id("facet-card"));
     this.engine = new EngineClient((line) => this.engine_died(line));
     this.stones = [];
-    this.designs =
-      new Map();        // by a stone's index, under which number the engine holds its changed cut
-    this.info = null;   // what the engine told of the item
-    this.refused = "";  // why the engine cannot draw what is set
-    this.drawn_by_rays = false;  // a stone that is not convex: pictures take longer than by beams
-    this.scene_version = 0;  // of what the engine holds beside stone and settings: cut, panorama
+    this.designs = new Map();    // stone's index -> the engine's number for its changed cut
+    this.info = null;            // the engine's description of the item
+    this.refused = "";           // why the engine cannot draw the current settings
+    this.drawn_by_rays = false;  // the stone is not convex, so pictures take longer than by beams
+    this.scene_version = 0;  // of what the engine holds besides stone and settings: cut, panorama
     this.hand_turns_light = false;
     this.motion = new Motion(this);
     this.pointing = new Pointing(this);
@@ -46,7 +45,7 @@ class Page {
     const material = this.document_stone().material;
     return (material && (material.id || material.name)) || "";
   }
-  // Under which number the engine holds a stone: a cut that was changed is one of its own.
+  // The engine's number for a stone; a changed cut has its own.
   engine_stone(index) { return this.designs.get(index) ?? index; }
   optic() {
     const name = this.state.get("material");
@@ -55,7 +54,7 @@ class Page {
     return (material && material.optic) ||
       (this.info.materials.find((m) => m.name === this.own_material()) || {}).optic;
   }
-  // The preset that the scene itself names; empty: lights of its own.
+  // The preset that the scene names; empty: the scene has lights of its own.
   own_light() { return (this.info && this.info.settings && this.info.settings.light_preset) || ""; }
   light_preset() {
     const {light, polariser} = this.state.values;
@@ -63,7 +62,7 @@ class Page {
     return this.info.lights.find((l) => l.name === (light || this.own_light())) || null;
   }
 
-  // The view that the light is made for: from below for hearts.
+  // The view for which the light is made: from below for hearts.
   home() {
     const preset = this.light_preset();
     if (!preset || !preset.from_below || !this.state.get("light")) return this.base.home;
@@ -73,7 +72,7 @@ class Page {
     const {turn, zoom, pan} = this.state.values;
     return {turn: turn || this.home(), zoom, pan: pan || this.base.pan};
   }
-  // How the lights are turned in the stone's frame.
+  // The lights' rotation in the stone's frame.
   lights_turn(turn = this.view().turn) {
     const {light_turn, lights_with, polariser} = this.state.values;
     // A polariscope's light is always behind the stone.
@@ -81,8 +80,8 @@ class Page {
     if (lights_with === "stone") return light_turn;
     return Turn.after(Turn.after(Turn.inverse(turn), this.home()), light_turn);
   }
-  // As `culet render` exposes where nothing is said: to the stone, but for instruments and own
-  // lights. Nobody knows how bright a panorama is that was dropped.
+  // By default as `culet render`: to the stone, except for instruments and own lights. A dropped
+  // panorama has unknown brightness.
   exposure() {
     const own = this.state.get("exposure");
     if (own !== null) return own;
@@ -100,7 +99,7 @@ class Page {
       `render.tolerance=${k_fine_tolerance}`
     ];
   }
-  // What every call of the engine about a view begins with.
+  // The arguments that all calls of the engine about a view share.
   drawing(stone, width, height, view = this.view()) {
     return {
       stone: this.engine_stone(stone),
@@ -134,7 +133,7 @@ class Page {
     const before = this.ready() && this.home();
     this.state.set({light: name, polariser: null, analyser: null, retarder: null});
     const preset = this.light_preset(), turned = Turn.apart(before, this.home()) > 1e-6;
-    // An instrument is looked through straight on.
+    // Instruments are used looking straight on.
     if (turned || (preset && preset.instrument)) this.motion.go_to(this.home());
   }
   turn_light_by_hand(on) {
@@ -171,7 +170,7 @@ class Page {
     }
   }
 
-  // Kept, because an engine that is started anew knows nothing of it.
+  // Kept, because a restarted engine has lost it.
   async send_panorama(file) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const stone = this.shown_index();
@@ -222,20 +221,20 @@ class Page {
     this.tilts.update().catch((error) => this.failed(error));
   }
 
-  // So that the page is the same when it is loaded again.
+  // So that reloading shows the same.
   keep_address() {
     const fragment = this.state.fragment();
     if (location.hash.replace(/^#/, "") === fragment) return;
     try {
       history.replaceState(null, "", fragment ? "#" + fragment : location.href.replace(/#.*$/, ""));
     } catch {
-      // Some browsers allow it no page from a file; the link can still be copied.
+      // Some browsers forbid it for pages from a file; the link can still be copied.
     }
   }
 
   // --- Words
 
-  // For a while. `aloud`: only to those who hear the page; who sees it sees the same in the panel.
+  // Shows a line for a while. `aloud`: only for screen readers; others see the same in the panel.
   say(line, aloud = false) {
     clearTimeout(this.saying);
     by_id("say").classList.toggle("unseen", aloud);

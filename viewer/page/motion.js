@@ -1,12 +1,12 @@
 "use strict";
-// How the view changes: by the hand, by keys, from one named view to the next.
+// Changes of the view: by hand, by keys, from one named view to the next.
 
 function less_motion() { return matchMedia("(prefers-reduced-motion: reduce)").matches; }
 
 class Motion {
   constructor(page) {
     this.page = page;
-    this.frame = 0;  // asked for of the browser
+    this.frame = 0;  // requested from the browser
     this.keeps_turning = false;
   }
 
@@ -25,7 +25,7 @@ class Motion {
     this.page.loop.last_move = performance.now();
     this.page.state.set({pan: [gesture.pan[0] + x / scale, gesture.pan[1] - y / scale]}, "hand");
   }
-  // `at` stays where it is; `from`: {at, zoom, pan} when the gesture began.
+  // `at` stays in place; `from`: {at, zoom, pan} at the start of the gesture.
   zoom_about(at, from, factor) {
     const box = this.page.stage.getBoundingClientRect();
     const zoom = Math.min(50, Math.max(0.2, from.zoom * factor));
@@ -43,7 +43,7 @@ class Motion {
     const at = [box.width / 2, box.height / 2];
     this.zoom_about(at, {at, zoom, pan}, factor);
   }
-  // A control that is dragged: quick frames until it rests.
+  // A control is dragged: quick frames until it rests.
   slide(changes) {
     this.page.loop.last_move = performance.now();
     this.page.state.set(changes);
@@ -55,7 +55,7 @@ class Motion {
   }
   go_to(turn) {
     this.stop();
-    // Home has no turn of its own: it goes with the light.
+    // Home has no turn of its own: it depends on the light.
     const end = Turn.apart(turn, this.page.home()) < 1e-9 ? null : turn;
     const from = this.page.view().turn, way = Turn.after(turn, Turn.inverse(from));
     const sign = way[3] < 0 ? -1 : 1, angle = Turn.apart(turn, from);
@@ -75,7 +75,7 @@ class Motion {
     };
     this.frame = requestAnimationFrame(step);
   }
-  // After a drag: `speed` is axis times radians a millisecond.
+  // After a drag: `speed` is axis times radians per millisecond.
   let_go(speed) {
     const fast = Turn.length(speed);
     if (!this.keeps_turning || less_motion() || fast < 1e-4) return;

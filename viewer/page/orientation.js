@@ -1,10 +1,10 @@
 "use strict";
-// How the stone stands before the eye: pure arithmetic, no page. Tested by
+// The stone's orientation before the eye: pure arithmetic, no page. Tested by
 // tests/viewer/orientation_test.js.
 //
-// Frames: the stone's is that of the scene (right-handed, z up through the table). The eye's has x
-// to the right of the picture, y up, z towards the eye. A unit quaternion [x, y, z, w] stands for
-// the turn from the stone's frame to the eye's. Vectors are arrays of three numbers.
+// Frames: the stone's is the scene's (right-handed, z up through the table). The eye's has x to the
+// right of the picture, y up, z towards the eye. A unit quaternion [x, y, z, w] is the rotation
+// from the stone's frame to the eye's. Vectors are arrays of three numbers.
 
 const Turn = {
   none: [0, 0, 0, 1],
@@ -37,7 +37,7 @@ const Turn = {
     const [x, y, z] = Turn.unit(axis), s = Math.sin(angle / 2);
     return [x * s, y * s, z * s, Math.cos(angle / 2)];
   },
-  // The least turn that takes direction a to direction b.
+  // The least rotation from direction a to direction b.
   between(a, b) {
     const from = Turn.unit(a), to = Turn.unit(b), cosine = Turn.dot(from, to);
     if (cosine < -1 + 1e-12) {
@@ -56,12 +56,12 @@ const Turn = {
     const columns = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => Turn.of(q, axis));
     return [0, 1, 2].flatMap((row) => columns.map((column) => column[row]));
   },
-  // Of a frame's three axes, given in the stone's frame: right, up, towards the eye.
+  // From the eye frame's axes in the stone's frame: right, up, towards the eye.
   from_axes(right, up, back) {
     const m = [right, up, back], trace = m[0][0] + m[1][1] + m[2][2];
     const q = [m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1], 1 + trace];
     if (trace > -0.5) return Turn.unit(q);
-    // Half a turn and nearly so: from the largest of the diagonal (Shepperd 1978).
+    // For half turns and nearly so: start from the largest diagonal element (Shepperd 1978).
     let i = 0;
     if (m[1][1] > m[0][0]) i = 1;
     if (m[2][2] > m[i][i]) i = 2;
@@ -71,7 +71,7 @@ const Turn = {
     p[k] = m[k][i] + m[i][k];
     return Turn.unit(p);
   },
-  // Looking from `back` (towards the eye), with `up` upwards in the picture where it can be.
+  // The view with `back` towards the eye and, if possible, `up` upwards in the picture.
   facing(back, up) {
     const z = Turn.unit(back);
     let x = Turn.cross(up, z);
@@ -79,12 +79,12 @@ const Turn = {
     x = Turn.unit(x);
     return Turn.from_axes(x, Turn.cross(z, x), z);
   },
-  // How far two turns are apart, radians.
+  // The angle between two rotations, radians.
   apart(a, b) {
     const q = Turn.after(a, Turn.inverse(b));
     return 2 * Math.atan2(Math.hypot(q[0], q[1], q[2]), Math.abs(q[3]));
   },
-  // Angles x, y, z in degrees of the same turn about the axes in that order.
+  // The same rotation as angles x, y, z in degrees about the axes in that order.
   angles(q) {
     const m = Turn.matrix(q), deg = 180 / Math.PI;
     const y = Math.asin(Math.max(-1, Math.min(1, -m[6])));
@@ -92,18 +92,17 @@ const Turn = {
     return [deg * Math.atan2(m[7], m[8]), deg * y, deg * Math.atan2(m[3], m[0])];
   },
 
-  // Where a point of the picture lies on a ball about the stone; x and y in radii of the ball, y
-  // up. Beyond the ball a hyperbola takes over without a kink (Bell 1988), so that a drag never
-  // sticks.
+  // Maps a point of the picture to a ball around the stone; x and y in radii of the ball, y up.
+  // Beyond the ball a hyperbola continues it smoothly (Bell 1988), so that a drag never sticks.
   on_ball(x, y) {
     const square = x * x + y * y;
     return [x, y, square <= 0.5 ? Math.sqrt(1 - square) : 0.5 / Math.sqrt(square)];
   },
-  // The point of the ball under `from` goes to under `to`.
+  // Moves the ball's point under `from` to under `to`.
   drag(from, to) { return Turn.between(Turn.on_ball(...from), Turn.on_ball(...to)); },
 };
 
-// The views with names: which direction of the stone looks at the eye, and which is up in the
+// Named views: the direction of the stone that faces the eye, and the one that is up in the
 // picture.
 function named_view(name, up, home_up) {
   const side = Turn.unit(Turn.add(home_up, up, -Turn.dot(home_up, up)));
@@ -112,9 +111,8 @@ function named_view(name, up, home_up) {
   return Turn.facing(up, side);
 }
 
-// A camera of the scene's kind as the page keeps it: how much of the stone it shows, at the
-// distance of the stone's middle, and how far the eye is from there. `camera` as in the engine's
-// `open`.
+// The scene's camera in the page's terms: how much of the stone it shows, at the distance of the
+// stone's middle, and the eye's distance from there. `camera` is as in the engine's `open`.
 function base_of(camera, center) {
   const [pixels_x, pixels_y] = camera.size || [1, 1];
   const back = Turn.unit(Turn.add(camera.position, camera.look_at, -1));
@@ -131,18 +129,18 @@ function base_of(camera, center) {
     pan: [-eye[0], -eye[1]],
     half_width,
     half_height: half_width * pixels_y / pixels_x,
-    free_height: 1,  // share of the picture's height that nothing is laid over
+    free_height: 1,  // share of the picture's height that is not covered
   };
 }
 
-// What the picture of width x height pixels shows: half its height, in the stone's unit at the
+// Half the height that a picture of width x height pixels shows, in the stone's unit at the
 // distance of the stone's middle.
 function half_height_of(base, zoom, width, height) {
   return Math.max(base.half_height / base.free_height, base.half_width * height / width) / zoom;
 }
 
-// The camera for the engine. `view`: {turn, zoom, pan}; pan is how far the stone's middle lies from
-// the picture's, in the stone's unit, to the right and up.
+// The camera for the engine. `view`: {turn, zoom, pan}; pan is the offset of the stone's middle
+// from the picture's, in the stone's unit, to the right and up.
 function camera_of(base, view, center, width, height) {
   const along = (v) => Turn.back(view.turn, v);
   const half = half_height_of(base, view.zoom, width, height);
@@ -159,8 +157,8 @@ function camera_of(base, view, center, width, height) {
   return camera;
 }
 
-// A function from points of the stone to pixels [x, y] (x to the right, y down), as that camera
-// sees.
+// Returns a function from points of the stone to pixels [x, y] (x to the right, y down) in that
+// camera.
 function projection_of(base, view, center, width, height) {
   const scale = height / 2 / half_height_of(base, view.zoom, width, height);
   return (point) => {
@@ -172,7 +170,7 @@ function projection_of(base, view, center, width, height) {
   };
 }
 
-// Does a facet with this outward normal, through this point, face the eye?
+// True if a facet with this outward normal, through this point, faces the eye.
 function faces_eye(base, view, center, normal, point) {
   const n = Turn.of(view.turn, normal);
   if (base.orthographic) return n[2] > 0;
@@ -180,7 +178,7 @@ function faces_eye(base, view, center, normal, point) {
   return Turn.dot(n, [-view.pan[0] - v[0], -view.pan[1] - v[1], base.distance - v[2]]) > 0;
 }
 
-// Which of the convex polygons (points in pixels) holds the point; -1: none.
+// Index of the convex polygon (points in pixels) that contains the point; -1: none.
 function polygon_at(polygons, x, y) {
   return polygons.findIndex((points) => {
     let inside = false;

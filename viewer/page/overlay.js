@@ -1,14 +1,14 @@
 "use strict";
-// What is drawn over the picture as lines and colours: facets by their fit, a wireframe, names, the
-// facet that is pointed at, and the facets of a light path. In CSS pixels of the stage.
+// Lines and colours over the picture: facets by their fit, a wireframe, names, the facet under the
+// pointer, and the facets of a light path. In CSS pixels of the stage.
 
 class Overlay {
   constructor(page, svg) {
     this.page = page;
     this.svg = svg;
     this.pointed = null;  // index of a facet
-    this.path = [];       // names of the facets of a light path, in the order of the eye's ray
-    this.path_at = null;  // where the eye looks, as a point in CSS pixels
+    this.path = [];       // names of a light path's facets, in the order of the eye's ray
+    this.path_at = null;  // where the eye looks, in CSS pixels
   }
 
   draw() {
@@ -23,7 +23,7 @@ class Overlay {
       const stone = page.stones[index];
       if (!stone) continue;
       const group = svg_element("g", {class: "facets"});
-      // Of the whole stage, whatever the group covers.
+      // Covers the whole stage, whatever is in the group.
       if (clip) group.style.clipPath = clip;
       group.append(svg_element("rect", {width: box.width, height: box.height, class: "nothing"}));
       this.facets_of(stone, group, page.base, page.view(), box);
@@ -73,8 +73,8 @@ class Overlay {
     if (this.path.length) this.path_of(stone, group, base, view, box, text_of);
   }
 
-  // The facets that the light meets, in order, joined by a line through their middles. It shows
-  // which ones and in which order; where rays run is bent by every face.
+  // The facets of the light path, joined in order by a line through their middles. It shows which
+  // facets and their order; real rays bend at every face.
   path_of(stone, group, base, view, box, text_of) {
     const all = stone.polygons(base, view, box.width, box.height, true);
     const met = this.path.map((name) => all.find(({facet}) => facet.name === name)).filter(Boolean);
@@ -91,7 +91,7 @@ class Overlay {
       svg_element("polyline", {points: text_of(stops), class: "way"}));
     const taken = [];
     stops.forEach(([x, y], i) => {
-      // Numbers of a facet that is met twice stand beside each other.
+      // The numbers of a facet that is met twice stand side by side.
       const shift = taken.filter(([a, b]) => Math.hypot(a - x, b - y) < 9).length * 20;
       taken.push([x, y]);
       group.append(svg_element("circle", {cx: x + shift, cy: y, r: 9, class: "stop"}),

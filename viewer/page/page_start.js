@@ -1,5 +1,5 @@
 "use strict";
-// Opens the page: the still picture is there already; then the engine, the item, the panels.
+// Opens the page. The still picture is already there; then come the engine, the item, the panels.
 
 class Tabs {
   constructor(page, list, panels) {
@@ -91,7 +91,7 @@ Object.assign(Page.prototype, {
     }
   },
 
-  // The item that the state names, in the engine.
+  // Opens the state's item in the engine.
   async open_engine() {
     const item = this.state.get("item");
     this.loop.forget();
@@ -103,7 +103,7 @@ Object.assign(Page.prototype, {
     }
     const info =
       await this.engine.in_turn(() => this.engine.call("open", {document: this.document, item}));
-    if (item !== this.state.get("item")) return;  // there is a newer one on its way
+    if (item !== this.state.get("item")) return;  // a newer one is on its way
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
     this.cut_held = null;
@@ -204,7 +204,7 @@ Object.assign(Page.prototype, {
     for (const panel of Object.values(this.panels)) panel.update();
   },
 
-  // Somebody changed the state.
+  // Called when the state has changed.
   changed(changed, by) {
     if (!this.ready()) return;
     if (changed.has("cut")) this.cut_soon();
@@ -226,7 +226,7 @@ Object.assign(Page.prototype, {
     if (drawn) this.loop.changed();
   },
 
-  // Proportions come as fast as a slider moves: the newest is cut, the ones between are not.
+  // Proportions change as fast as a slider moves: only the newest is cut.
   async cut_soon() {
     this.cut_wanted = true;
     if (this.cutting) return;

@@ -1,5 +1,5 @@
 "use strict";
-// The proportions of a standard cut, by sliders.
+// Sliders for the proportions of a standard cut.
 
 class PanelCut {
   constructor(page, info) {
@@ -9,7 +9,7 @@ class PanelCut {
     this.made_for = undefined;
   }
 
-  // Of the stone shown; nothing where it is no standard cut.
+  // The kind of the shown stone; nothing if it is not a standard cut.
   kind() {
     const stone = this.page.document_stone();
     const cut = stone && stone.cut;

@@ -1,5 +1,6 @@
 "use strict";
-// The measured stone: against the one it started from, and how sure each facet is.
+// The measured stone: compared with the one that the fit started from, and the uncertainty of each
+// facet.
 
 const k_role_names = {
   catalogue: "Catalogue",
@@ -48,7 +49,6 @@ class PanelFit {
     }
     this.node.replaceChildren(...parts);
   }
-  // Is there anything to show?
   any() { return this.node.childElementCount > 0; }
 
   update() {

@@ -1,5 +1,5 @@
 "use strict";
-// Which light the stone lies in, and where it comes from.
+// The choice of light and its direction.
 
 const k_light_names = {
   jeweller: "Jeweller\u2019s counter",
@@ -13,7 +13,7 @@ const k_light_names = {
 };
 
 class PanelLight {
-  // `info`: what the engine tells on opening.
+  // `info`: the engine's answer to `open`.
   constructor(page, info) {
     this.page = page;
     const named = (lights) => lights.map(

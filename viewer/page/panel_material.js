@@ -1,5 +1,5 @@
 "use strict";
-// What the stone is made of, found by a few letters; where its optic axis points; how deep its
+// The choice of material, found by a few letters; the direction of its optic axis; the depth of its
 // colour.
 
 class PanelMaterial {
@@ -80,7 +80,7 @@ class PanelMaterial {
                        .replace(/_/g, " ");
         return wanted.every((word) => text.includes(word.replace(/_/g, " ")));
       });
-      // What is called so stands before what is only described so: Enter takes the first.
+      // Names that match come before descriptions that match: Enter takes the first.
       const called = (m) =>
         wanted.length > 0 && [m.name, m.title || ""].some((n) => n.toLowerCase().startsWith(wanted[0]));
       this.listed.sort((a, b) => called(b) - called(a));
@@ -104,7 +104,7 @@ class PanelMaterial {
       const index = [].concat(material.index ?? []).map((n) => n.toFixed(3)).join(" / ");
       return [index, material.optic, material.summary].filter(Boolean).join(", ");
   }
-  // Its body colour, where it has one; the words beside it say the same.
+  // The body colour, if it has one; the words beside it say the same.
   swatch(material) {
       if (!/^#[0-9a-f]{6}$/i.test(material.colour || "")) return null;
       const made = element("i", {class: "swatch"});
@@ -134,7 +134,7 @@ class PanelMaterial {
       event.preventDefault();
       event.stopPropagation();
   }
-  // An axis is of one crystal: another material starts with its own.
+  // An axis belongs to one crystal: another material starts with its own.
   choose(material) {
       this.page.state.set({material: material.name || null, axis: null}); }
 

@@ -1,6 +1,6 @@
 "use strict";
-// Polarised light from behind the stone, an analyser before the eye, a plate between them: a
-// polariscope, as docs/rendering.md has it.
+// A polariscope, as in docs/rendering.md: polarised light from behind the stone, an analyser before
+// the eye, a plate between them.
 
 class PanelPolarisers {
   constructor(page) {

@@ -1,5 +1,6 @@
 "use strict";
-// The picture on the page: the engine's pixels on a canvas, of one stone or of two with a divider.
+// The picture on the page: the engine's pixels on a canvas, for one stone or for two with a
+// divider.
 
 class PictureView {
   constructor(stage, canvas, still) {
@@ -10,7 +11,7 @@ class PictureView {
     this.pictures = new Map();  // by side: "left" (or the only one), "right"
   }
 
-  // Of the whole stage, in pixels of the screen, and no more than an engine draws in good time.
+  // The whole stage in screen pixels, limited to what an engine draws in reasonable time.
   size(scale = 1) {
     const box = this.stage.getBoundingClientRect();
     const ratio = (window.devicePixelRatio || 1) * scale;
@@ -27,7 +28,7 @@ class PictureView {
   }
   forget() { this.pictures.clear(); }
 
-  // `divider`: share of the width that the left stone has, or null: one stone.
+  // `divider`: share of the width for the left stone, or null: one stone.
   show(side = "left", divider = null) {
     const picture = this.pictures.get(side) || this.pictures.get("left");
     if (!picture) return;

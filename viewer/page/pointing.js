@@ -1,5 +1,5 @@
 "use strict";
-// Which facet is pointed at, and the light path of the one that is clicked.
+// The facet under the pointer, and the light path of the one that is clicked.
 
 class Pointing {
   constructor(page) { this.page = page; }

@@ -1,5 +1,5 @@
 "use strict";
-// What one takes along: the picture, a film of a turn, a link, the command that draws it.
+// Exports: the picture, a film of a turn, a link, the command that draws the picture.
 
 function download(blob, name) {
   const address = URL.createObjectURL(blob);
@@ -60,7 +60,7 @@ class PanelSave {
     try {
       await navigator.clipboard.writeText(text);
     } catch {
-      // Pages opened from a file may not reach the clipboard: the old way.
+      // Pages opened from a file may not use the clipboard: the old way.
       const field = element("textarea", {class: "unseen"});
       field.value = text;
       document.body.append(field);
@@ -105,7 +105,7 @@ class PanelSave {
   }
 
   update() {
-    // A line for each setting, as shells read it, too.
+    // One line per setting, in shell syntax.
     const command = this.page.command.line().replace(/ (?=--set )/g, " \\\n  ");
     if (this.command.value !== command) this.command.value = command;
     this.command_note.textContent = this.page.command.limits();

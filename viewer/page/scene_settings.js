@@ -1,12 +1,12 @@
 "use strict";
-// From what the page shows to keys of a scene, as `culet render --set` takes them: a picture of the
-// page is one of the command line.
+// Converts the page's state to keys of a scene, as for `culet render --set`, so that the command
+// line can draw the same picture.
 
 function toml_text(text) { return JSON.stringify(text); }
 function toml_number(value) { return String(Number(value.toPrecision(9))); }
 function toml_list(list) { return "[" + list.map(toml_number).join(",") + "]"; }
 
-// The crystal's axes for an optic axis (uniaxial; of biaxial ones alpha) that is tilted from z
+// The crystal's axes for an optic axis (uniaxial; alpha of biaxial ones) that is tilted from z
 // towards an azimuth, degrees.
 function crystal_axes(tilt_deg, azimuth_deg) {
   const tilt = tilt_deg * Math.PI / 180, azimuth = azimuth_deg * Math.PI / 180;
@@ -14,20 +14,20 @@ function crystal_axes(tilt_deg, azimuth_deg) {
   return [[0, 0, 1], [1, 0, 0], [0, 1, 0]].map((axis) => Turn.of(turn, axis));
 }
 
-// Of the mean radiance: at less, a diamond's picture takes minutes for what no screen shows.
+// Share of the mean radiance: below it, a diamond's picture takes minutes for what no screen shows.
 const k_fine_tolerance = 0.05;
 
-// One: the sodium line, by which gems are measured. Three: where the eye's three colours are told
-// apart best; an ASET picture of a diamond is five times nearer to that of 15 wavelengths than with
-// three spread evenly. More: evenly over what eyes see, with the ends of the program's own choice
-// (docs/rendering.md).
+// One: the sodium line, at which gems are measured. Three: where the eye's three colours are
+// separated best; with them an ASET picture of a diamond is five times nearer to that of 15
+// wavelengths than with three evenly spread. More: evenly over the visible range, with the ends of
+// the program's own choice (docs/rendering.md).
 function wavelengths_nm(count) {
   if (count === 1) return [589.3];
   if (count === 3) return [450, 540, 610];
   return Array.from({length: count}, (_, i) => 410 + 280 * i / (count - 1));
 }
 
-// `panorama`: the setting that the engine gave for the file that was dropped.
+// `panorama`: the engine's setting for the dropped file.
 function light_settings(values, panorama) {
   if (values.polariser !== null) {
     const settings = [`light={preset="polariscope",polarizer=${toml_number(values.polariser)}}`];
@@ -57,7 +57,7 @@ function stone_settings(values, optic) {
   return settings;
 }
 
-// `values` of the state; `optic` of the material shown: isotropic, uniaxial, biaxial.
+// `values` of the state; `optic` of the shown material: isotropic, uniaxial, biaxial.
 function settings_of(values, optic, panorama = "") {
   const settings = [...stone_settings(values, optic), ...light_settings(values, panorama)];
   if (values.retarder !== null && (values.analyser !== null || values.polariser !== null)) {
@@ -75,13 +75,13 @@ function settings_of(values, optic, panorama = "") {
   return settings;
 }
 
-// For a POSIX shell.
+// Quotes for a POSIX shell.
 function quoted(text) {
   return /^[\w./=,:-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";
 }
 
 // The command that draws this picture. `drawing`: {command, settings, camera, size, exposure,
-// tonemap, engine, lights_turned}; `command` goes as far as the file; `lights_turned` is a turn of
+// tonemap, engine, lights_turned}; `command` ends with the file; `lights_turned` is a rotation of
 // the lights in the stone's frame.
 function command_line(drawing) {
   const settings = drawing.settings.slice();

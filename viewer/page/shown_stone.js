@@ -1,9 +1,9 @@
 "use strict";
-// One stone of the document as the page knows it: its facets in space and in the picture, and what
-// its fit says of them.
+// One stone of the document: its facets in space and in the picture, and what its fit says about
+// them.
 
 class ShownStone {
-  // `stone` as in the document: role, name, unit, vertices, facets, up, fit, ...
+  // `stone` is as in the document: role, name, unit, vertices, facets, up, fit, ...
   constructor(stone) {
     this.stone = stone;
     this.up = stone.up || [0, 0, 1];
@@ -33,8 +33,7 @@ class ShownStone {
     this.by_name = new Map(this.facets.map((facet) => [facet.name, facet]));
   }
 
-  // As the fit says where there is one; else of the plane. Degrees; an azimuth only where the facet
-  // is not level.
+  // In degrees, from the fit if there is one, else from the plane; no azimuth for level facets.
   angles_of(facet) {
     const n = Turn.unit(facet.normal), up = Turn.unit(this.up);
     const cosine = Math.max(-1, Math.min(1, Turn.dot(n, up)));
@@ -53,7 +52,7 @@ class ShownStone {
     };
   }
 
-  // The facets that face the eye (or, with `all`, every facet), as polygons in pixels.
+  // The facets that face the eye (with `all`, every facet), as polygons in pixels.
   polygons(base, view, width, height, all = false) {
     const project = projection_of(base, view, base.center, width, height);
     return this.facets
@@ -66,7 +65,7 @@ class ShownStone {
   has_fit() { return this.facets.some((facet) => facet.fit); }
 }
 
-// Of a polygon's corners, and how much room there is in it for a word: the shorter side of its box.
+// A polygon's middle, and its room for a word: the shorter side of its box.
 function middle_of(points) {
   let area = 0, x = 0, y = 0;
   points.forEach(([ax, ay], i) => {

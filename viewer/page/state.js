@@ -1,27 +1,27 @@
 "use strict";
-// What the page shows, as one plain object; who shows it listens. Its link is the page's address
-// with what differs from the defaults in the fragment, so that it works with file://, too.
+// What the page shows, as one plain object with listeners. Its link is the page's address; the
+// fragment holds what differs from the defaults, so that it also works with file://.
 
-// Names are those of the link; `null` means as the file says.
+// The names are used in links; `null`: as in the file.
 const k_state_defaults = {
-  item: 0,      // of the gallery
-  stone: null,  // of the item's stones; null: the last, which is the fitted one
-  turn: null,   // quaternion, from the stone's frame to the eye's; null: the view of the light
+  item: 0,      // in the gallery
+  stone: null,  // index among the item's stones; null: the last, which is the fitted one
+  turn: null,   // quaternion, from the stone's frame to the eye's; null: the light's own view
   zoom: 1,
   pan: null,                 // stone's unit, right and up; null: as the scene's camera
-  light: null,               // name of a preset; "panorama": a file that was dropped
-  light_turn: [0, 0, 0, 1],  // by hand
+  light: null,               // name of a preset; "panorama": a dropped file
+  light_turn: [0, 0, 0, 1],  // set by hand
   lights_with: "viewer",     // or "stone"
   material: null,
   axis: null,         // [tilt from up, azimuth] of the optic axis, degrees
-  colour: 1,          // times the material's absorption
+  colour: 1,          // multiplies the material's absorption
   polariser: null,    // degrees; lights the stone from behind
   analyser: null,     // degrees in the picture
   retarder: null,     // nm, at 45 degrees to the polariser
   effects: null,      // list of names; null: all that can matter
-  wavelengths: null,  // how many
+  wavelengths: null,  // number of them
   depth: null,
-  cut: null,       // {name: value} of the proportions that were changed
+  cut: null,       // {name: value} of the changed proportions
   compare: "one",  // blink, split
   divider: 50,     // per cent of the width
   facets: "none",  // residual, sigma
@@ -33,7 +33,7 @@ const k_state_defaults = {
   drawn_by: "fastest",  // beams, gpu
 };
 
-// Of a list of texts and numbers, what stands in a link.
+// How lists of texts and numbers are written in a link.
 const k_state_coding = {
   lists: new Set(["turn", "pan", "light_turn", "axis"]),
   numbers: new Set([
@@ -55,7 +55,7 @@ function written_state(key, value) {
   return value === true ? "yes" : value === false ? "no" : value;
 }
 
-// Nothing where the text makes no sense: a link may come from anybody.
+// Returns nothing for nonsense: a link may come from anybody.
 function read_state(key, text) {
   const numbers = (parts) =>
     parts.every((p) => p !== "" && Number.isFinite(Number(p))) ? parts.map(Number) : undefined;
@@ -94,7 +94,7 @@ class State {
     this.listeners = [];
   }
   get(key) { return this.values[key]; }
-  // `changes`: {key: value}. Listeners hear which keys have other values than before.
+  // `changes`: {key: value}. Listeners get the keys whose values have changed.
   set(changes, by) {
     const changed = new Set(Object.keys(changes).filter(
       (key) => JSON.stringify(this.values[key]) !== JSON.stringify(changes[key])));
@@ -104,7 +104,7 @@ class State {
     return changed;
   }
   listen(listener) { this.listeners.push(listener); }
-  // What belongs to one stone goes with it.
+  // Resets what belongs to one stone.
   forget_stone() {
     this.set({
       stone: null,
@@ -130,7 +130,7 @@ class State {
     }
     return parts.join("&");
   }
-  // `count` stones there are, of which `first` is shown where the link names none of them.
+  // `count`: number of stones; `first` is shown if the link names none of them.
   restore(fragment, count = Infinity, first = 0) {
     const values = {};
     for (const part of fragment.replace(/^#/, "").split("&")) {

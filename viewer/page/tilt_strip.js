@@ -1,5 +1,5 @@
 "use strict";
-// The stone at seven tilts, small: how its brightness holds when it is rocked.
+// The stone at seven tilts, small: how its brightness changes when it is rocked.
 
 const k_tilts_deg = [-30, -20, -10, 0, 10, 20, 30];
 
@@ -18,13 +18,12 @@ class TiltStrip {
     });
   }
 
-  // About the picture's x, as culet grade counts: the near edge of the stone rises for positive
-  // tilts.
+  // About the picture's x as in culet grade: for positive tilts the near edge of the stone rises.
   turn_at(tilt) {
     return Turn.after(Turn.about([1, 0, 0], -tilt * Math.PI / 180), this.page.home());
   }
 
-  // Drawn when the stone rests; what did not change is not drawn again.
+  // Drawn when the stone rests; unchanged pictures are not drawn again.
   async update() {
     const page = this.page, values = page.state.values;
     this.strip.hidden = !values.tilts;

@@ -1,10 +1,10 @@
 "use strict";
-// A turn of the stone as a WebM film. Frames are drawn first, however long they take, and then
-// played at their speed to the recorder, which has no other clock than that on the wall.
+// A turn of the stone as a WebM film. The frames are drawn first and then played to the recorder at
+// film speed, since it records in real time.
 
 const k_film_frames = 100;
-const k_film_rate = 25;   // a second
-const k_film_most = 720;  // pixels a side
+const k_film_rate = 25;   // per second
+const k_film_most = 720;  // pixels per side
 const k_film_slice_ms = 40;
 
 class Turntable {
@@ -26,7 +26,7 @@ class Turntable {
   }
   stop() { this.recording = false; }
 
-  // The film as a blob, or nothing when it was stopped.
+  // The film as a blob, or nothing if it was stopped.
   async film(progress) {
     const page = this.page;
     this.recording = true;
@@ -71,7 +71,7 @@ class Turntable {
       recorder.onstop = resolve;
       recorder.onerror = () => reject(new Error("the browser stopped recording"));
     });
-    // The recorder takes a while to begin; what is played before its first bytes is lost.
+    // The recorder starts slowly; what is played before its first bytes is lost.
     const [track] = stream.getVideoTracks();
     const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
     const show = (frame) => {

@@ -1,9 +1,9 @@
 "use strict";
 
-// culet's engine in WebAssembly: calls by JSON, pictures as arrays. Runs in a worker of the page, and
-// in node for the tests.
+// culet's engine in WebAssembly: calls by JSON, pictures as arrays. Runs in a worker of the page,
+// and in node for the tests.
 class WasmEngine {
-    /// `bytes`: the engine, compressed by gzip or not. Throws an Error in words for people.
+    /// `bytes`: the engine, compressed by gzip or not. Throws an Error with a message for people.
     static async from(bytes) {
         const packed = bytes[0] === 0x1f && bytes[1] === 0x8b;
         const code = packed ? await WasmEngine.unpacked(bytes) : bytes;
@@ -33,7 +33,8 @@ class WasmEngine {
         this.said = "";
     }
 
-    /// What the C++ library asks of a system: time, and where to write a last word. There are no files.
+    /// What the C++ library needs from a system: time, and somewhere to write a last message. There
+    /// are no files.
     imports(module) {
         const k_no_such_call = 52;
         const known = {
@@ -90,7 +91,8 @@ class WasmEngine {
         return place;
     }
 
-    /// The answer as an object. `attached`: a text or bytes. Throws an Error with one line for people.
+    /// Returns the answer as an object. `attached`: a text or bytes. Throws an Error with one line
+    /// for people.
     call(name, args = {}, attached = "") {
         const parts = [name, JSON.stringify(args), attached].map(
             part => typeof part === "string" ? this.encoder.encode(part) : part);
@@ -114,7 +116,7 @@ class WasmEngine {
                                      this.exports.culet_pixels_size()).slice();
     }
 
-    /// Gives the textures of an answer to "gpu" their values.
+    /// Fills in the textures of an answer to "gpu".
     fillTextures(answer) {
         const all = new Float32Array(this.exports.memory.buffer, this.exports.culet_texels(),
                                      this.exports.culet_texels_size());

@@ -1,15 +1,15 @@
 "use strict";
 
-// The worker of a page: takes {id, call, ...arguments} one after the other and answers
-// {id, ok: true, ...result} or {id, ok: false, error: "one line"} (docs/viewer.md). The first call is
-// "start" with `engine`, the engine's file as bytes, or as text in base64.
+// A page's worker. It takes {id, call, ...arguments} one by one and answers {id, ok: true,
+// ...result} or {id, ok: false, error: "one line"} (docs/viewer.md). The first call is "start" with
+// `engine`, the engine's file as bytes, or as text in base64.
 class EngineWorker {
     constructor(post) {
         this.post = post;
         this.engine = null;
         this.waiting = [];
         this.busy = false;
-        // Comes after what has been sent already, so that the newest picture is known.
+        // Runs after the messages that have already been sent, so that the newest picture is known.
         this.later = new MessageChannel();
         this.later.port1.onmessage = () => this.next();
     }
