@@ -1,5 +1,5 @@
 #pragma once
-// Tells what kind of file a name stands for.
+// The kind of file that a name stands for.
 
 #include <filesystem>
 #include <string>
@@ -9,8 +9,7 @@ namespace culet {
 
 enum class FileKind { solid, stone, scene, job, material, picture, table, unknown };
 
-/// Goes by the extension and, for TOML files, by their tables. Throws InputError for a TOML file
-/// that cannot be read.
+/// By the extension; TOML files by their tables. Throws InputError for an unreadable TOML file.
 FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The kind in words that follow "is": "a scene", "a job", ...

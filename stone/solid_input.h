@@ -24,16 +24,16 @@ struct SolidInput {
 /// True for the extensions that `load_solid` reads.
 bool is_solid_file(const std::filesystem::path& file);
 
-/// Reads a stone; every command uses this. A mesh whose shape shows that its table does not face +z
+/// Reads a stone for any command. A mesh whose table does not face +z by its shape
 /// (`table_by_shape`) is turned about the origin until it does. Notes report the turn, and a size
 /// that no stone in mm has. glTF's metres become mm.
 ///
-/// Throws InputError for unknown extensions (the message lists the known ones), for coordinates
-/// beyond 1e50, and for a mesh less than 1e-50 across.
+/// Throws InputError for unknown extensions (listing the known ones), for coordinates beyond 1e50,
+/// and for a mesh less than 1e-50 across.
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
 
-/// Removes from `notes` what `load_solid` or `read_stone` said about the mesh's size
-/// (`doubtful_size`). Call it when the width is given separately.
+/// Removes the doubts about the mesh's size (`doubtful_size`) from `notes`. For when the width is
+/// given separately.
 void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes);
 
 }  // namespace culet

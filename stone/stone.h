@@ -15,9 +15,8 @@
 
 namespace culet {
 
-/// Orientation of the crystal in the stone's frame: the unit directions along which the principal
-/// rays vibrate. Uniaxial: [0] is the optic axis, the others are any two normal to it. Biaxial:
-/// alpha, beta, gamma. Isotropic: unused.
+/// The principal rays' unit directions of vibration, in the stone's frame. Uniaxial: [0] is the
+/// optic axis, the others are any two normal to it. Biaxial: alpha, beta, gamma. Isotropic: unused.
 struct CrystalFrame {
     std::array<Vec3, 3> axes{Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
 };
@@ -30,14 +29,14 @@ struct Stone {
     CrystalFrame crystal;
     std::string up_facet;  ///< the facet whose normal is up; empty: `up` is given as a vector
     Vec3 up{0, 0, 1};      ///< unit; inclinations are measured from it
-    /// The unit direction of the mesh file that was turned to +z (upright.h). A stone file states
-    /// its directions and places in the mesh file's frame.
+    /// The mesh file's direction that was turned to +z (upright.h). A stone file's directions and
+    /// places are in the mesh file's frame.
     Vec3 file_up{0, 0, 1};
     bool azimuth_from_mesh =
         false;  ///< true: azimuths count from the mesh's +x; false: their zero is free
     bool convex = true;
-    /// True when facets NAME, NAME.1, ... are the facets of a tier (a cut design, or a mesh that
-    /// culet wrote). Otherwise they may be pieces of one facet that somebody drew by hand.
+    /// True: facets NAME, NAME.1, ... form a tier (a cut design, or a mesh that culet wrote).
+    /// False: they may be pieces of one hand-drawn facet.
     bool facets_are_whole = false;
     std::vector<Change> changed;  ///< what reading changed of its mesh
 };
@@ -52,16 +51,15 @@ struct SolidFile {
     std::vector<Change> changed;       ///< see Stone
 };
 
-/// Whether reading turns a mesh so that its table is up, or leaves it as in the file.
+/// Whether reading turns a mesh so that its table is up.
 enum class Orientation { upright, as_given };
 SolidFile read_solid(const std::filesystem::path& file,
                      Orientation standing = Orientation::upright);
 
-/// Says what is odd about this mesh's size if it is in mm, and what to do; empty: nothing is odd.
+/// What is odd about this mesh's size in mm, and what to do; empty: nothing.
 std::string doubtful_size(const Solid& solid);
 
-/// Throws InputError when write_solid has no format for this extension. Call it before long work
-/// whose result is to be written.
+/// Throws InputError when write_solid has no format for this extension. Call it before long work.
 void require_solid_name(const std::filesystem::path& file);
 
 /// Writes by extension: .obj .off .ply .stl .asc

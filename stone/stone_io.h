@@ -1,6 +1,5 @@
 #pragma once
-// Reads the stone file (TOML): its tables [stone] and [material]. The readings and [fit] in the
-// same file belong to the fit.
+// Reads the stone file (TOML): [stone] and [material]. Readings and [fit] belong to the fit.
 
 #include <filesystem>
 #include <optional>
@@ -23,18 +22,18 @@ struct StoneFile {
     std::vector<std::string> details;     ///< further notes, shown on request
 };
 
-/// Throws InputError. Reads the mesh but does not check it: run `find_faults`.
+/// Throws InputError. Does not check the mesh: run `find_faults`.
 StoneFile read_stone(const std::filesystem::path& file,
                      const std::vector<std::string>& overrides = {});
 
 /// The same for a parsed file: [stone] and, beside it, [material].
 StoneFile stone_of(const TomlTable& root);
 
-/// Throws InputError when `stone`, read from `file`, has no material.
+/// `file` is for the InputError.
 void require_material(const StoneFile& stone, const std::filesystem::path& file);
 
-/// The material that a table's `material` names (in the catalogue, or a material file *.toml), or
-/// else the [material] table beside it. Throws InputError when there is neither.
+/// The material that the table's `material` names (catalogue or *.toml), or else the [material]
+/// table beside it. Throws InputError when there is neither.
 Material material_named_in(const TomlTable& table, const TomlTable& root);
 
 /// `optic_axis` or `principal_axes`, made orthonormal; identity when neither is given.

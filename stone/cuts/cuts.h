@@ -34,11 +34,11 @@ struct CutKind {
 
 const std::vector<CutKind>& cut_kinds();
 
-/// Returns the kind of that name (`emerald` is `step`). Throws InputError with the nearest name.
+/// `emerald` is `step`. Throws InputError with the nearest name.
 const CutKind& cut_kind(const std::string& name);
 
-/// `values` override defaults by parameter name. Throws InputError for an unknown parameter, a
-/// value out of its range, or proportions that cannot be cut together.
+/// `values` override defaults. Throws InputError for unknown parameters, values out of range, or
+/// proportions that cannot be cut together.
 Solid make_cut(const std::string& name, const std::map<std::string, double>& values = {});
 
 }  // namespace culet

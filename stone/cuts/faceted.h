@@ -9,12 +9,12 @@ namespace culet {
 
 struct StepTier {
     double angle = 0.7;  ///< of every facet of the tier, radians
-    double height = 1;   ///< mm, height of the tier
+    double height = 1;   ///< mm
 };
 
 struct StepProportions {
     double length = 8, width = 6,
-           corner = 1;  ///< mm; `corner`: how much each corner takes off a side
+           corner = 1;  ///< mm; `corner`: length that each corner takes off a side
     double girdle = 0.15;
     std::vector<StepTier> crown,
         pavilion;  ///< from the girdle outwards; the last pavilion tier ends in the keel

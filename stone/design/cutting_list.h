@@ -11,7 +11,7 @@
 
 namespace culet {
 
-/// How deep the facets of a tier are cut, relative to what is cut already.
+/// How deep a tier is cut, relative to what is cut already.
 struct CutDepth {
     enum class To {
         meet,      ///< a corner of at least three facets cut before
@@ -55,16 +55,14 @@ struct CuttingOptions {
     double shown_deg = 0.1;  ///< what the goniometer shows; smaller differences are ignored
 };
 
-/// In the order of the solid's design (`cutting_design`). The facets of a fitted or recut stone may
-/// agree on a turn against the design; that turn is taken out. z is up.
+/// In the order of the solid's design (`cutting_design`). A turn against the design that the facets
+/// of a fitted or recut stone share is taken out. z is up.
 std::vector<CuttingStep> cutting_list(const Solid& solid, const CuttingOptions& options = {});
 
-/// Teeth of the wheel that `cutting_list` uses.
 double gear_of(const Solid& solid, const CuttingOptions& options);
 
 /// The author's words, and whatever else fixes the depth: "meet G, P1", "leave 0.20 mm of G", ...
-/// Lengths are in `unit`; with an empty `unit` they are relative to `width`, as cutters write:
-/// "0.031 W".
+/// Lengths are in `unit`; if that is empty, relative to `width` as cutters write: "0.031 W".
 std::string depth_words(const CuttingStep& step, const std::string& unit, double width);
 
 /// "12 24 36", "10 58 (cheater -0.24), 38 86 (cheater +0.24)", "8 40, 72 at 41.25"; "any" for level
@@ -76,8 +74,7 @@ std::string facet_count_words(const Solid& solid);
 
 const char* name_of(StonePart part);
 
-/// Length of the shortest edge between two girdle facets: the girdle at its thinnest. 0 without
-/// one.
+/// The shortest edge between two girdle facets; 0 without one.
 double least_girdle(const Solid& solid);
 
 }  // namespace culet

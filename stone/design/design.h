@@ -1,7 +1,7 @@
 #pragma once
-// A cut design as its author gives it: tiers in the order of cutting, each with its angle, index
-// settings and instruction. A solid knows the design that it was cut by and finds its facets there
-// by name, so a fitted, recut or converted stone keeps the tier and index of every facet.
+// A cut design as its author gives it: tiers in cutting order with angle, index settings and
+// instruction. A solid finds its facets in its design by name, so a fitted, recut or converted
+// stone keeps the tier and index of every facet.
 
 #include <memory>
 #include <optional>
@@ -55,7 +55,7 @@ struct DesignPlace {
     int tier = -1, facet = -1;  ///< of the design; -1: it does not have the facet
 };
 
-/// The place of each facet of the solid, by name, in the solid's design.
+/// By facet of the solid.
 std::vector<DesignPlace> places_of(const Solid& solid);
 
 /// A cutter's names of the tiers: the tier's one label; else what its labels have in common, if no
@@ -66,12 +66,11 @@ std::vector<std::string> tier_titles(const Design& design);
 /// steepest first, their symmetry, and index settings on a wheel of 96 teeth. z is up.
 Design drawn_design(const Solid& solid);
 
-/// The solid's own design, or else the drawn one.
 Design cutting_design(const Solid& solid);
 
-/// Joins facets of one tier that a file gives one by one because each has its own angle (a fitted
-/// stone). Facets join when their names have one stem (`C` of C1, `A` of A.1) and the solid's
-/// drawing has them in one tier. The tier gets their mean angle and distance.
+/// Joins facets that a file gives one by one because each has its own angle (a fitted stone), if
+/// their names share a stem (`C` of C1, `A` of A.1) and the drawing has them in one tier. The tier
+/// gets their mean angle and distance.
 void join_split_tiers(const Solid& solid, Design& design);
 
 /// As lines of GemCad's .asc that hold the facets' names too, and back. Throws InputError.

@@ -11,12 +11,11 @@ namespace culet {
 struct DrawnSymmetry {
     AxisGroup group;  ///< trivial where the drawing has none or is not closed
     AxisGroup near;   ///< the largest that it comes near to; one facet cut askew does not change it
-    double scatter =
-        0;  ///< one sigma of a corner's coordinate against the symmetric form, in the solid's unit;
-            ///< at least what the last digit of designs leaves open
+    double scatter = 0;  ///< one sigma of a corner's coordinate against the symmetric form, in the
+                         ///< solid's unit; at least what the last digit of designs leaves open
 
-    /// Standard deviation of a facet's drawn inclination from its orbit's, radians: that of a plane
-    /// through corners with errors of `scatter`.
+    /// One sigma of a facet's drawn inclination, radians: that of a plane through corners with
+    /// errors of `scatter`.
     double tilt_sigma(const Solid& solid, int facet, const Vec3& up) const;
 };
 

@@ -10,14 +10,13 @@
 
 namespace culet {
 
-/// For each facet its tooth of the index wheel, in (0, gear], to a hundredth of a tooth: by the
-/// solid's design (design.h), or by the facet's azimuth for another wheel or without a design.
-/// Empty ("") for level facets and for gear 0, which means that the wheel is not known.
+/// Each facet's tooth of the index wheel, in (0, gear], to a hundredth: by the solid's design
+/// (design.h), or by azimuth for another wheel or without a design. Empty ("") for level facets and
+/// for gear 0 (unknown wheel).
 std::vector<std::string> index_teeth(const Solid& solid, double gear);
 
-/// `A@76` for a facet of tier A (`tier_titles`) of the solid's design on a wheel of 96 teeth;
-/// `A@12of64` on another. The facet's own name where it has no tier, lies level, or would share its
-/// index name with another facet.
+/// `A@76` for a facet of tier A (`tier_titles`) on a wheel of 96 teeth; `A@12of64` on another. The
+/// facet's own name if it has no tier, lies level, or would share its index name.
 std::vector<std::string> index_names(const Solid& solid, double gear);
 
 /// The facets of this tier, or of this name, within half a tooth of the index. Empty: none, or

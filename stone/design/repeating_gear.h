@@ -10,10 +10,9 @@ namespace culet {
 /// GemCad's default.
 inline constexpr double k_usual_gear = 96;
 
-/// The one other gear of the trade on which the tiers repeat about the axis as the design's
-/// symmetry asks, with no index beyond the gear. Where the design states no symmetry, any turn from
-/// a half to a sixteenth counts. Returns nothing where the tiers repeat on the usual gear, on no
-/// gear, or on several.
+/// The one other gear of the trade on which the tiers repeat as the design's symmetry asks, with no
+/// index beyond it. Without a stated symmetry any turn from a half to a sixteenth counts. Nothing
+/// where the tiers repeat on the usual gear, on none, or on several.
 std::optional<double> repeating_gear(const Design& design);
 
 }  // namespace culet

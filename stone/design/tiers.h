@@ -15,7 +15,7 @@ enum class StonePart { table, crown, girdle, pavilion, culet };
 
 StonePart part_of(const Solid& solid, int facet, int table, const Vec3& up);
 
-/// Index of the table, or -1.
+/// Or -1.
 int table_facet(const Solid& solid, const Vec3& up);
 
 /// Facets that reach from the girdle to the table (crown), or to the lowest corner or the culet
@@ -38,7 +38,6 @@ struct FacetTier {
     std::string pattern;     ///< matches these facets and no others (`C*`, `A.*`); may be empty
 };
 
-/// In the order of their first facets.
 std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
 
 /// For each of `facets` facets the index of the tier that lists it; -1: none does.

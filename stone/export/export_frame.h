@@ -5,20 +5,19 @@
 
 namespace culet {
 
-/// The same stone in that frame: turned by the least rotation that brings its up direction to +z,
-/// scaled to mm, and moved along z only. The girdle's plane is the middle of where the stone is
-/// widest (`girdle_outline`). Throws InputError for a solid without extent.
+/// The same stone turned by the least rotation that brings its up direction to +z, in mm, and moved
+/// along z only. The girdle's plane is the middle of where the stone is widest (`girdle_outline`).
+/// Throws InputError for a solid without extent.
 Stone in_export_frame(const Stone& stone);
 
-/// A convex stone with all corners on their planes. Where corners lie off by more than
-/// `tolerance_mm`, the planes are intersected anew and edges shorter than that contracted. Other
-/// solids are returned as they are.
+/// Puts all corners of a convex stone on their planes: intersects the planes anew where corners are
+/// off by more than `tolerance_mm`, and contracts edges shorter than that. Other solids are
+/// unchanged.
 Solid planar_solid(const Solid& solid, bool convex, double tolerance_mm);
 
-/// A convex stone grown by `clearance` on every plane: the room that a seat for it needs. Every
-/// point of its surface is at least `clearance` from the stone, exactly so above the facets; sharp
-/// edges reach farther. Facets keep their names. Throws InputError for a stone that is not convex
-/// and for a clearance that is not positive.
+/// A convex stone grown by `clearance` on every plane: the room that a seat needs. Its surface is
+/// `clearance` from the stone above the facets, farther at sharp edges. Facets keep their names.
+/// Throws InputError for a stone that is not convex and for a clearance that is not positive.
 Solid grown_outward(const Solid& solid, double clearance);
 
 }  // namespace culet

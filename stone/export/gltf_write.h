@@ -24,18 +24,17 @@ enum class GltfForm {
     text     ///< .gltf, with the buffer inside
 };
 
-/// `stone` is in the frame of `in_export_frame`. The file has glTF's metres and +y up, and the
-/// stone's true size.
+/// `stone` is in the frame of `in_export_frame`; the file has glTF's metres and +y up.
 ///
-/// One mesh of one primitive; every facet is flat and has corners of its own (single precision).
-/// The mesh's extras hold `facets`: name, first triangle and number of triangles, plane (`normal`
-/// in culet's frame, `offset_mm`), inclination and azimuth in degrees, area. The node's extras hold
-/// what is known of the stone: size, volume, weight, density, index, material. The same stone gives
-/// the same bytes. Throws InputError for a solid without facets.
+/// One mesh of one primitive, with flat facets that have their own corners (single precision). The
+/// mesh's extras hold `facets`: name, first triangle, number of triangles, plane (`normal` in
+/// culet's frame, `offset_mm`), inclination and azimuth in degrees, area. The node's extras hold
+/// size, volume, weight, density, index, material. The same stone gives the same bytes. Throws
+/// InputError for a solid without facets.
 std::string gltf_bytes(const Stone& stone, const std::optional<GltfLook>& look, GltfForm form);
 
-/// The look of a material without its colour (see render/export): the principal rays' mean index at
-/// the d line, and the dispersion from the F to the C line.
+/// Without the material's colour (see render/export): the mean index at the d line, and the
+/// dispersion from the F to the C line.
 GltfLook gltf_look_of(const Material& material);
 
 }  // namespace culet

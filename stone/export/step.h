@@ -14,13 +14,11 @@ struct StepFile {
     std::vector<std::string> notes;
 };
 
-/// Writes one manifold solid with plane faces. Each facet is an ADVANCED_FACE of the facet's name,
-/// each edge is shared by two of them, lengths are millimetres and unchanged. The same solid gives
-/// the same bytes.
+/// One manifold solid with plane faces: each facet is an ADVANCED_FACE with its name, each edge is
+/// shared by two. Lengths are mm, unchanged. The same solid gives the same bytes.
 ///
-/// Facets with corners more than 1e-5 mm off their planes become triangles of the same name, and a
-/// note says so; `planar_solid` avoids that for convex stones. Throws InputError for a solid that
-/// is not one closed body.
+/// Facets with corners more than 1e-5 mm off their planes become triangles of the same name, with a
+/// note (see `planar_solid`). Throws InputError unless the solid is one closed body.
 StepFile step_text(const Solid& solid_mm, const std::string& name);
 
 }  // namespace culet

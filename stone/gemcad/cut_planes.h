@@ -17,11 +17,11 @@ struct CutPlane {
     int tier = 0, facet = 0;  ///< of the design
 };
 
-/// For each tier the one label of all its facets, if exactly one label stands in the tier. Empty
-/// where a tier has no label or several: those belong to single facets.
+/// For each tier its label, if exactly one stands in it: it holds for all facets. Empty otherwise:
+/// several labels belong to single facets.
 std::vector<std::string> tier_labels(const Design& design);
 
-/// Fills in `cut`: the solid with its design, notes and lists of planes. Throws InputError.
+/// Fills in the solid with its design, notes and lists of planes. Throws InputError.
 void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& planes,
                  const CutReading& how, const std::filesystem::path& file);
 

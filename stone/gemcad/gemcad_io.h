@@ -28,15 +28,14 @@ struct CutReading {
 
 /// Reads a design: the convex solid of its planes, with near-miss meets contracted.
 ///
-/// Names are those after `n`. If a tier has one name, that is the name of all its facets, wherever
-/// in the tier it stands (GemCad names a tier once, at its first facet). If it has several, each
-/// belongs to its facet alone. A repeated name gets .1, .2, so a tier A is A, A.1, A.2, ...; facets
-/// that the file names come before those named after their tier. Facets without a name are f0, f1,
-/// ... in file order.
+/// Names are those after `n`. A tier's only name is the name of all its facets, wherever it stands
+/// (GemCad names a tier once, at its first facet); several names belong to single facets. Repeated
+/// names get .1, .2, so a tier A is A, A.1, A.2, ...; facets that the file names come before those
+/// named after their tier. Facets without a name are f0, f1, ... in file order.
 ///
-/// A facet of angle 0 needs no index. Without a `g` line the gear is guessed, and a note says so.
-/// Throws InputError with the line of a record that it does not understand, and when the planes
-/// leave the stone open or leave nothing inside.
+/// A facet of angle 0 needs no index. Without a `g` line the gear is guessed, with a note. Throws
+/// InputError with the line of a record that is not understood, and when the planes leave the stone
+/// open or empty.
 ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how = {});
 ReadCut read_gemcad_gem(const std::filesystem::path& file, const CutReading& how = {});
 
@@ -46,16 +45,15 @@ ReadCut parse_gemcad_asc(std::string_view bytes, const CutReading& how = {},
 ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.gem");
 
-/// Writes the solid as the design orders it: tier by tier, with labels, index settings,
-/// instructions and all else that the design says, also about facets that bound nothing. Each plane
-/// reads back to 1e-12. Facets of a tier that differ in angle or distance get successive lines of
-/// their own. Facets that the design lacks follow; those of one angle and distance share a line,
-/// and one name if they are A, A.1, A.2, ... Blanks in names become `_`. Without a refractive
-/// index, GemCad's 1.54 is written.
+/// Writes the solid in the design's order: tier by tier, with labels, index settings, instructions
+/// and all else that it says, also about facets that bound nothing. Planes read back to 1e-12.
+/// Facets of a tier that differ in angle or distance get successive lines. Facets that the design
+/// lacks follow; those of one angle and distance share a line, and a name if they are A, A.1, A.2,
+/// ... Blanks in names become `_`. The default refractive index is GemCad's 1.54.
 ///
-/// The format measures distances from a point inside the stone. If the origin is not inside, the
-/// stone is moved so that its centroid is at the origin. Returns notes on what was changed. Throws
-/// InputError for a solid that is not convex, which the format cannot hold.
+/// The format measures distances from a point inside: if the origin is outside, the stone's
+/// centroid is moved to it. Returns notes on changes. Throws InputError for a solid that is not
+/// convex, which the format cannot hold.
 std::vector<std::string> write_gemcad_asc(const Solid& solid, const Design& design,
                                           const std::filesystem::path& file);
 

@@ -39,8 +39,8 @@ struct Material {
     std::array<RefractiveIndex, 3> index;  ///< the first ray_count(optic) are used
     /// Napierian intensity coefficient per mm along the ray, for E along each principal axis.
     std::array<Spectrum, 3> absorption_per_mm;
-    /// Set when an absorption was given as three numbers for R, G, B (Guy & Soler 2004, table 6.1):
-    /// the spectrum above is then those numbers at 610, 545 and 465 nm.
+    /// The absorption was given as three numbers for R, G, B (Guy & Soler 2004, table 6.1): the
+    /// spectrum above has them at 610, 545 and 465 nm.
     bool absorption_from_rgb = false;
     std::optional<double> density_g_cm3;
     double valid_from_nm = 380, valid_to_nm = 780;
@@ -51,25 +51,23 @@ struct Material {
     std::string usual_colour;
     std::vector<std::string> notes;  ///< what was taken for granted on reading its tables
 
-    /// False: it is drawn without colour, for want of a spectrum or because it has none.
+    /// False: drawn without colour, because there is no spectrum or no absorption.
     bool has_absorption() const;
 };
 
-/// Names of the catalogue: materials, then coloured varieties (`ruby_pale` is `corundum` with an
-/// absorption), in order.
+/// In order: materials, then coloured varieties (`ruby_pale` is `corundum` with an absorption).
 std::vector<std::string> catalogue_names();
 
-/// A material or coloured variety of the catalogue, by its name there or by its title up to a
-/// parenthesis where only one is called so (`ruby` is ruby_gem, `blue sapphire` sapphire_blue).
-/// Throws InputError with the nearest names when there is none of that name.
+/// By name in the catalogue, or by title up to a parenthesis if that is unique (`ruby` is ruby_gem,
+/// `blue sapphire` sapphire_blue). Throws InputError with the nearest names.
 Material catalogue_material(const std::string& name);
 
-/// Names whose material has all of `words` in its name, its kind or its usual colour (`blue
-/// sapphire`, `tsavorite`), those named so first; else those nearest by spelling; perhaps none.
+/// Names whose material has all of `words` in its name, kind or usual colour (`blue sapphire`,
+/// `tsavorite`), matching names first; else those nearest by spelling, if any.
 std::vector<std::string> catalogue_names_like(const std::string& words);
 
-/// The material's notes, and a sentence on the colour that is missing when stones of that name are
-/// coloured and the catalogue has no spectrum of them.
+/// The material's notes, and a sentence if stones of that name are coloured but the catalogue has
+/// no spectrum.
 std::vector<std::string> notes_on(const Material& material);
 
 }  // namespace culet

@@ -6,15 +6,15 @@
 
 namespace culet {
 
-/// Reads a [material] table. Throws InputError with the line that is wrong.
+/// Throws InputError with the line that is wrong.
 Material material_of(const TomlTable& table);
 
-/// Reads a material file, which has one [material] table.
+/// The file has one [material] table.
 Material read_material(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {});
 
-/// The material that an option --material names: a material file where the name ends in .toml, else
-/// one of the catalogue.
+/// For the option --material: a material file if the name ends in .toml, else a name of the
+/// catalogue.
 Material material_called(const std::string& name);
 
 }  // namespace culet

@@ -9,10 +9,9 @@ namespace culet {
 class Spectrum {
 public:
     Spectrum() = default;
-    /// The same value at every wavelength.
     explicit Spectrum(double constant) : values_{constant} {}
-    /// `wavelengths_nm` must increase strictly and have the length of `values`; throws
-    /// InternalError otherwise.
+    /// `wavelengths_nm` must increase strictly and match `values` in length; else throws
+    /// InternalError.
     Spectrum(std::vector<double> wavelengths_nm, std::vector<double> values);
 
     double at(double wavelength_nm) const;

@@ -20,7 +20,7 @@ struct FacesToTurn {
 };
 
 /// Which faces to turn so that all faces 0 .. count - 1 of a connected part run the same way round.
-/// Nothing where an edge does not have two faces, or the surface has only one side.
+/// Nothing where an edge has not exactly two faces, or the surface has only one side.
 std::optional<FacesToTurn> faces_to_turn(std::size_t count, std::vector<FaceSide> sides);
 
 }  // namespace culet

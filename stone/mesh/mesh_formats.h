@@ -14,7 +14,6 @@ FaceSoup parse_obj(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_off(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
-/// Calls the format's parser.
 FaceSoup soup_of(std::string_view bytes, MeshFormat format, const std::filesystem::path& file);
 
 /// `with_planes`: write the facets' planes in comments.

@@ -20,14 +20,13 @@ struct TriangleMesh {
 /// True for glTF (.gltf, .glb), whose lengths are metres.
 bool is_gltf(const std::filesystem::path& file);
 
-/// Reads OBJ, OFF, PLY, STL or glTF, by the extension. Polygons are cut into triangles; triangles
-/// without area are dropped. glTF: all triangles of the scene, placed by its nodes and turned so
-/// that its +y is +z. Throws InputError.
+/// Reads OBJ, OFF, PLY, STL or glTF, by the extension. Polygons are cut into triangles, those
+/// without area dropped. glTF: all triangles of the scene, placed by its nodes, with its +y as +z.
+/// Throws InputError.
 TriangleMesh read_triangle_mesh(const std::filesystem::path& file);
 
-/// Gives each corner the mean normal (weighted by angle: Thuermer & Wuethrich 1998) of the
-/// triangles around its vertex that are inclined to its own triangle by less than `crease` radians.
-/// Vertices at one place count as one.
+/// Gives each corner the mean normal (weighted by angle: Thuermer & Wuethrich 1998) of its vertex's
+/// triangles inclined to its own by less than `crease` radians. Vertices at one place count as one.
 void smooth_normals(TriangleMesh& mesh, double crease);
 
 /// `file` is for messages, and to find the buffers that it names.

@@ -1,14 +1,14 @@
 #pragma once
-// Decompositions and products of dense matrices, compiled once: Eigen's templates cost seconds in
-// every file that uses them. Includers of this header pay for <Eigen/Core> only. It is the one
-// header that shows Eigen to other folders.
+// Decompositions and products of dense matrices, compiled once, since Eigen's templates cost
+// seconds per file. Includers pay for <Eigen/Core> only. The one header that shows Eigen to other
+// folders.
 
 #include <Eigen/Core>
 #include <memory>
 
 namespace culet {
 
-/// A matrix, or a block of columns, without a copy. Rows and expressions are copied.
+/// A matrix, or a block of columns, is not copied; rows and expressions are.
 using MatrixView = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// A B, A' B, A B'.
@@ -30,7 +30,6 @@ public:
     explicit Cholesky(const MatrixView& matrix);
     /// False when the matrix is not positive definite; the other members must not be used then.
     bool good() const;
-    /// The smallest square on L's diagonal.
     double least_pivot() const;
     Eigen::MatrixXd solve(const MatrixView& right) const;
     Eigen::VectorXd solve_one(Eigen::VectorXd right) const;
@@ -89,16 +88,13 @@ public:
     /// A pivot below this fraction of the largest counts as zero; 0: rounding.
     explicit PivotedQr(const MatrixView& matrix, double threshold = 0);
     Eigen::Index rank() const;
-    /// |R(k, k)|, k < min(rows, columns).
     double pivot(Eigen::Index k) const;
     /// Least squares; for a rank-deficient matrix zero for the redundant columns.
     Eigen::MatrixXd solve(const MatrixView& right) const;
     Eigen::VectorXd solve_one(const Eigen::VectorXd& right) const;
-    /// The first columns of Q. They are orthonormal; `rank()` of them span the matrix's columns.
+    /// Orthonormal; the first `rank()` span the matrix's columns.
     Eigen::MatrixXd first(Eigen::Index columns) const;
-    /// The last columns of Q.
     Eigen::MatrixXd last(Eigen::Index columns) const;
-    /// Q' b.
     Eigen::VectorXd along(Eigen::VectorXd b) const;
     /// F = P R^-1, so that (A'A)^-1 = F F'. The matrix must have full column rank.
     Eigen::MatrixXd inverse_factor() const;

@@ -1,6 +1,6 @@
 #pragma once
-// Lets functions deep inside long work react to a stop although nobody hands them the progress:
-// they call `heed_stop`.
+// Lets functions deep inside long work, which are not handed the progress, react to a stop: they
+// call `heed_stop`.
 
 #include "stone/progress/progress.h"
 
@@ -14,7 +14,7 @@ public:
     StopsHeeded(const StopsHeeded&) = delete;
     StopsHeeded& operator=(const StopsHeeded&) = delete;
 
-    /// Pass this on in place of `progress`: it remembers the last fraction reported.
+    /// Pass this on in place of `progress`.
     Progress progress();
 
 private:

@@ -14,13 +14,13 @@ using Triangle = std::array<Vec3, 3>;
 /// Detection (2005), 5.1: it is the distance of two edges, or of a corner and a face.
 double distance_between(const Triangle& a, const Triangle& b);
 
-/// The surface of a stone, for measuring its distance from shells.
+/// Measures distances of a stone from shells.
 class StoneSurface {
 public:
     explicit StoneSurface(const Solid& solid);
 
-    /// Distance to the shell's surface; 0 where they meet. Does not tell a shell wholly inside from
-    /// one outside. Distances above `up_to` are not searched.
+    /// 0 where they meet. Does not tell a shell wholly inside from one outside. Distances above
+    /// `up_to` are not searched.
     double distance_to(const Shell& shell, double up_to) const;
 
 private:

@@ -22,17 +22,17 @@ struct SettingPlan {
     PlanOutline base = {};  ///< centre line of the lowest rail of the gallery
     double base_height = 0;
 
-    /// Distances above this need not be told apart: nothing is held so far off.
+    /// Distances above this need not be told apart.
     double far() const { return 4 * wire; }
 };
 
-/// The shell of `make`, at the distance from the stone where its gap is the clearance to within a
-/// thousandth of the wire. Throws InputError, with `what`, where there is no such distance.
+/// The shell of `make` whose gap to the stone is the clearance, to within a thousandth of the wire.
+/// Throws InputError, with `what`, if there is none.
 Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& make,
                    const std::string& what);
 
 /// A place, with the distance to the base against its outward direction. Where the outline's normal
-/// misses the base (near sharp points), the direction is changed to that of the base's middle.
+/// misses the base (near sharp points), the direction is that to the base's middle.
 struct FootedPlace {
     GirdlePlace place;
     double to_base = 0;
@@ -42,7 +42,7 @@ FootedPlace on_base(const SettingPlan& plan, GirdlePlace place);
 struct Prong {
     Shell shell;
     GirdlePlace place;
-    /// The path below the girdle, in the section through the place.
+    /// Below the girdle, in the section through the place.
     PlanPoint foot{0, 0}, shoulder{0, 0};
 };
 
@@ -54,8 +54,8 @@ struct Bezel {
 };
 Bezel make_bezel(const SettingPlan& plan);
 
-/// A rail around all prongs between base and girdle, as high as the stone leaves room for; nothing
-/// where it leaves none.
+/// A rail around all prongs between base and girdle, as high as possible; nothing where there is no
+/// room.
 std::optional<Shell> make_rail(const SettingPlan& plan, const std::vector<Prong>& prongs);
 
 /// A point of the section through a place, in space.

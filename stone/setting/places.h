@@ -12,9 +12,9 @@ struct GirdlePlace {
     PlanPoint at{0, 0}, outward{1, 0};
 };
 
-/// The parts of an outline that can be gripped from outside: its convex hull, except for the sides
-/// that bridge a notch, and the corners on it. A corner is where the outline turns by 40 degrees or
-/// more within a fortieth of its length; two that one short side joins (a cut corner) count as one.
+/// What can be gripped of an outline from outside: its convex hull, except for sides that bridge a
+/// notch, and the corners on it. At a corner the outline turns by 40 degrees or more within a
+/// fortieth of its length; two with one short side between (a cut corner) count as one.
 class GripOutline {
 public:
     explicit GripOutline(const PlanOutline& outline);
@@ -22,14 +22,13 @@ public:
     const PlanOutline& hull() const { return hull_; }
     int corners() const { return static_cast<int>(corners_.size()); }
 
-    /// The trade's number: a prong at every corner, and as many more as hold the stone. Without
-    /// corners: 4 for rounded rectangles, else 6.
+    /// The trade's number: one per corner, and as many more as hold the stone. Without corners: 4
+    /// for rounded rectangles, else 6.
     int usual_prongs() const;
 
-    /// `count` places, at least 2, counter-clockwise from azimuth 0. Corners come first (evenly
-    /// chosen if there are more corners than prongs); the others stand at even distances between
-    /// them. Without corners all stand evenly about the x axis. Normals are means over `width` of
-    /// outline.
+    /// `count` places, at least 2, counter-clockwise from azimuth 0: corners first (evenly chosen
+    /// if there are too many), the others evenly between them. Without corners all stand evenly
+    /// about the x axis. Normals are means over `width` of outline.
     std::vector<GirdlePlace> places(int count, double width) const;
 
 private:

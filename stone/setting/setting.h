@@ -44,20 +44,20 @@ struct Setting {
 };
 
 /// Makes the mounting of a stone whose table faces `up`. The shank's hoop is perpendicular to the
-/// plan's x axis (stone/solid/caliper.h), so that the stone lies along the finger. The outline may
-/// be convex or notched.
+/// plan's x axis (stone/solid/caliper.h), so the stone lies along the finger. The outline may be
+/// convex or notched.
 /// - A prong is a round wire that rises from the gallery, leans against the girdle and bends over
-///   it onto the crown. In the upright section through its place it is the shortest path at a
-///   distance from all that the wire may touch.
+///   it onto the crown. In its upright section it is the shortest path at a distance from all that
+///   the wire may touch.
 /// - A bezel is a collar of one section around the girdle's outline.
-/// - The gap of prongs, bezel and legs is the clearance to within a thousandth of the wire's
-///   diameter. All other metal is further off.
+/// - Prongs, bezel and legs have the clearance as their gap, to within a thousandth of the wire's
+///   diameter. Other metal is further off.
 ///
-/// Each shell is closed and counter-clockwise as seen from outside; the shells are not united.
-/// Throws InputError for lengths that do not fit together and for stones without a girdle.
+/// Shells are closed, counter-clockwise from outside, and not united. Throws InputError for lengths
+/// that do not fit together and for stones without a girdle.
 Setting make_setting(const Solid& solid, const Vec3& up, const SettingOptions& options);
 
-/// All parts as one mesh; each triangle has its part's name.
+/// Triangles have their part's name.
 Solid mesh_of(const Setting& setting);
 
 }  // namespace culet

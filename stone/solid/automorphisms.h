@@ -1,7 +1,7 @@
 #pragma once
-// The symmetries of a solid's combinatorics: ways to permute facets, edges and corners that keep
-// neighbours. No length, angle or tolerance enters, so the answer is the same for a rough mesh and
-// for a perfect stone.
+// The combinatorial symmetries of a solid: permutations of facets, edges and corners that keep
+// neighbours. No length, angle or tolerance enters, so a rough mesh and a perfect stone give the
+// same answer.
 
 #include <vector>
 
@@ -17,11 +17,11 @@ struct Automorphism {
     bool operator==(const Automorphism&) const = default;
 };
 
-/// All automorphisms, the identity first, then in the order of the images of one edge. The surface
-/// must be closed (InternalError, see `find_faults`); of several pieces only the identity is
-/// returned. Each is found by following the neighbours of one edge's image over the surface (flag
-/// propagation: the image of one flag fixes the map of a connected surface), so there are at most 4
-/// per edge. Worst-case cost: edges x edges with the rarest neighbourhood.
+/// The identity first, then in the order of the images of one edge. The surface must be closed
+/// (InternalError, see `find_faults`); several pieces give only the identity. Found by following
+/// the neighbours of one edge's image over the surface (flag propagation: the image of one flag
+/// fixes the map), so there are at most 4 per edge. Worst case: edges x edges with the rarest
+/// neighbourhood.
 std::vector<Automorphism> automorphisms(const Solid& solid);
 
 /// Those of `all` that keep facet `pole` in place: turns about it and mirrorings through it.
@@ -30,16 +30,14 @@ std::vector<Automorphism> that_keep(const std::vector<Automorphism>& all, int po
 /// Applies first, then second.
 Automorphism followed_by(const Automorphism& first, const Automorphism& second);
 
-/// The number of repetitions that give the identity.
 int order_of(const Automorphism& automorphism);
 
-/// By how many of its corners facet `pole`, which stays in place, is turned counter-clockwise: its
-/// corner 0 goes to corner `steps`. With n corners that is steps / n of a full turn, if the turned
-/// stone looks the same.
+/// The number of corners by which facet `pole`, which stays in place, is turned counter-clockwise:
+/// corner 0 goes to corner `steps`.
 int steps_of_turn(const Solid& solid, int pole, const Automorphism& automorphism);
 
-/// The orbits of the facets. Members are in the order in which repeated maps reach them, orbits in
-/// the order of their lowest facet.
+/// Members are in the order in which repeated maps reach them, orbits in the order of their lowest
+/// facet.
 std::vector<std::vector<int>> facet_orbits(const std::vector<Automorphism>& group,
                                            std::size_t facets);
 

@@ -1,7 +1,6 @@
 #pragma once
-// The turns about up and mirrorings through it under which a stone looks more or less the same. The
-// candidates come from the combinatorics (stone/solid/automorphisms.h); geometry selects among
-// them.
+// The turns about up and mirrorings through it under which a stone looks nearly the same.
+// Candidates come from the combinatorics (stone/solid/automorphisms.h); geometry selects.
 
 #include <string>
 #include <vector>
@@ -19,7 +18,7 @@ struct AxisMotion {
     double misfit = 0;  ///< rms distance of the moved points from their images
 };
 
-/// All automorphisms as motions about +z. Those that turn the axis over get a large misfit.
+/// Those that turn the axis over get a large misfit.
 std::vector<AxisMotion> motions_about_z(const std::vector<Automorphism>& all,
                                         const std::vector<Vec3>& points);
 
@@ -44,11 +43,10 @@ struct AxisGroup {
 /// The largest group of motions with misfits up to `largest_misfit` (in the points' unit).
 AxisGroup largest_group(const std::vector<AxisMotion>& motions, double largest_misfit);
 
-/// All subgroups except the trivial one, the largest first, including the group itself. Subgroups
-/// that a turn of the group maps into each other are listed separately (C8v contains C4v twice).
+/// Without the trivial one, the largest (the group itself) first. Conjugate subgroups are listed
+/// separately (C8v contains C4v twice).
 std::vector<AxisGroup> subgroups_of(const AxisGroup& group);
 
-/// An orbit of the group's facets.
 struct FacetOrbit {
     std::vector<int> facets;
     std::vector<AxisGroup::Element> from_first;  ///< takes the first facet to each member

@@ -23,8 +23,8 @@ struct CaliperWidths {
     bool round() const;
 };
 
-/// All zero for a solid without extent in plan. For another `up` than z, azimuths count about it
-/// from the direction nearest to x.
+/// All zero for a solid without extent in plan. For another `up` than z, azimuths count from the
+/// direction nearest to x.
 CaliperWidths caliper_widths(const Solid& solid, const Vec3& up = {0, 0, 1});
 
 /// The directions perpendicular to `up` from which azimuths count.

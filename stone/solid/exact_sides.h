@@ -14,10 +14,9 @@ int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 using Vec2 = std::array<double, 2>;
 
-/// +1 when a, b, c turn counter-clockwise, -1 clockwise, 0 when they lie on one line.
+/// +1 for a counter-clockwise turn, -1 clockwise, 0 on one line.
 int turn(const Vec2& a, const Vec2& b, const Vec2& c);
 
-/// True if two closed segments have a common point.
 bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 }  // namespace culet

@@ -8,8 +8,8 @@
 
 namespace culet {
 
-/// An edge from corner `from` to `to`, with facet `left` on its left as seen from outside and
-/// `right` on the other side. Each edge appears once, with from < to.
+/// From corner `from` to `to`, with facet `left` on its left as seen from outside. Each edge
+/// appears once, with from < to.
 struct Edge {
     int from = -1, to = -1;
     int left = -1, right = -1;

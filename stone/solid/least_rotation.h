@@ -8,12 +8,11 @@
 
 namespace culet {
 
-/// `v` after the least rotation that turns the unit `from` into the unit `to`. Opposite directions
-/// have no such rotation; then it is half a turn about some axis perpendicular to them.
+/// `v` after the least rotation from the unit `from` to the unit `to`; for opposite directions half
+/// a turn about some perpendicular axis.
 ///
-/// It is two reflections (Householder 1958), in `from` and in the half-way direction. They keep
-/// lengths and angles to rounding even where the two are nearly opposite and Rodrigues' formula
-/// loses digits.
+/// Two reflections (Householder 1958), in `from` and in the half-way direction, keep lengths and
+/// angles to rounding even where the two are nearly opposite and Rodrigues' formula loses digits.
 inline Vec3 turned_with(const Vec3& from, const Vec3& to, const Vec3& v) {
     const Vec3 sum = from + to, apart = from - to;
     const double length = glm::length(sum);

@@ -33,9 +33,9 @@ GirdleOutline girdle_outline(const Solid& solid);
 PlanOutline convex_hull(std::vector<PlanPoint> points);
 
 /// Moves the edges outward by `distance` (inward where negative) and intersects them in sharp
-/// corners. Point i is where corner i goes. Corners whose edges vanish go to one point, so the
-/// count stays the same (the edge events of a straight skeleton, Aichholzer et al. 1995). Parts of
-/// an outline that run into each other are not detected. Throws InputError where nothing is left.
+/// corners; point i is where corner i goes. Corners whose edges vanish go to one point (the edge
+/// events of a straight skeleton, Aichholzer et al. 1995). Parts of an outline that run into each
+/// other are not detected. Throws InputError where nothing is left.
 PlanOutline moved_outline(const PlanOutline& outline, double distance);
 
 double length_round(const PlanOutline& outline);

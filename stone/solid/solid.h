@@ -22,7 +22,6 @@ struct Plane {
     double offset = 0;
 };
 
-/// Signed distance of a point: positive outside.
 double height_above(const Plane& plane, const Vec3& point);
 
 /// One polished face. The plane is authoritative. Corners are the meets of planes; where a design's
@@ -43,7 +42,7 @@ struct Solid {
     std::shared_ptr<const Design> design = nullptr;
 };
 
-/// Index of the facet of that name, or -1.
+/// Or -1.
 int find_facet(const Solid& solid, std::string_view name);
 
 /// Twice the largest distance from the bounding box's middle to a vertex. 0 without vertices.
@@ -72,7 +71,6 @@ Vec3 corner_mean(const Solid& solid, const Facet& facet);
 /// area.
 Plane plane_through(std::span<const Vec3> loop);
 
-/// Largest distance of a corner from its facet's plane.
 double planarity(const Solid& solid);
 
 /// Number of distinct edges, open ones included.
@@ -83,7 +81,6 @@ struct NamedPlane {
     Plane plane;
 };
 
-/// What became of the planes that `intersect_half_spaces` was given.
 struct HalfSpaceSolid {
     Solid solid;                       ///< facets in the order of the planes that have one
     std::vector<int> repeated_planes;  ///< planes equal to an earlier one
@@ -92,15 +89,14 @@ struct HalfSpaceSolid {
     bool empty = false;                ///< true: no point satisfies all of them; solid is empty
 };
 
-/// The convex solid of all points with normal . x <= offset. All decisions are exact for the given
-/// doubles (CGAL's exact kernel), so meets that miss by rounding give short edges; see
-/// `contract_near_meets`. Cost: about planes x vertices exact side tests.
+/// The convex solid of all points with normal . x <= offset. Decisions are exact for the given
+/// doubles (CGAL), so meets that miss by rounding give short edges; see `contract_near_meets`.
+/// Cost: about planes x vertices exact side tests.
 HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes);
 
-/// Contracts edges up to `tolerance` long (a length; 0 merges coincident corners), shortest first,
-/// so that meets that nearly meet become one corner. A merged corner lies at the least-squares meet
-/// of its planes; the facets keep their planes. A facet that vanishes is removed and named in
-/// `vanished`.
+/// Contracts edges up to `tolerance` long (0 merges coincident corners), shortest first, so that
+/// near meets become one corner. It lies at the least-squares meet of its planes; facets keep their
+/// planes. Facets that vanish are removed and named in `vanished`.
 struct ContractedSolid {
     Solid solid;
     int contracted_edges = 0;

@@ -17,17 +17,14 @@ struct EdgeSide {
     bool same_edge(const EdgeSide& other) const { return low == other.low && high == other.high; }
 };
 
-/// All sides of all facets; those of one edge are adjacent.
+/// Those of one edge are adjacent.
 std::vector<EdgeSide> sorted_sides(const Solid& solid);
 
-/// True if all corners are vertices of the solid.
 bool has_valid_corners(const Solid& solid);
 
-/// True for at least three corners, none of them twice.
 bool has_distinct_corners(const Facet& facet);
 
-/// Vertices whose facets form more than one fan. Facets are in one fan when they share an edge that
-/// ends there.
+/// Vertices whose facets form more than one fan. Facets of a fan share an edge that ends there.
 std::vector<int> pinched_vertices(const Solid& solid, const std::vector<EdgeSide>& sides);
 
 /// Disjoint sets of numbers (union-find, Tarjan 1975).

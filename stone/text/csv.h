@@ -19,9 +19,9 @@ struct CsvTable {
     char separator = ',';      ///< comma, semicolon or tab, as in the header
 };
 
-/// RFC 4180 with any of the separators: fields may be quoted, a quote inside is doubled, a quoted
-/// field may contain line breaks. Excel's `sep=;` is skipped. Throws InputError if the file is not
-/// readable, is over 64 MB, is not text (text_decoding.h), or a quoted field does not end properly.
+/// RFC 4180 with any of the separators: fields may be quoted, a quote inside is doubled, quoted
+/// fields may contain line breaks. Excel's `sep=;` is skipped. Throws InputError if the file is
+/// unreadable, over 64 MB, not text (text_decoding.h), or ends in a quoted field.
 CsvTable read_csv(const std::filesystem::path& file);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// The kinds of failure in culet. A result that should not be trusted (not converged, contradictory)
-// is not a failure but a status in the result.
+// The kinds of failure in culet. An untrustworthy result (not converged, contradictory) is not a
+// failure but has a status.
 
 #include <filesystem>
 #include <stdexcept>
@@ -9,8 +9,8 @@
 
 namespace culet {
 
-/// The user's input is wrong. The message says in one line what was found, what was expected and
-/// what to do. Caught once, in `main`; exit code 2.
+/// Wrong input. The message says in one line what was found, what was expected and what to do.
+/// Caught once, in `main`; exit code 2.
 class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message) : std::runtime_error(message) {}
@@ -20,7 +20,7 @@ public:
     InputError(const std::filesystem::path& file, long line, const std::string& message);
 };
 
-/// A bug: a condition that the program itself must keep does not hold. Exit code 3.
+/// A bug: an invariant of the program does not hold. Exit code 3.
 class InternalError : public std::logic_error {
 public:
     using std::logic_error::logic_error;
@@ -32,13 +32,13 @@ public:
     Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// Makes foreign text safe for a terminal, on one line. Control characters (of ASCII and of
-/// Unicode's C1) become blanks. Characters that reorder or hide text, and bytes that are not UTF-8,
-/// are written as `\u202e` and `\xff`; so is everything beyond ASCII if `ascii`. Text in double
-/// quotes is cut at 120 characters and the whole at 2000.
+/// Makes foreign text safe for a terminal, on one line. Control characters (ASCII and C1) become
+/// blanks. Characters that reorder or hide text, and invalid UTF-8, become `\u202e` and `\xff`; so
+/// does everything beyond ASCII if `ascii`. Quoted text is cut at 120 characters and the whole at
+/// 2000.
 std::string for_terminal(std::string_view text, bool ascii = false);
 
-/// Throws InternalError with `what` unless `condition` holds, in release builds too.
+/// In release builds too.
 inline void check(bool condition, const char* what) {
     if (!condition) throw InternalError(what);
 }

@@ -16,7 +16,7 @@ public:
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// Where to write. It has the target's extension, for libraries that choose the format by it.
+    /// Where to write; has the target's extension, for libraries that choose the format by it.
     const std::filesystem::path& path() const { return temporary_; }
     void commit();
 
@@ -26,19 +26,17 @@ private:
 };
 
 /// Throws InputError when `target` could not be written; does nothing for an empty name or `-`.
-/// Call it before long work and before the first of several outputs, so that a failure leaves none
-/// of them.
+/// Call it before long work and before the first of several outputs.
 void require_writable(const std::filesystem::path& target);
 
-/// Writes `text` to `target`, complete or not at all; `-` is stdout.
+/// Complete or not at all; `-` is stdout.
 void write_text(const std::filesystem::path& target, std::string_view text);
 
-/// Reads the whole file. Throws InputError when it is missing, a folder, not readable, or larger
-/// than `limit_bytes`.
+/// Throws InputError when the file is missing, a folder, not readable, or larger than
+/// `limit_bytes`.
 std::string read_text(const std::filesystem::path& file, std::size_t limit_bytes = 256u << 20);
 
-/// What the file's first bytes say that it is (foreign_kind, text_decoding.h); empty where it
-/// cannot be read.
+/// `foreign_kind` (text_decoding.h) of the file's first bytes; empty if unreadable.
 std::string foreign_kind_of(const std::filesystem::path& file);
 
 }  // namespace culet

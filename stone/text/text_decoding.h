@@ -22,11 +22,10 @@ std::string decoded_text(std::string_view bytes, const std::filesystem::path& fi
 /// True for text that `decoded_text` treats as UTF-16.
 bool is_utf16(std::string_view bytes);
 
-/// The byte order mark of UTF-8.
 constexpr std::string_view k_utf8_mark = "\xef\xbb\xbf";
 
-/// Says what a file is by its first bytes, and what to do: "is an Excel workbook or ..."; empty for
-/// a file that is not commonly mistaken for another.
+/// The kind of a file by its first bytes, and what to do: "is an Excel workbook or ..."; empty for
+/// files not commonly mistaken for others.
 std::string foreign_kind(std::string_view bytes);
 
 /// The UTF-8 code point at `at`, which is moved past it; -1 (and one byte on) for invalid UTF-8.
@@ -36,7 +35,7 @@ std::int32_t next_code_point(std::string_view text, std::size_t& at);
 /// characters), and for non-characters.
 bool is_printable(std::int32_t code);
 
-/// Converts Windows-1252 to UTF-8; returns text unchanged that is UTF-8 already.
+/// UTF-8 text is returned unchanged.
 std::string utf8_from_windows1252(std::string_view text);
 /// Characters that Windows-1252 lacks become `_`.
 std::string windows1252_from_utf8(std::string_view text);

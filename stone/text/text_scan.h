@@ -14,7 +14,6 @@ namespace culet {
 class LineReader {
 public:
     explicit LineReader(std::string_view text) : text_(text) {}
-    /// The next line; nothing at the end of the text.
     std::optional<std::string_view> next();
     long line() const { return line_; }
     std::size_t position() const { return position_; }
@@ -25,45 +24,42 @@ private:
     long line_ = 0;
 };
 
-/// The words of a line, separated by blanks: those of ASCII, U+00A0, U+2007, U+2009, U+202F, U+3000
-/// (no-break, thin and wide ones, in UTF-8) and a byte order mark.
+/// Separated by blanks: those of ASCII, U+00A0, U+2007, U+2009, U+202F, U+3000 (no-break, thin and
+/// wide ones) and a byte order mark.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// `line` without the same blanks at both ends.
+/// Removes the same blanks at both ends.
 std::string_view trimmed(std::string_view line);
 
-/// Converts ASCII letters only.
+/// ASCII letters only.
 std::string lower_case(std::string text);
 
-/// The extension of a file name, without its point, in lower case.
+/// Without its point, in lower case.
 std::string extension_of(const std::filesystem::path& file);
 
-/// Makes a word safe to show: at most 40 characters of UTF-8; control characters, those that
-/// reorder text, and invalid bytes become `?`.
+/// Safe to show: at most 40 characters of UTF-8; control characters, those that reorder text, and
+/// invalid bytes become `?`.
 std::string shown(std::string_view word);
 
-/// Replaces the minus of typesetting and spreadsheets (U+2212, an en dash, ...) before a number by
-/// `-`.
+/// Replaces a typographic minus (U+2212, an en dash, ...) before a number by `-`.
 std::string with_plain_minus(std::string_view word);
 
-/// The finite decimal number that the whole word is (`1`, `-2.5e-3`, `+4.`; typographic minus
-/// allowed). Nothing for any other word, for NaN and infinity, and beyond the range of doubles.
-/// Independent of the locale.
+/// The whole word as a finite decimal number (`1`, `-2.5e-3`, `+4.`; typographic minus allowed), in
+/// any locale. Nothing for other words, NaN, infinity, and beyond the range of doubles.
 std::optional<double> number_in(std::string_view word);
 /// `'2,5' is not a finite number`, with advice where commas are the cause.
 std::string not_a_number(std::string_view word);
 std::optional<std::int64_t> integer_in(std::string_view word);
 
-/// Estimates how precisely a file states its coordinates from the digits that it writes.
+/// How precisely a file states its coordinates, estimated from their digits.
 class WrittenPrecision {
 public:
     /// A coordinate as written in the text.
     void add(std::string_view word, double value);
-    /// A coordinate stored in single or double precision.
     void add_single(double value);
     void add_double(double value);
 
-    /// The largest error that rounding can have caused in a coordinate.
+    /// Largest rounding error of a coordinate.
     double rounding() const;
 
 private:

@@ -16,7 +16,7 @@
 
 namespace culet {
 
-/// Files that came with a text, under the names that the text uses.
+/// Files that came with a text, by the names that it uses.
 using HeldFiles = std::map<std::string, std::string, std::less<>>;
 
 /// One table of a file. A missing key gives nothing. A value of the wrong type, NaN or Inf throws
@@ -40,9 +40,9 @@ public:
     enum class Kind { missing, number, boolean, text, list, table, other };
     Kind kind(std::string_view key) const;
 
-    /// A path given in the file, resolved against the file's folder.
+    /// Resolved against the file's folder.
     std::optional<std::filesystem::path> path(std::string_view key) const;
-    /// The bytes of a file that came with the text; null: read it from disk.
+    /// A file that came with the text; null: read it from disk.
     const std::string* held_file(std::string_view key) const;
 
     /// Throws InputError for the first key that is not in `known`, with the nearest known one.
@@ -68,9 +68,8 @@ private:
                                   const std::vector<std::string>&, HeldFiles);
 };
 
-/// Parses a file and applies `key.path=value` overrides. The value is TOML (a number, "text",
-/// [list]); otherwise it is taken as text. `reading.2.sigma=0.1` addresses a list item, counted
-/// from 0. Throws InputError.
+/// Applies `key.path=value` overrides. The value is TOML (a number, "text", [list]), else taken as
+/// text. `reading.2.sigma=0.1` addresses a list item, counted from 0. Throws InputError.
 TomlTable read_toml(const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
@@ -79,8 +78,8 @@ TomlTable read_toml_with(const std::filesystem::path& file,
                          const std::vector<std::pair<std::string, std::string>>& texts,
                          const std::vector<std::string>& overrides);
 
-/// A table without a file: `texts` are its keys and values. Paths in it are resolved against the
-/// folder of `file`, and errors name `file`, which is not read. Throws InputError.
+/// A table without a file, from keys and values. Paths are resolved against the folder of `file`,
+/// which is not read; errors name it. Throws InputError.
 TomlTable toml_beside(const std::filesystem::path& file,
                       const std::vector<std::pair<std::string, std::string>>& texts,
                       const std::vector<std::string>& overrides = {});
@@ -91,8 +90,8 @@ TomlTable toml_of_text(std::string_view text, const std::filesystem::path& name,
                        const std::vector<std::string>& overrides = {}, HeldFiles files = {});
 
 /// A file's text with `overrides` applied and the keys `without` (camera.fov) removed, to be stored
-/// in `folder`: relative file names are changed to be valid from there. Comments are lost and keys
-/// sorted. Throws InputError.
+/// in `folder`: relative file names are adapted. Comments are lost and keys sorted. Throws
+/// InputError.
 std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides,
                            const std::vector<std::string>& without,

@@ -14,15 +14,15 @@ struct WrittenUnit {
     std::string word;   ///< as written
 };
 
-/// `text` as a number with an optional unit: 34.5; 33,8; 6.52mm; 33.8 deg; 33 degrees and 48
-/// minutes by their signs; 12 of 96 or 12/96, a tooth of an index wheel. `problem` says what is
-/// wrong, for people; empty: nothing.
+/// A number with an optional unit: 34.5; 33,8; 6.52mm; 33.8 deg; 33 degrees and 48 minutes by their
+/// signs; 12 of 96 or 12/96, a tooth of an index wheel. `problem` says what is wrong; empty:
+/// nothing.
 struct WrittenNumber {
     double value = 0;
     WrittenUnit unit;
     std::string problem;
 };
-/// `comma_separates`: the file's fields are separated by commas, so 1,234 may be a thousand.
+/// `comma_separates`: commas separate the file's fields, so 1,234 may be a thousand.
 WrittenNumber written_number(std::string_view text, bool comma_separates);
 
 }  // namespace culet
