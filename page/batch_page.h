@@ -1,5 +1,5 @@
 #pragma once
-// The page of `culet batch`: many stones; those that need a look come first.
+// The page of `culet batch`. Stones that need a look come first.
 
 #include <cstddef>
 #include <string>
@@ -26,7 +26,7 @@ struct BatchPage {
     std::vector<BatchPageJob> jobs;  ///< in display order
 };
 
-/// A whole page. Its links lead to the folder `jobs` beside it.
+/// Its links lead to the folder `jobs` beside the page.
 std::string batch_page(const BatchPage& page);
 
 }  // namespace culet

@@ -22,7 +22,7 @@ constexpr std::array k_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b
 /// One axis: maps values to the page.
 class Axis {
 public:
-    /// `least_share`: least length of a plain axis, as a share of its largest value.
+    /// `least_share`: least length of a plain axis / its largest value.
     Axis(std::vector<double> values, bool logarithmic, double from, double to, double least_share)
         : logarithmic_(logarithmic), from_(from), to_(to) {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -55,7 +55,7 @@ private:
         std::vector<Tick> ticks;
         const double span = high_ - low_;
         if (span > 6) {
-            // Powers of ten only, of which as many are labelled as fit.
+            // Only as many powers of ten are labelled as fit.
             const double every = std::ceil(span / 9);
             for (double decade = std::ceil(low_); decade <= high_; ++decade) {
                 ticks.push_back({std::pow(10, decade), std::fmod(decade, every) == 0});

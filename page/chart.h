@@ -9,12 +9,12 @@ namespace culet {
 
 struct ChartPoint {
     double x = 0, y = 0;
-    std::string label;  ///< written beside the point if there is room; empty: none
-    std::string about;  ///< one line, shown when the reader points at it
+    std::string label;  ///< beside the point if there is room; empty: none
+    std::string about;  ///< one line, shown on pointing at it
     /// Ends of an error bar; NaN: none.
     double y_low = std::numeric_limits<double>::quiet_NaN();
     double y_high = std::numeric_limits<double>::quiet_NaN();
-    bool hollow = false;  ///< drawn as an outline
+    bool hollow = false;
 };
 
 struct ChartSeries {
@@ -32,8 +32,8 @@ struct Chart {
     std::vector<ChartSeries> series;
 };
 
-/// A self-contained SVG, 760 x 480, dark on white. Series differ by shape and by colour (Okabe and
-/// Ito 2008). Points that are not finite, or not positive on a logarithmic axis, are omitted. Empty
+/// Self-contained, 760 x 480, dark on white. Series differ by shape and by colour (Okabe and Ito
+/// 2008). Points that are not finite, or not positive on a logarithmic axis, are omitted. Empty
 /// when no point remains. Text is escaped.
 std::string draw_chart_svg(const Chart& chart);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers as colours. Lightness is monotonic in all maps except `difference`, so that they can be
-// read without seeing hues, and in print.
+// Numbers as colours. Except in `difference`, lightness is monotonic: readable without seeing hues,
+// and in print.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +22,7 @@ std::array<std::uint8_t, 3> colour_at(ColourMap map, double share);
 /// `#rrggbb`
 std::string css_colour(ColourMap map, double share);
 
-/// A CSS gradient from 0 to 1, left to right.
+/// From 0 to 1, left to right.
 std::string css_gradient(ColourMap map);
 
 }  // namespace culet

@@ -66,7 +66,7 @@ std::string about_text(const CuttingSheet& sheet) {
     return text + ".";
 }
 
-// Explanations below the table of the words that this sheet uses.
+// Explanations of the words that this sheet uses.
 std::vector<std::string> word_notes(const CuttingSheet& sheet) {
     std::vector<std::string> notes{
         "\"meet A, B\": until the facet reaches the corner that A and B make."};
@@ -96,7 +96,6 @@ std::vector<std::string> word_notes(const CuttingSheet& sheet) {
     return notes;
 }
 
-// The solid with facets named by their tiers.
 Solid named_by_tiers(const CuttingSheet& sheet) {
     Solid solid = sheet.solid;
     for (const CuttingStep& step : sheet.steps) {

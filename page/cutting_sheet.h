@@ -1,6 +1,6 @@
 #pragma once
-// The sheet that lies beside the faceting machine: tiers in cutting order with angle, index
-// settings and depth, drawings and proportions.
+// The sheet beside the faceting machine: tiers in cutting order with angle, index settings and
+// depth, drawings and proportions.
 
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct CuttingSheet {
     std::vector<double> sigmas_deg;
 };
 
-/// A whole page, to be printed on one sheet of A4.
+/// To be printed on one sheet of A4.
 std::string cutting_sheet_page(const CuttingSheet& sheet);
 
 /// The same as lines of text.

@@ -47,7 +47,7 @@ std::string label_svg(const FacetLabel& label) {
         label.at.x, label.at.y + 0.35 * label.size, label.size, turn, escaped(label.text));
 }
 
-// A tick for every tooth around the axis, outside the drawing; about sixteen have numbers.
+// A tick for every tooth, outside the drawing; about sixteen have numbers.
 void add_wheel(const FacetView& view, ViewSide side, const IndexWheel& wheel, DrawnView& drawn) {
     const int teeth = static_cast<int>(std::lround(std::abs(wheel.gear)));
     if (teeth < 1 || side == ViewSide::girdle) return;
@@ -137,7 +137,7 @@ DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetP
         "<g class=\"led\" aria-hidden=\"true\" font-family=\"{0}\" font-weight=\"600\" "
         "fill=\"#10161a\" pointer-events=\"none\">{2}</g>\n",
         k_svg_font, names, led);
-    // Both sides get the same room for names, so that the drawing stays in the middle.
+    // Keeps the drawing in the middle.
     result.left = std::max(labels.left, labels.right);
     result.width = view.width + 2 * result.left;
     result.height = view.height;

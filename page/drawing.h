@@ -1,6 +1,6 @@
 #pragma once
-// A stone as a line drawing: crown, pavilion and girdle views as a cutter draws them, without
-// hidden lines. Each facet has a colour and its name.
+// Line drawings of a stone: crown, pavilion and girdle views as a cutter draws them, without hidden
+// lines, with colours and names of facets.
 
 #include <string>
 #include <vector>
@@ -13,11 +13,10 @@ namespace culet {
 
 struct FacetPaint {
     std::string colour = "none";  ///< any SVG colour
-    std::string about;            ///< one line, shown when the reader points at the facet
+    std::string about;            ///< one line, shown on pointing at the facet
     bool marked = false;          ///< outlined with dashes
 };
 
-/// What the colours mean.
 struct PaintLegend {
     ColourMap map = ColourMap::residual;
     std::string what;  ///< the coloured quantity
@@ -30,14 +29,14 @@ struct IndexWheel {
     double gear = 0, offset = 0;  ///< as of Design; gear 0: none
 };
 
-/// SVG of the facets that face the viewer, 1000 units wide plus room for names beside it. `paint`
-/// has one entry per facet of the solid, or is empty. Each facet is a focusable group; its title is
-/// name and `about`. Names are escaped. Empty when no facet faces the viewer.
+/// The facets that face the viewer, 1000 units wide plus room for names beside it. `paint` has one
+/// entry per facet, or is empty. Each facet is a focusable group titled with name and `about`.
+/// Names are escaped. Empty when no facet faces the viewer.
 std::string draw_facets_svg(const Solid& solid, ViewSide side,
                             const std::vector<FacetPaint>& paint = {},
                             const IndexWheel& wheel = {});
 
-/// The three views on one sheet with title and legend, as a self-contained SVG file.
+/// The three views with title and legend, as a self-contained SVG file.
 std::string drawing_svg(const std::string& title, const std::string& subtitle, const Solid& solid,
                         const std::vector<FacetPaint>& paint, const PaintLegend& legend);
 

@@ -61,9 +61,9 @@ glm::dvec2 centre_of(const std::vector<glm::dvec2>& corners) {
 }
 
 // The largest box of the given proportions (half width, half height, at size 1) in a polygon, in
-// the box's own frame. The size is the least over the edges of distance / reach, a concave function
-// of the box's middle, and a pattern search finds its maximum. Distance from the facet's middle
-// costs a little; size beyond a name's largest gains nothing.
+// the box's own frame. Its size is the least over the edges of distance / reach, which is concave
+// in the box's middle; a pattern search maximises it. Distance from the facet's middle costs a
+// little; size beyond a name's largest gains nothing.
 Fitted largest_box(const std::vector<glm::dvec2>& corners, double half_width, double half_height) {
     struct Side {
         glm::dvec2 inward;
@@ -112,7 +112,7 @@ glm::dvec2 turned(const glm::dvec2& p, double angle) {
     return {c * p.x - s * p.y, s * p.x + c * p.y};
 }
 
-// Direction in which the corners scatter most, with text along it reading from left to right.
+// Direction in which the corners scatter most; text along it reads from left to right.
 double long_axis(const std::vector<glm::dvec2>& corners) {
     const glm::dvec2 centre = centre_of(corners);
     double xx = 0, xy = 0, yy = 0;
@@ -147,13 +147,12 @@ FacetLabel inside(const SeenFacet& seen, const std::string& text) {
     return label;
 }
 
-// Arranges the names of one side in the order of their feet, at least one line apart.
+// Stacks the names of one side in the order of their feet, at least one line apart.
 double stack(std::vector<FacetLabel*>& column, double height) {
     if (column.empty()) return 0;
     const double size = std::min(k_led, height / (1.12 * static_cast<double>(column.size())));
     if (size < k_least_led) {
-        // No room: drop the rest. The order does not matter, since large facets have their names
-        // inside.
+        // No room: drop the rest, in any order, since large facets have their names inside.
         const auto keep = static_cast<std::size_t>(height / (1.12 * k_least_led));
         for (std::size_t i = keep; i < column.size(); ++i) column[i]->size = 0;
         column.resize(keep);

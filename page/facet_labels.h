@@ -25,9 +25,9 @@ struct FacetLabels {
     double left = 0, right = 0;  ///< room that `led` names need beside the drawing
 };
 
-/// A name stands in its facet, as large as fits, and turned along it where that helps. If it would
-/// be too small to read, it stands beside the drawing with a leader line. If there is no room
-/// either (several hundred facets), it is omitted.
+/// A name stands in its facet, as large as fits, turned along it where that helps. If it would be
+/// too small to read, it stands beside the drawing with a leader line; without room there (several
+/// hundred facets) it is omitted.
 FacetLabels place_labels(const Solid& solid, const FacetView& view);
 
 }  // namespace culet

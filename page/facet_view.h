@@ -27,10 +27,10 @@ struct FacetView {
     glm::dvec2 origin{0, 0};  ///< position of the solid's origin
 };
 
-/// Orthographic projection of the facets that face the viewer. The longer side is `size` minus a
-/// small margin. Facets seen at less than half a degree are lines and are omitted, as are corners
-/// that are not finite. In a convex solid no two facets overlap. In others, facets are sorted by
-/// mean depth and nearer ones cover what lies behind them. Empty when no facet faces the viewer.
+/// Orthographic projection of the facets that face the viewer; the longer side is `size` minus a
+/// small margin. Omits facets seen at less than half a degree, which are lines, and corners that
+/// are not finite. Facets of a convex solid do not overlap; others are sorted by mean depth, and
+/// nearer ones cover what lies behind. Empty when no facet faces the viewer.
 FacetView view_of(const Solid& solid, ViewSide side, double size);
 
 }  // namespace culet

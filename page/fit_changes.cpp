@@ -1,4 +1,3 @@
-// What a fit changed, facet by facet.
 
 #include <fmt/format.h>
 

@@ -15,12 +15,12 @@ struct FacetFacts {
     std::optional<double> residual;             ///< of its worst reading, in standard uncertainties
     std::string reading;  ///< id of the worst; empty: no reading involves the facet
     int readings = 0;
-    bool suspect = false;  ///< one of its readings is suspect
+    bool suspect = false;
     bool determined = true;
 };
 
 /// One entry per name, in order. `fit_json` is a report of `culet fit`. Throws InputError when it
-/// is not a JSON object, or has none of the facets.
+/// is not a JSON object or has none of the facets.
 std::vector<FacetFacts> facet_facts(const std::vector<std::string>& facets,
                                     const std::string& fit_json);
 

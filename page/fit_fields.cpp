@@ -10,8 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Matches `name` with `pattern`, where `*` stands for any run of characters; also inside mean(),
-/// min(), max().
+/// `*` in `pattern` stands for any run of characters; mean(), min(), max() around it are ignored.
 bool names_facet(std::string pattern, const std::string& name) {
     for (const char* wrapper : {"mean(", "min(", "max("}) {
         if (pattern.starts_with(wrapper) && pattern.ends_with(")")) {

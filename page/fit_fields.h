@@ -19,7 +19,7 @@ struct Worst {
     double normalized = 0;
     std::string reading;  ///< id; empty: no reading involves the facet
     int count = 0;
-    bool suspect = false;  ///< one of its readings is suspect
+    bool suspect = false;
 };
 std::vector<Worst> worst_readings(const nlohmann::json& fit,
                                   const std::vector<std::string>& facets);

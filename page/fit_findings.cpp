@@ -58,7 +58,6 @@ View help_of(const Json& fit, const std::string& length_unit) {
     return table_view(rows);
 }
 
-// A probability as people read it.
 std::string chance(const std::optional<double>& p) {
     if (!p) return "–";
     if (*p < 1e-4) return "under 0.01 %";

@@ -1,5 +1,3 @@
-// What the reader of a fit should look at: suspects, outliers, undetermined facets, what to read
-// next.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -18,7 +18,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// All sentences of the fit.
 std::string fit_words(const Json& fit) {
     std::vector<View> sentences;
     for (const Json& sentence : array_at(fit, "summary")) {

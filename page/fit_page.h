@@ -1,7 +1,7 @@
 #pragma once
-// A fit as part of a page, from its JSON report. The page shows the verdict, what to look at, the
-// drawing and the proportions; the rest is collapsed. Each part is empty if the report has nothing
-// for it, and throws InputError when the report is not a JSON object.
+// A fit as part of a page, from its JSON report: verdict, what to look at, drawing and proportions;
+// the rest is collapsed. Parts are empty if the report has nothing for them, and throw InputError
+// when it is not a JSON object.
 
 #include <optional>
 #include <string>
@@ -12,8 +12,8 @@
 namespace culet {
 
 struct FitView {
-    std::string fit_json;         ///< as written by `culet fit --report`
-    std::optional<Solid> fitted;  ///< to be drawn
+    std::string fit_json;  ///< as written by `culet fit --report`
+    std::optional<Solid> fitted;
     std::string length_unit = "mm";
 };
 
@@ -32,9 +32,8 @@ std::string fit_proportions_section(const FitView& view);
 /// Everything else, collapsed.
 std::string fit_section(const FitView& view);
 
-/// The fitted stone; facets are coloured by how much steeper (red) or flatter (blue) they became.
+/// Facets are coloured by how much steeper (red) or flatter (blue) they became.
 std::string change_drawings(const Solid& before, const Solid& after);
-/// Each facet before and after.
 std::string changes_table(const Solid& before, const Solid& after, const std::string& length_unit);
 
 /// The views of a stone side by side; facets can be pointed at.

@@ -42,8 +42,8 @@ double rounded_up(double value) {
     return 10 * decade;
 }
 
-// Nine facets of ten lie within the scale. A few poorly determined ones would otherwise make all
-// others look alike.
+// The scale covers nine facets of ten: a few poorly determined ones would make all others look
+// alike.
 double top_of(std::vector<double> sigmas) {
     std::erase_if(sigmas, [](double s) { return !(s > 0) || !std::isfinite(s); });
     if (sigmas.empty()) return 1;
@@ -90,7 +90,7 @@ FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         const Json* facet = facet_in(fit, name);
         sigmas.push_back(facet ? direction_sigma(*facet) : std::nullopt);
-        // Facets that are not determined at all do not count for the scale.
+        // Undetermined facets do not count for the scale.
         if (sigmas.back() && freedoms_of(fit, name).empty()) known.push_back(*sigmas.back());
     }
     const double top = top_of(known);

@@ -8,7 +8,6 @@
 
 namespace culet {
 
-/// What the colours of a drawing show.
 enum class FitColour {
     residual,    ///< each facet's worst reading, in standard uncertainties; dashed: a suspect
     uncertainty  ///< uncertainty of its normal, one sigma; dashed: not determined
@@ -19,8 +18,8 @@ struct FitPaint {
     PaintLegend legend;
 };
 
-/// `fit_json` is a report of `culet fit`; facets that it does not mention stay plain. Throws
-/// InputError when it is not a JSON object.
+/// `fit_json` is a report of `culet fit`; other facets stay plain. Throws InputError when it is not
+/// a JSON object.
 FitPaint fit_paint(const Solid& solid, const std::string& fit_json, FitColour colour);
 
 /// Standard uncertainties: all larger residuals have the last colour.

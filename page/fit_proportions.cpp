@@ -1,4 +1,3 @@
-// The proportions of the cut.
 
 #include <algorithm>
 #include <array>
@@ -31,8 +30,8 @@ View row(const std::string& name, const std::string& about, const std::vector<Vi
     return {{"name", name}, {"about", about}, {"values", values}};
 }
 
-// The single diameter of a stone that is not quite round is an average. The range of the caliper's
-// widths stands beside it.
+// The diameter of a stone that is not quite round is an average, so show the caliper's range beside
+// it.
 std::vector<View> calipers(const Json& proportions) {
     std::vector<View> values;
     for (const auto& [name, words] : {std::pair{"caliper min", "least"},

@@ -1,4 +1,3 @@
-// The figures under the verdict on a fit.
 
 #include <fmt/format.h>
 
@@ -29,7 +28,7 @@ std::size_t rows_of(const Json& readings) {
     return rows.size();
 }
 
-/// The source of the prior that replaced missing readings; empty: none.
+/// Source of the prior that replaced missing readings; empty: none.
 std::string prior_source(const Json& fit) {
     const auto prior = fit.find("prior");
     const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");

@@ -7,9 +7,8 @@
 
 namespace culet {
 
-/// One line for each reading (or row of readings) that contradicts the others, the worst first:
-/// file and line or the reading's name, by how much, and the slip that would explain it. Not
-/// escaped.
+/// A reading (or row of readings) that contradicts the others, the worst first: file and line or
+/// the reading's name, by how much, and the slip that would explain it. Not escaped.
 struct SuspectLine {
     std::string what;
     std::string remedy;

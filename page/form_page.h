@@ -1,6 +1,6 @@
 #pragma once
-// The form of readings, printed for the bench: what to read, what is expected, and drawings that
-// show the facets.
+// The form of readings for printing: what to read, what is expected, and drawings that show the
+// facets.
 
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ struct PrintedForm {
     std::string readings;  ///< the file into which the values are typed
 };
 
-/// A whole page, two sides of A4.
+/// Two sides of A4.
 std::string form_page(const PrintedForm& form);
 
 }  // namespace culet

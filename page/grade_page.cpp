@@ -163,8 +163,7 @@ Chart tilt_chart(const std::string& title, const std::string& axis) {
     return chart;
 }
 
-// For one design a chart per axis with all models; for several designs a chart per model with all
-// of them.
+// For one design a chart per axis with all models; for several a chart per model with all designs.
 std::vector<View> charts_view(const std::vector<Json>& grades) {
     std::vector<Chart> charts;
     const auto axis_words = [](double degrees) {

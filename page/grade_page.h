@@ -8,7 +8,6 @@
 
 namespace culet {
 
-/// The picture in a scope.
 struct GradePicture {
     std::string scope;    ///< aset, idealscope, darkfield, hearts, arrows
     std::string summary;  ///< one line
@@ -29,11 +28,10 @@ struct GradeView {
                                  ///< after; or empty
 };
 
-/// "7 of 8 hearts"; "12 hearts" for a stone that has more than a standard brilliant.
+/// "7 of 8 hearts"; "12 hearts" if there are more than a standard brilliant has.
 std::string counted_of_eight(int count, const std::string& what);
 
-/// A whole page that contains the grades as data. Throws InputError when a grade is not a JSON
-/// object.
+/// Contains the grades as data. Throws InputError when a grade is not a JSON object.
 std::string grade_page(const GradeView& view);
 
 }  // namespace culet

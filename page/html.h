@@ -1,5 +1,5 @@
 #pragma once
-// Small pieces of a page. Everything that comes from a file goes through `escaped`.
+// Small pieces of a page. Everything from files goes through `escaped`.
 
 #include <optional>
 #include <string>
@@ -11,8 +11,8 @@ namespace culet {
 inline constexpr const char* k_svg_font =
     "system-ui, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
 
-/// Text that is safe in HTML and in quoted attributes: & < > " ' become entities; control
-/// characters and bytes that are not UTF-8 become U+FFFD.
+/// Safe in HTML and in quoted attributes: & < > " ' become entities; control characters and invalid
+/// UTF-8 become U+FFFD.
 std::string escaped(std::string_view text);
 
 /// JSON for a script element: contains no `<`.
@@ -28,16 +28,16 @@ std::string png_uri(std::string_view png);
 /// With `count` decimals and a true minus sign; a dash for nothing, NaN and infinity.
 std::string decimals(const std::optional<double>& value, int count);
 
-/// A number without decimals.
+/// Without decimals.
 std::string whole(const std::optional<double>& value);
 
-/// One word of a POSIX shell's command line, quoted where necessary.
+/// Quoted for a POSIX shell where necessary.
 std::string shell_word(const std::string& word);
 
 /// Adds a capital and a full stop. Not escaped.
 std::string as_sentence(std::string text);
 
-/// With `count` significant digits and without trailing zeros from rounding: 0.00123, 12.3, 1230.
+/// With `count` significant digits, without trailing zeros from rounding: 0.00123, 12.3, 1230.
 std::string significant(const std::optional<double>& value, int count = 3);
 
 }  // namespace culet

@@ -1,6 +1,6 @@
 #pragma once
-// Reads fields of a JSON object that may be missing or of another type, and writes numbers. These
-// are templates, so that no public header of the folder shows a JSON library; `Json` is nlohmann's.
+// Fields of a JSON object that may be missing or of another type, and numbers to write. Templates,
+// so that no public header of the folder shows a JSON library; `Json` is nlohmann's.
 
 #include <cmath>
 #include <limits>

@@ -15,7 +15,6 @@ struct LabelBox {
     bool meets(const LabelBox& o) const { return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1; }
 };
 
-/// Finds room for names beside points, within the frame.
 class LabelRoom {
 public:
     explicit LabelRoom(const LabelBox& frame) : frame_(frame) {}
@@ -29,7 +28,7 @@ public:
             take({x - 2, y - 2, x + 2, y + 2});
         }
     }
-    /// A box for the text near (x, y), or nothing when every place is taken.
+    /// Nothing when every place is taken.
     std::optional<LabelBox> find(double x, double y, double width, double height) {
         for (const double away : {9.0, 20.0, 34.0}) {
             const double w = 0.5 * width, h = 0.5 * height;

@@ -11,7 +11,7 @@ namespace culet {
 
 /// A self-contained page, which loads nothing even if a name tries to make it. `data_json` is kept
 /// inside for programs; empty: none. `viewer_html` is a page of the viewer (viewer/viewer_page.h)
-/// that `turn_button`s in the body open over this one; empty: none.
+/// that opens over this one by `turn_button`; empty: none.
 std::string html_page(const std::string& title, const std::string& body,
                       const std::string& data_json = {}, const std::string& viewer_html = {});
 
@@ -21,14 +21,14 @@ std::string turn_button();
 /// `<section id=... >` with its heading; empty when the body is empty.
 std::string section(const std::string& id, const std::string& heading, const std::string& body);
 
-/// Collapsible HTML under a summary (HTML too); empty when the body is empty.
+/// Collapsible; the summary is HTML too. Empty when the body is empty.
 std::string folded(const std::string& summary, const std::string& body, bool open = false);
 
-/// A collapsible section; its heading is the summary.
+/// The heading is the summary.
 std::string folded_section(const std::string& id, const std::string& heading,
                            const std::string& body, bool open = false);
 
-/// One of the figures under a verdict: name, figure, explanation.
+/// A figure under a verdict: name, figure, explanation.
 std::string tile(const std::string& name, const std::string& value, const std::string& about,
                  const char* style = "");
 
@@ -36,14 +36,14 @@ std::string tile(const std::string& name, const std::string& value, const std::s
 std::string verdict_card(const char* style, const char* symbol, const std::string& word,
                          const std::string& sentences);
 
-/// Items of a list. Of a long list only the first are shown and the others collapsed.
+/// Long lists show their first items and collapse the others.
 struct ListItem {
     std::string lead;  ///< in bold, followed by a full stop; empty: none
     std::string text;
 };
 std::string short_list(const std::vector<ListItem>& items);
 
-/// True for more rows than fit on a screen: the table then scrolls under its heading.
+/// More rows than fit on a screen: the table scrolls under its heading.
 bool is_tall(const std::vector<View>& rows);
 
 /// `rows` and `tall`, for a table that is omitted when it has no rows.

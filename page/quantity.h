@@ -1,6 +1,6 @@
 #pragma once
-// Measured values as people write them: with as many digits as the uncertainty justifies, and
-// typeset units. Plain text, not escaped.
+// Measured values as people write them: digits as the uncertainty justifies, units typeset. Plain
+// text, not escaped.
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@ namespace culet {
 /// What follows the number, with a no-break space: "deg" -> "°", "mm3" -> " mm³", "" -> "".
 std::string unit_suffix(std::string_view unit);
 
-/// The finest step of displays in this unit. A smaller sigma means that the value is held exactly.
+/// The finest step of displays in this unit. A smaller sigma means a value that is held exactly.
 double finest_of(std::string_view unit);
 
 inline constexpr int k_any_place = 99;
@@ -28,20 +28,20 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
 /// The same for plain terminals: "+-" for the sign, a plain minus and blank.
 std::string plain_signs(std::string text);
 
-/// The value alone, to the place that sigma allows, with its unit; for fitted values and residuals.
+/// The value to the place that sigma allows, with its unit; for fitted values and residuals.
 std::string to_place_of(const std::optional<double>& value, const std::optional<double>& sigma,
                         std::string_view unit);
 
 /// A reading as the display showed it, without digits that nobody read.
 std::string as_read(const std::optional<double>& value, std::string_view unit);
 
-/// The smallest slip that would be noticed in a reading of `value`. If it is so large as to be
-/// useless (angles: 90°; lengths: the length itself): "any slip would pass".
+/// The smallest slip in a reading of `value` that would be noticed; "any slip would pass" if that
+/// is useless (angles: 90°; lengths: the length itself).
 std::string smallest_slip(const std::optional<double>& detectable,
                           const std::optional<double>& value, std::string_view unit);
 
-/// Typesets a sentence of the fit: "0.6 degrees (+- 0.1)" -> "0.6° (± 0.1)", "mm3" -> "mm³".
-/// Changes units only after a digit or a blank, so that names stay as they are.
+/// "0.6 degrees (+- 0.1)" -> "0.6° (± 0.1)", "mm3" -> "mm³". Changes units only after a digit or a
+/// blank, so that names stay as they are.
 std::string typeset(std::string_view sentence);
 
 }  // namespace culet

@@ -24,7 +24,6 @@ bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("+-.0123456789") == std::string::npos;
 }
 
-// Readings that a bench can take, as an instruction.
 std::string order(const Json& help) {
     const std::string kind = text_at(help, "kind");
     if (kind == "weight") return "weigh the stone";

@@ -1,4 +1,3 @@
-// The study of a scene as a chart and as text.
 
 #include <fmt/format.h>
 

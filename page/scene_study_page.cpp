@@ -136,7 +136,6 @@ const char* on_or_off(const Json& effect) {
     return true_at(effect, "on") ? "on" : "off";
 }
 
-// What the automatic settings chose for each tolerance.
 std::vector<View> plans_of(const Json& study) {
     std::vector<View> plans;
     for (const Json& row : array_at(study, "settings")) {

@@ -25,7 +25,6 @@ std::string scene_study_table(const std::string& study_json);
 /// Every setting's error against processor time, logarithmic, with the front; empty when nothing
 /// was drawn.
 std::string scene_study_chart(const std::string& study_json);
-/// One self-contained HTML file.
 std::string scene_study_page(const SceneStudyView& view);
 
 }  // namespace culet

@@ -17,7 +17,6 @@ std::string study_table(const std::string& study_json);
 std::string study_time_chart(const std::string& study_json);
 /// Error and its theoretical limit against the number of readings; empty likewise.
 std::string study_limit_chart(const std::string& study_json);
-/// One self-contained HTML file.
 std::string study_page(const StudyView& view);
 
 }  // namespace culet

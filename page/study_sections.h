@@ -6,10 +6,9 @@
 
 namespace culet {
 
-/// A chart that scrolls on narrow screens; empty for an empty one.
+/// Scrolls on narrow screens; empty for an empty chart.
 std::string chart_figure(const std::string& svg);
 
-/// The program, the command and the study's `options`.
 std::string study_provenance(const nlohmann::json& study, const std::string& version,
                              const std::string& command);
 

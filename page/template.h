@@ -1,6 +1,6 @@
 #pragma once
-// The only place that uses the template library (mustache, by kainjow). HTML stands in template
-// files and is escaped by default.
+// The only user of the template library (mustache, by kainjow). HTML stands in template files and
+// is escaped by default.
 
 #include <concepts>
 #include <initializer_list>
@@ -18,8 +18,8 @@ struct Template {
     const char* text;
 };
 
-/// The values for a template: a text, a boolean, a list, or named parts. For sections, empty texts
-/// and lists count as false.
+/// A template's values: a text, a boolean, a list, or named parts. Empty texts and lists count as
+/// false for sections.
 class View {
 public:
     using Parts = std::vector<std::pair<std::string, View>>;
@@ -37,9 +37,9 @@ private:
     std::variant<bool, std::string, std::vector<View>, Parts> value_;
 };
 
-/// Fills a template. `{{name}}` is escaped (page/html.h). `{{{name_html}}}`, and likewise _svg,
-/// _css, _js and _json, is inserted unchanged; only this program's own output may go there. Throws
-/// std::logic_error if the view lacks a name of the template, which is a bug.
+/// `{{name}}` is escaped (page/html.h). `{{{name_html}}}`, also with _svg, _css, _js and _json, is
+/// inserted unchanged: only this program's own output may go there. Throws std::logic_error if the
+/// view lacks a name of the template, which is a bug.
 std::string filled(const Template& form, const View& view);
 
 }  // namespace culet

@@ -28,8 +28,8 @@ namespace culet {
 
 namespace {
 
-// The small picture is shown only for a moment. The wavelengths are those that the page uses while
-// a stone moves, where the eye's three colours are separated best (page/scene_settings.js).
+// Shown only for a moment. The wavelengths are those that the page uses while a stone moves, where
+// the eye's three colours are separated best (page/scene_settings.js).
 constexpr double k_still_tolerance = 0.2;
 constexpr std::array k_still_nm{450.0, 540.0, 610.0};
 
@@ -50,8 +50,7 @@ bool is_scene_file(const ViewSource& source) {
            read_toml(source.file).kind("stone") != TomlTable::Kind::table;
 }
 
-// A scene file without its stone. For a stone without a scene, the scene in which `read_any_scene`
-// shows it.
+// A scene file without its stone; for a stone alone, the scene in which `read_any_scene` shows it.
 std::string scene_text(const ViewSource& source, const Scene& scene) {
     std::vector<std::string> keys = source.overrides;
     const bool of_scene = is_scene_file(source);
@@ -71,7 +70,6 @@ std::string scene_text(const ViewSource& source, const Scene& scene) {
                           {"stone", "mesh", "material", "unit", "convex", "name", "object"});
 }
 
-// A small first picture of the whole stone.
 std::string still_of(Scene scene, const std::string& refused) {
     Camera& camera = scene.camera;
     const double scale = static_cast<double>(k_still_size) / std::max(camera.width, camera.height);
@@ -100,7 +98,6 @@ std::string still_of(Scene scene, const std::string& refused) {
     return png_uri(png_of(result.picture, look));
 }
 
-// From the fit report, by the facets' names.
 std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json) {
     std::vector<std::string> names;
     for (const Facet& facet : solid.facets) names.push_back(facet.name);
@@ -132,8 +129,8 @@ Scene scene_of(const ViewSource& source) {
     return culet::scene_of(root, &stone, light);
 }
 
-// Direction from the middle to the notch of a stone that is not convex, seen from above: the mean
-// of the edges at which it bends inwards. Nothing if there is none on one side.
+// Direction from the middle to a notch, seen from above: the mean of the edges at which the stone
+// bends inwards. Nothing if there is none on one side.
 std::optional<Vec3> notch_of(const Solid& solid) {
     constexpr double k_least = 1e-6, k_least_apart = 1e-3;  // of the stone's size
     const double size = diameter(solid);

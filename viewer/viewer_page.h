@@ -7,9 +7,8 @@
 
 namespace culet {
 
-/// A self-contained page that opens with a double click. It shows the first item's picture at once;
-/// with the engine (viewer/engine_file.h) the stone turns. Without it the page says how to get the
-/// engine.
+/// Self-contained; opens with a double click. Shows the first item's picture at once; with the
+/// engine (viewer/engine_file.h) the stone turns. Without it the page says how to get the engine.
 std::string viewer_page(const ViewDocument& document);
 
 }  // namespace culet

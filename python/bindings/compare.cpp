@@ -1,4 +1,3 @@
-// Compares photographs with renders and scenes.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

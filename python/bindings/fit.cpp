@@ -79,7 +79,6 @@ PythonFit fit_of(const PythonStone& drawn, const py::object& progress, const py:
     return fit;
 }
 
-// One number per facet.
 template <class Number>
 py::array_t<double> of_facets(const PythonFit& fit, Number number) {
     std::vector<double> values;

@@ -11,8 +11,8 @@
 
 namespace culet {
 
-/// Returns or throws what `work(progress)` does. The work runs in a thread of its own, without
-/// Python's global lock. The calling thread wakes up twenty times a second, checks for Ctrl-C
+/// Returns or throws what `work(progress)` does. The work runs in its own thread without Python's
+/// global lock. The calling thread wakes up twenty times a second, checks for Ctrl-C
 /// (KeyboardInterrupt), and calls `told` (Python's callable or None) with the fraction done, at
 /// least once. If that returns False or raises, the work is asked to stop; after False it ends with
 /// Interrupted.

@@ -19,7 +19,6 @@ namespace {
 using Shape = std::vector<py::ssize_t>;
 constexpr py::ssize_t k_largest_side = 1 << 16;
 
-// Appends the planes of one picture.
 void append(std::vector<float>& to, const std::vector<std::vector<float>>& planes) {
     for (const std::vector<float>& plane : planes) to.insert(to.end(), plane.begin(), plane.end());
 }

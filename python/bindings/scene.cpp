@@ -1,4 +1,3 @@
-// Scenes and their pictures.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -23,7 +22,6 @@ namespace culet {
 
 namespace {
 
-// If the stone has no material, it cannot be guessed.
 void require_material(const PythonStone& stone, const StoneScene& choices) {
     if (!stone.has_material && choices.material.empty())
         throw InputError(stone.file,

@@ -1,4 +1,3 @@
-// Stones and their readings.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -89,7 +88,6 @@ PythonStone stone_of_planes(const DoubleArray& normals, const DoubleArray& offse
     return result;
 }
 
-// A row of a readings file as a dict.
 py::dict as_dict(const WrittenReading& reading) {
     py::dict row;
     row["id"] = reading.id;
@@ -180,7 +178,6 @@ py::array_t<double> vertices_of(const PythonStone& s) {
     return array_of(values, Sizes{size_of(s.stone.solid.vertices), 3});
 }
 
-// One number per facet.
 py::array_t<double> of_facets(const PythonStone& s, const auto& number) {
     std::vector<double> values;
     for (const Facet& f : s.stone.solid.facets) values.push_back(number(f));

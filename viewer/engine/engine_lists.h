@@ -8,20 +8,16 @@
 
 namespace culet {
 
-/// The catalogue: name, optic, index at the sodium line, summary, colour (#rrggbb for a stone of
-/// the usual size).
+/// Name, optic, index at the sodium line, summary, colour (#rrggbb for a stone of the usual size).
 nlohmann::ordered_json material_list();
 /// Light presets and the instruments.
 nlohmann::ordered_json light_list();
-/// Viewing directions: key, label, towards the eye, up, from_below.
+/// Key, label, towards the eye, up, from_below.
 nlohmann::ordered_json view_list();
-/// The standard cuts with their parameters.
 nlohmann::ordered_json cut_list();
 
-/// A stone's name, facets, middle and size.
 nlohmann::ordered_json summary_of(const ViewedStone& stone);
 nlohmann::ordered_json json_of(const Camera& camera);
-/// The settings of a scene that a page shows.
 nlohmann::ordered_json settings_of(const Scene& scene);
 
 }  // namespace culet

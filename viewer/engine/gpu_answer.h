@@ -15,9 +15,8 @@ struct GpuAnswer {
     std::vector<float> texels;  ///< of all textures, RGBA; the JSON says where each begins
 };
 
-/// `samples` for each pixel, in an order in which any first few are spread like the whole. `known`
-/// is the key of the program that the page has; if it is the same, sources and textures are
-/// omitted. Throws InputError for what is refused.
+/// `samples` per pixel, ordered so that any first few are spread like the whole. If `known` is the
+/// program's key, sources and textures are omitted. Throws InputError for what is refused.
 GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int samples,
                      const std::string& known);
 

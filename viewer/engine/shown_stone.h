@@ -14,20 +14,19 @@
 
 namespace culet {
 
-/// A request for a picture.
 struct FrameRequest {
     Camera camera;
     /// Rotation of the lights about the stone's middle, row by row.
     std::array<double, 9> turn{1, 0, 0, 0, 1, 0, 0, 0, 1};
     bool preview = false;
-    /// Reuse the wavelengths chosen for the view before where the scene leaves them open. For
-    /// pictures while the stone moves.
+    /// For pictures while the stone moves: keep the last view's wavelengths where the scene leaves
+    /// them open.
     bool quick = false;
     std::optional<int> samples;
 };
 
-/// Why a page cannot draw this, in words; empty: it can. A convex stone is drawn by beams. Others
-/// are drawn by rays: with `draw_quickly` for `preview`, else by the reference.
+/// Why a page cannot draw this, in words; empty: it can. Convex stones are drawn by beams, others
+/// by rays: with `draw_quickly` for `preview`, else by the reference.
 std::string refused_by_page(Scene scene);
 
 class ShownStone {
@@ -44,7 +43,6 @@ public:
     /// Why a page cannot draw it; empty: it can.
     const std::string& refused() const { return refused_; }
 
-    /// What a GPU draws for the scene's current settings.
     const GpuSetup& on_gpu() const;
 
     Scene scene_of(const FrameRequest& request) const;

@@ -1,6 +1,6 @@
 #pragma once
-// Questions about a place in the picture. Places are in pixels from the picture's upper left
-// corner, x to the right, y down.
+// Questions about a place in the picture: pixels from its upper left corner, x to the right, y
+// down.
 
 #include <array>
 #include <string>
@@ -17,10 +17,10 @@ struct SeenFacet {
     int facet = 0;
     std::vector<std::array<double, 2>> points;
 };
-/// The facets that face the eye, as in the picture. Throws InputError for a conoscope.
+/// Throws InputError for a conoscope.
 std::vector<SeenFacet> seen_facets(const Stone& stone, const Camera& camera);
 
-/// The light paths there, as `culet probe --json` writes them. Throws InputError.
+/// As `culet probe --json` writes them. Throws InputError.
 std::string paths_at(const Scene& scene, double x, double y);
 
 }  // namespace culet

@@ -14,7 +14,6 @@
 
 namespace culet {
 
-/// The standard cut of a stone, from `cut_kinds()`.
 struct CutChoice {
     std::string kind;
     std::map<std::string, double> values;

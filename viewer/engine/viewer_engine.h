@@ -14,7 +14,6 @@ namespace culet {
 /// `culet render` with engine "beams" or "preview" and `check = "none"`.
 class ViewerEngine {
 public:
-    /// `version` of the program, for callers that ask.
     explicit ViewerEngine(std::string version);
     ~ViewerEngine();
     ViewerEngine(ViewerEngine&&) noexcept;

@@ -26,7 +26,6 @@ function svg_element(tag, attributes = {}, ...children) {
 let count_of_controls = 0;
 function new_id(word) { return word + "-" + ++count_of_controls; }
 
-// A part of a panel: heading, optional explanation, controls.
 function group(title, note, ...controls) {
   const id = new_id("group");
   return element("section", {class: "group", "aria-labelledby": id}, element("h3", {id}, title),
@@ -37,8 +36,8 @@ function button(text, onclick, attributes = {}) {
   return element("button", {type: "button", onclick, ...attributes}, text);
 }
 
-// A number with a slider and a text field. `options`: {label, least, most, step, unit, digits,
-// value, what, onchange(value, done)}; `done` is false while the slider is dragged.
+// A slider with a text field. `options`: {label, least, most, step, unit, digits, value, what,
+// onchange(value, done)}; `done` is false while the slider is dragged.
 function slider(options) {
   const id = new_id("slider");
   const shown = (value) => value.toFixed(options.digits ?? 0) + (options.unit || "");
@@ -77,7 +76,6 @@ function slider(options) {
     return made;
 }
 
-// A switch: on or off.
 function toggle(label, onchange, attributes = {}) {
     const id = new_id("toggle");
     const input = element("input", {
@@ -99,8 +97,8 @@ function toggle(label, onchange, attributes = {}) {
     return made;
 }
 
-// One of several choices. `choices`: [{value, label, what}]; `style`: "cards" (each with its
-// explanation) or "segments" (side by side).
+// `choices`: [{value, label, what}]; `style`: "cards" (each with its explanation) or "segments"
+// (side by side).
 function choice(legend, choices, onchange, style, name) {
     const group_name = new_id("choice");
     const inputs = choices.map(({value}) => element("input", {
@@ -125,7 +123,7 @@ function choice(legend, choices, onchange, style, name) {
     return made;
 }
 
-// An angle in degrees, with a dial to drag and a number field.
+// Degrees, by a dial and a number field.
 function dial(label, onchange, name) {
     const id = new_id("dial");
     const needle = svg_element("line", {x1: 3, y1: 20, x2: 37, y2: 20, class: "needle"});
@@ -173,7 +171,6 @@ function dial(label, onchange, name) {
     return made;
 }
 
-// Opens a file of the user's.
 function file_button(label, accept, onfile) {
     const input = element("input", {
       type: "file",

@@ -1,6 +1,6 @@
 "use strict";
-// Colours facets by their fit, with the colours and words of the fit report's drawings
-// (page/colour_maps.cpp, page/fit_paint.cpp; tests/viewer checks that the stops are the same).
+// Colours facets as the fit report's drawings do (page/colour_maps.cpp, page/fit_paint.cpp;
+// tests/viewer checks that the stops are the same).
 
 const k_residual_stops =
   ["#ffffcc", "#ffeda0", "#fed976", "#feb24c", "#fd8d3c", "#fc4e2a", "#e31a1c", "#bd0026"];
@@ -28,8 +28,8 @@ function rounded_up(value) {
   return 10 * decade;
 }
 
-// The end of the scale of uncertainties. Nine facets of ten lie within it; a few poorly determined
-// ones would otherwise make all others look alike.
+// The scale covers nine facets of ten: a few poorly determined ones would make all others look
+// alike.
 function top_of_sigmas(facets) {
   const known =
     facets.filter((f) => f.fit && f.fit.determined !== false && f.fit.direction_sigma_deg > 0)

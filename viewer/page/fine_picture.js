@@ -1,6 +1,6 @@
 "use strict";
-// The picture with all that the scene asks for (all wavelengths, both waves of a crystal), once the
-// stone rests. An engine in a worker of its own draws it, so that the hand never waits.
+// The picture with all wavelengths and both waves of a crystal, once the stone rests. An engine in
+// its own worker draws it, so that the hand never waits.
 
 class FinePicture {
   constructor(page) {
@@ -18,7 +18,7 @@ class FinePicture {
     this.busy = null;
   }
 
-  // Opens the scene as the page's other engine holds it: the item, a changed cut, a panorama.
+  // As the page's other engine holds it: the item, a changed cut, a panorama.
   async open() {
     const page = this.page, item = page.state.get("item");
     const key = JSON.stringify([item, page.scene_version]);
@@ -34,8 +34,8 @@ class FinePicture {
     this.key = key;
   }
 
-  // Returns [side, picture] for each side, or nothing if the page shows something else by now.
-  // Cancels an earlier call's drawing.
+  // Returns [side, picture] for each side, or nothing if the page has moved on. Cancels an earlier
+  // drawing.
   async draw(sides, width, height, exposure, engine) {
     if (this.busy) this.stop();
     const mine = this.busy = {};

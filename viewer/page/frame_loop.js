@@ -1,7 +1,6 @@
 "use strict";
-// Decides when to draw, and how finely. While something moves: quick frames, of a size that the
-// last frames' times allow. At rest: the whole picture, then refinements. Only one picture is drawn
-// at a time.
+// Decides when to draw, and how finely: while something moves, quick frames of a size that the last
+// frames' times allow; at rest, the whole picture, then refinements. One picture at a time.
 
 const k_quick_ms = 33;       // of a frame while the stone moves
 const k_ray_ms = 90;         // the same for a stone that is not convex
@@ -115,8 +114,7 @@ class FrameLoop {
     this.set_key = key;
     this.page.took_settings(answer);
   }
-  // Asks the engine about a stone in its scene. Returns nothing if the page shows something else by
-  // now, or beams refuse the scene.
+  // Returns nothing if the page shows something else by now, or beams refuse the scene.
   ask(stone, settings, call, args) {
     const info = this.page.info;
     return this.page.engine.in_turn(async () => {
@@ -127,8 +125,8 @@ class FrameLoop {
     });
   }
 
-  // For quick frames and the first whole picture: three wavelengths, a crystal's waves merged, and
-  // short paths.
+  // Quick frames and the first whole picture: three wavelengths, a crystal's waves merged, short
+  // paths.
   settings(stone) {
     const settings = this.page.settings(stone), values = this.page.state.values;
     if (!values.wavelengths) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
@@ -160,7 +158,6 @@ class FrameLoop {
     }
   }
 
-  // The stones with their sides.
   sides() {
     return this.page.state.get("compare") === "one" ? [["left", this.page.shown_index()]]
                                                     : [["left", 0], ["right", 1]];
@@ -204,7 +201,7 @@ class FrameLoop {
     page.drawn(quick, !quick);
   }
 
-  // The exposure is constant while something moves: changing brightness is unpleasant.
+  // Constant while something moves: changing brightness is unpleasant.
   exposure_for(quick) {
     const exposure = this.page.exposure();
     return exposure === "auto" && quick && this.exposure ? this.exposure : exposure;
@@ -215,8 +212,8 @@ class FrameLoop {
     if (this.milliseconds.preview === undefined) this.scale = k_least_ray_scale;
   }
 
-  // Fewer pixels shorten only the shading: if the beams alone take too long, coarser frames would
-  // not help.
+  // Fewer pixels shorten only the shading: if beams alone take too long, coarser frames would not
+  // help.
   adapt(milliseconds, shading) {
     const rays = this.page.drawn_by_rays, frame_ms = rays ? k_ray_ms : k_quick_ms;
     const least = rays ? k_least_ray_scale : k_least_scale;

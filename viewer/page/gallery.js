@@ -1,6 +1,5 @@
 "use strict";
-// The stones of a page that has several: a strip of small pictures, with arrow keys to move along
-// it.
+// The stones of a page that has several: a strip of small pictures with arrow keys.
 
 class Gallery {
   constructor(page, nav) {

@@ -19,7 +19,6 @@ class GpuProgram {
     this.fill(program);
   }
 
-  // Takes new values for the same source.
   fill(program) {
     const gl = this.gl;
     this.passes = program.passes;
@@ -84,7 +83,6 @@ class GpuProgram {
     return texture;
   }
 
-  // Clears the sums and sets their size.
   begin(width, height) {
     const gl = this.gl;
     this.keep = 0;

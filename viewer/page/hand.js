@@ -1,6 +1,6 @@
 "use strict";
-// Mouse, pen, fingers and wheel: turn the stone (or the lights), move the picture, zoom, point at
-// facets and click on them.
+// Mouse, pen, fingers and wheel: turn the stone or the lights, move, zoom, point at facets and
+// click on them.
 
 const k_click_pixels = 4;
 
@@ -24,7 +24,7 @@ class Hand {
     const box = this.surface.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
-  // A point of the stage on the ball around the stone, in its radii, y up.
+  // In radii of the ball around the stone, y up.
   on_ball([x, y]) {
     const {middle, radius} = this.page.ball();
     return [(x - middle[0]) / radius, (middle[1] - y) / radius];
@@ -47,7 +47,6 @@ class Hand {
       this.gesture.apart = this.apart();
     }
   }
-  // Starts a new gesture.
   begin(kind, at) {
     const view = this.page.view();
     this.gesture = {

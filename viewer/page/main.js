@@ -54,7 +54,7 @@ class Page {
     return (material && material.optic) ||
       (this.info.materials.find((m) => m.name === this.own_material()) || {}).optic;
   }
-  // The preset that the scene names; empty: the scene has lights of its own.
+  // The scene's own preset; empty: it has lights of its own.
   own_light() { return (this.info && this.info.settings && this.info.settings.light_preset) || ""; }
   light_preset() {
     const {light, polariser} = this.state.values;
@@ -72,7 +72,6 @@ class Page {
     const {turn, zoom, pan} = this.state.values;
     return {turn: turn || this.home(), zoom, pan: pan || this.base.pan};
   }
-  // The lights' rotation in the stone's frame.
   lights_turn(turn = this.view().turn) {
     const {light_turn, lights_with, polariser} = this.state.values;
     // A polariscope's light is always behind the stone.

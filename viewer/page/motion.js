@@ -1,5 +1,5 @@
 "use strict";
-// Changes of the view: by hand, by keys, from one named view to the next.
+// Changes of the view: by hand, by keys, between named views.
 
 function less_motion() { return matchMedia("(prefers-reduced-motion: reduce)").matches; }
 

@@ -37,7 +37,6 @@ const Turn = {
     const [x, y, z] = Turn.unit(axis), s = Math.sin(angle / 2);
     return [x * s, y * s, z * s, Math.cos(angle / 2)];
   },
-  // The least rotation from direction a to direction b.
   between(a, b) {
     const from = Turn.unit(a), to = Turn.unit(b), cosine = Turn.dot(from, to);
     if (cosine < -1 + 1e-12) {
@@ -111,7 +110,7 @@ function named_view(name, up, home_up) {
   return Turn.facing(up, side);
 }
 
-// The scene's camera in the page's terms: how much of the stone it shows, at the distance of the
+// The scene's camera in the page's terms: how much of the stone it shows at the distance of the
 // stone's middle, and the eye's distance from there. `camera` is as in the engine's `open`.
 function base_of(camera, center) {
   const [pixels_x, pixels_y] = camera.size || [1, 1];
@@ -133,14 +132,14 @@ function base_of(camera, center) {
   };
 }
 
-// Half the height that a picture of width x height pixels shows, in the stone's unit at the
-// distance of the stone's middle.
+// Half the height of a picture of width x height pixels, in the stone's unit at the distance of the
+// stone's middle.
 function half_height_of(base, zoom, width, height) {
   return Math.max(base.half_height / base.free_height, base.half_width * height / width) / zoom;
 }
 
-// The camera for the engine. `view`: {turn, zoom, pan}; pan is the offset of the stone's middle
-// from the picture's, in the stone's unit, to the right and up.
+// `view`: {turn, zoom, pan}; pan is the offset of the stone's middle from the picture's, in the
+// stone's unit, to the right and up.
 function camera_of(base, view, center, width, height) {
   const along = (v) => Turn.back(view.turn, v);
   const half = half_height_of(base, view.zoom, width, height);
@@ -157,8 +156,7 @@ function camera_of(base, view, center, width, height) {
   return camera;
 }
 
-// Returns a function from points of the stone to pixels [x, y] (x to the right, y down) in that
-// camera.
+// From points of the stone to pixels [x, y] (x to the right, y down).
 function projection_of(base, view, center, width, height) {
   const scale = height / 2 / half_height_of(base, view.zoom, width, height);
   return (point) => {
@@ -170,7 +168,7 @@ function projection_of(base, view, center, width, height) {
   };
 }
 
-// True if a facet with this outward normal, through this point, faces the eye.
+// By the facet's outward normal and a point of it.
 function faces_eye(base, view, center, normal, point) {
   const n = Turn.of(view.turn, normal);
   if (base.orthographic) return n[2] > 0;

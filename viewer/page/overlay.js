@@ -1,6 +1,6 @@
 "use strict";
-// Lines and colours over the picture: facets by their fit, a wireframe, names, the facet under the
-// pointer, and the facets of a light path. In CSS pixels of the stage.
+// Drawn over the picture: facets by their fit, a wireframe, names, the facet under the pointer, a
+// light path's facets. In CSS pixels of the stage.
 
 class Overlay {
   constructor(page, svg) {
@@ -73,8 +73,8 @@ class Overlay {
     if (this.path.length) this.path_of(stone, group, base, view, box, text_of);
   }
 
-  // The facets of the light path, joined in order by a line through their middles. It shows which
-  // facets and their order; real rays bend at every face.
+  // Joins the light path's facets in order by a line through their middles. It shows the facets and
+  // their order; real rays bend at every face.
   path_of(stone, group, base, view, box, text_of) {
     const all = stone.polygons(base, view, box.width, box.height, true);
     const met = this.path.map((name) => all.find(({facet}) => facet.name === name)).filter(Boolean);

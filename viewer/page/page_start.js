@@ -91,7 +91,6 @@ Object.assign(Page.prototype, {
     }
   },
 
-  // Opens the state's item in the engine.
   async open_engine() {
     const item = this.state.get("item");
     this.loop.forget();
@@ -145,7 +144,6 @@ Object.assign(Page.prototype, {
     by_id("trouble").hidden = true;
     this.picture.forget();
   },
-  // The still picture and the names of an item.
   show_item() {
     const item = this.item(), still = by_id("still");
     this.gpu.hide();
@@ -204,7 +202,6 @@ Object.assign(Page.prototype, {
     for (const panel of Object.values(this.panels)) panel.update();
   },
 
-  // Called when the state has changed.
   changed(changed, by) {
     if (!this.ready()) return;
     if (changed.has("cut")) this.cut_soon();

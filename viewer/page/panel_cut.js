@@ -9,7 +9,7 @@ class PanelCut {
     this.made_for = undefined;
   }
 
-  // The kind of the shown stone; nothing if it is not a standard cut.
+  // Nothing if the shown stone is not a standard cut.
   kind() {
     const stone = this.page.document_stone();
     const cut = stone && stone.cut;

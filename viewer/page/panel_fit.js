@@ -1,6 +1,5 @@
 "use strict";
-// The measured stone: compared with the one that the fit started from, and the uncertainty of each
-// facet.
+// The measured stone: compared with the fit's start, and the uncertainty of each facet.
 
 const k_role_names = {
   catalogue: "Catalogue",

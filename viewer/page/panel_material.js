@@ -1,6 +1,5 @@
 "use strict";
-// The choice of material, found by a few letters; the direction of its optic axis; the depth of its
-// colour.
+// The material, found by a few letters; its optic axis; the depth of its colour.
 
 class PanelMaterial {
   constructor(page, info) {

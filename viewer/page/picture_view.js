@@ -1,6 +1,5 @@
 "use strict";
-// The picture on the page: the engine's pixels on a canvas, for one stone or for two with a
-// divider.
+// The engine's pixels on a canvas, for one stone or for two with a divider.
 
 class PictureView {
   constructor(stage, canvas, still) {

@@ -1,6 +1,6 @@
 "use strict";
-// Converts the page's state to keys of a scene, as for `culet render --set`, so that the command
-// line can draw the same picture.
+// The page's state as keys of a scene, as for `culet render --set`, so that the command line draws
+// the same picture.
 
 function toml_text(text) { return JSON.stringify(text); }
 function toml_number(value) { return String(Number(value.toPrecision(9))); }
@@ -18,9 +18,9 @@ function crystal_axes(tilt_deg, azimuth_deg) {
 const k_fine_tolerance = 0.05;
 
 // One: the sodium line, at which gems are measured. Three: where the eye's three colours are
-// separated best; with them an ASET picture of a diamond is five times nearer to that of 15
-// wavelengths than with three evenly spread. More: evenly over the visible range, with the ends of
-// the program's own choice (docs/rendering.md).
+// separated best; an ASET picture of a diamond is then five times nearer to that of 15 wavelengths
+// than with three evenly spread. More: evenly over the visible range, with the ends of the
+// program's own choice (docs/rendering.md).
 function wavelengths_nm(count) {
   if (count === 1) return [589.3];
   if (count === 3) return [450, 540, 610];
@@ -80,9 +80,8 @@ function quoted(text) {
   return /^[\w./=,:-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";
 }
 
-// The command that draws this picture. `drawing`: {command, settings, camera, size, exposure,
-// tonemap, engine, lights_turned}; `command` ends with the file; `lights_turned` is a rotation of
-// the lights in the stone's frame.
+// `drawing`: {command, settings, camera, size, exposure, tonemap, engine, lights_turned}; `command`
+// ends with the file; `lights_turned` is a rotation of the lights in the stone's frame.
 function command_line(drawing) {
   const settings = drawing.settings.slice();
   const camera = drawing.camera;

@@ -1,6 +1,5 @@
 "use strict";
-// One stone of the document: its facets in space and in the picture, and what its fit says about
-// them.
+// One stone of the document: its facets in space and in the picture, and its fit.
 
 class ShownStone {
   // `stone` is as in the document: role, name, unit, vertices, facets, up, fit, ...

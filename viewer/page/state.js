@@ -1,6 +1,6 @@
 "use strict";
-// What the page shows, as one plain object with listeners. Its link is the page's address; the
-// fragment holds what differs from the defaults, so that it also works with file://.
+// The page's state, as one plain object with listeners. A link's fragment holds what differs from
+// the defaults, so that it also works with file://.
 
 // The names are used in links; `null`: as in the file.
 const k_state_defaults = {

@@ -1,6 +1,6 @@
 "use strict";
-// A turn of the stone as a WebM film. The frames are drawn first and then played to the recorder at
-// film speed, since it records in real time.
+// A turn of the stone as a WebM film. Frames are drawn first, then played to the recorder, which
+// records in real time.
 
 const k_film_frames = 100;
 const k_film_rate = 25;   // per second

@@ -1,8 +1,8 @@
 "use strict";
 
-// A page's worker. It takes {id, call, ...arguments} one by one and answers {id, ok: true,
-// ...result} or {id, ok: false, error: "one line"} (docs/viewer.md). The first call is "start" with
-// `engine`, the engine's file as bytes, or as text in base64.
+// A page's worker: takes {id, call, ...arguments} one by one and answers {id, ok: true, ...result}
+// or {id, ok: false, error: "one line"} (docs/viewer.md). The first call is "start" with `engine`,
+// the engine's file as bytes, or as text in base64.
 class EngineWorker {
     constructor(post) {
         this.post = post;
