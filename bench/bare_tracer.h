@@ -1,8 +1,7 @@
 #pragma once
-// A minimal renderer, to measure what the reference renderer's speed costs beyond it with all
-// effects off. It knows only a clear isotropic stone, unpolarised light, one wavelength, a pinhole,
-// and lights that are constant, lobes or caps. It has the same rays, geometry and Fresnel powers,
-// in double precision.
+// A minimal renderer, to measure what the reference renderer's generality costs with all effects
+// off: only a clear isotropic stone, unpolarised light, one wavelength, a pinhole, and lights that
+// are constant, lobes or caps. Same rays, geometry and Fresnel powers, in double precision.
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Measures the engine beams: speed and error, varying one parameter at a time about a base case,
-// and beside other renderers. Prints tables.
+// Measures the engine beams, one parameter at a time about a base case, and beside other renderers:
+// speed and error, as tables.
 
 #include <filesystem>
 #include <string>
@@ -24,7 +24,7 @@ public:
     BeamBench(int pixels, const std::filesystem::path& cache)
         : pixels_(pixels), references_(cache), base_(base_scene(pixels)) {}
 
-    /// Runs the section of that name, or all. Throws InputError for an unknown one.
+    /// Empty: all sections. Throws InputError for an unknown one.
     void run(const std::string& only);
     const BenchTables& tables() const { return tables_; }
 

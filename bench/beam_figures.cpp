@@ -1,4 +1,4 @@
-// Figures of the beams: relighting, rays off their beams' facets, threads.
+// Relighting, rays off their beams' facets, threads.
 
 #include <fmt/format.h>
 

@@ -13,11 +13,10 @@ public:
     BenchTables();
     ~BenchTables();
 
-    /// Begins a section: title, what readers should know, and the names of all columns except the
-    /// first.
+    /// Title, what readers should know, and the names of all columns except the first.
     void section(const std::string& name, const std::string& remark,
                  const std::vector<std::string>& columns);
-    /// Prints a line at once. Numbers are given as text, empty where there is none.
+    /// Numbers as text, empty where there is none.
     void line(const std::string& what, const std::vector<std::string>& values);
     /// A conclusion from the lines before.
     void remark(const std::string& text);

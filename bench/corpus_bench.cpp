@@ -47,8 +47,8 @@ struct Group {
     std::vector<double> ms, ms_before;
 };
 
-// Prints each group's results before and after, and names the fits that were lost and gained.
-// Returns the number of lost fits.
+// Prints each group's results before and after, and the lost and gained fits. Returns the number of
+// lost ones.
 int compare(const Json& now, const Json& before) {
     std::map<std::string, Json> old;
     for (const Json& one : before.at("fits")) old[one.at("name")] = one;

@@ -3,8 +3,8 @@
 
 namespace culet {
 
-/// Prints a table of processor times: one picture of `pixels` a side, one thread, the quickest of
-/// several, with each effect on and off in turn.
+/// Processor times of a picture of `pixels` a side, one thread, the quickest of several, with each
+/// effect on and off in turn.
 void print_effect_prices(int pixels);
 
 }  // namespace culet

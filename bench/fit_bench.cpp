@@ -32,7 +32,6 @@ const std::vector<Class> k_classes{{TruthKind::round, true}, {TruthKind::round, 
                                    {TruthKind::step, true},  {TruthKind::step, false},
                                    {TruthKind::pear, false}, {TruthKind::trillion, false}};
 
-// The selected stones and errors.
 struct Chosen {
     unsigned first_seed = 1, seeds = 20;
     std::string stone;       // empty: all

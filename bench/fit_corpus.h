@@ -10,13 +10,12 @@
 
 namespace culet::bench {
 
-/// One fit of the corpus.
 struct CorpusFit {
     std::string group;  ///< fits that one figure counts together
     std::string name;   ///< unique in the corpus
     std::function<Trial()> fit;
-    /// The fit from the stone's own corners, which `succeeds` compares with. Computed once and
-    /// shared by all fits of one stone.
+    /// From the stone's own corners, for `succeeds` to compare with. Computed once for all fits of
+    /// a stone.
     std::function<const Trial&()> reference;
     Stone declared;
 };

@@ -13,8 +13,8 @@ enum class Drawing {
 };
 Scene drawn_as(Scene scene, Drawing drawing, int threads);
 
-/// Draws frames whose camera moves by too little to see, so that each is drawn anew. Returns the
-/// quickest of as many as fit in `seconds`.
+/// The quickest of as many as fit in `seconds`, with a camera that moves by too little to see, so
+/// that each is drawn anew.
 Clocks frame_time(FrameRenderer& frames, const Camera& camera, double seconds = 0.25);
 
 }  // namespace culet

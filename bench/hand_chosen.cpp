@@ -18,8 +18,7 @@ namespace {
 constexpr double k_cuts[] = {0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
 constexpr int k_nodes[] = {1, 3, 5, 8, 15};
 constexpr int k_sides[] = {1, 2, 3, 4, 6, 8, 12, 16, 24};
-// Factor: settings whose error is so far above the tolerance, or whose cost is so far above that of
-// another one within it, are not pursued.
+// Times the tolerance, or the cost of another setting within it: beyond, settings are not pursued.
 constexpr double k_hopeless = 4;
 
 struct Hand {

@@ -1,6 +1,6 @@
 #pragma once
 // Settings that a patient person could have found: a sweep over engines, cuts, wavelengths, rays
-// and effects, each timed and compared with the truth.
+// and effects, timed and compared with the truth.
 
 #include <string>
 #include <vector>

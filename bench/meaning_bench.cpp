@@ -103,7 +103,6 @@ auto alike_to(const CameraModel& camera) {
     };
 }
 
-// How well blur and noise are estimated.
 void print_cameras(const std::vector<Trial>& trials) {
     double blur = 0, blur_squares = 0, noise = 0, noise_squares = 0, n = 0;
     for (const Trial& t : trials) {

@@ -102,7 +102,6 @@ HWY_INLINE V light(const Prepared& scene, const V3& d) {
     return sum;
 }
 
-// Where rays met a face.
 struct Hit {
     V3 normal;
     Meeting meeting;
@@ -115,7 +114,6 @@ public:
         std::fill_n(guess_, k_most_depth, 0);
     }
 
-    // Radiance along rays from the eye.
     HWY_INLINE V radiance(const V3& direction) {
         const V3 origin{number(scene_.origin[0]), number(scene_.origin[1]),
                         number(scene_.origin[2])};
@@ -131,8 +129,8 @@ public:
     }
 
 private:
-    // Finds the face through which rays enter: that of the packet before if all rays are in it,
-    // else the farthest of the planes that the eye is above. Returns which rays meet the stone.
+    // The face of the packet before if all rays are in it, else the farthest of the planes that the
+    // eye is above. Returns which rays meet the stone.
     HWY_INLINE M enter(const V3& origin, const V3& direction, const M& wanted, Hit& hit) {
         const Prepared::Face& guess = scene_.faces[static_cast<std::size_t>(guess_[0])];
         if (guess.front) {
@@ -190,8 +188,8 @@ private:
         return static_cast<int>(stored[which]);
     }
 
-    // The nearest face ahead. A meeting nearer than those with all neighbours is the nearest: the
-    // facets are the corners of the polar body, over which towards / depth is linear.
+    // A meeting nearer than those with all neighbours is the nearest: the facets are the corners of
+    // the polar body, over which towards / depth is linear.
     HWY_INLINE Hit exit(const V3& at, const V3& direction, M open, int& guess) const {
         Hit hit{direction, {number(1.0f), number(1.0f)}};
         int f = guess;

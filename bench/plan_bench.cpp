@@ -85,7 +85,6 @@ ScenePlan finest_plan() {
     return finest;
 }
 
-// At some pixels.
 Truth truth_of(const Scene& scene, const Options& options) {
     return draw_truth(scene, finest_plan(), options.checked, options.truth_rays);
 }

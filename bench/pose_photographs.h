@@ -25,9 +25,9 @@ struct PhotographSettings {
     std::string cut, light;  ///< empty: each in turn
 };
 
-/// What is wrong with a photograph and its model: nothing; a model of another cut, or of other
-/// proportions; a photograph of the other side, or mirrored; a start turned to the next position in
-/// which the cut looks alike; a picture without the stone.
+/// In order: nothing; a model of another cut, or of other proportions; a photograph of the other
+/// side, or mirrored; a start turned to the next position in which the cut looks alike; a picture
+/// without the stone.
 enum class Fault { none, other_cut, other_angles, other_side, mirrored, turned_start, no_stone };
 const std::vector<std::pair<std::string, Fault>>& faults();
 
@@ -44,7 +44,7 @@ struct PosePhotograph {
 PosePhotograph pose_photograph(const PhotographSettings& settings, int seed,
                                Fault fault = Fault::none);
 
-/// The smallest turn from the truth to the found view, over the turns of the model's symmetry.
+/// Over the turns of the model's symmetry.
 Vec3 turn_between(const StoneView& truth, const StoneView& found, int fold);
 
 }  // namespace culet

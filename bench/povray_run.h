@@ -13,12 +13,12 @@ bool povray_is_installed();
 
 struct PovrayRun {
     Picture picture;  ///< linear; clipped at 1
-    /// CPU seconds of tracing as POV-Ray states them, without reading the scene or writing the
-    /// picture; the quickest run, on one thread.
+    /// CPU seconds of tracing as POV-Ray states them (without reading the scene or writing the
+    /// picture), quickest run, one thread.
     double seconds = 0;
 };
 
-/// A folder for POV-Ray's files, removed at the end.
+/// Its files are removed at the end.
 class PovrayFolder {
 public:
     /// `sampling`: POV-Ray's options, "-A" or "+A0.1 +AM2 +R3". Throws InputError with POV-Ray's

@@ -23,8 +23,8 @@ Difference difference(const Picture& picture, const Picture& reference);
 
 class ReferencePictures {
 public:
-    /// `cache`: a folder that keeps pictures between runs, or empty. A picture is identified by its
-    /// scene only: empty the folder when the reference renderer changes.
+    /// `cache`: keeps pictures between runs; may be empty. Pictures are identified by scene only:
+    /// empty it when the reference renderer changes.
     explicit ReferencePictures(std::filesystem::path cache) : cache_(std::move(cache)) {}
 
     const Picture& at(const Scene& scene, int samples);

@@ -16,11 +16,10 @@ struct StoredView {
     double share = 0;  ///< weight in the interpolated view; they add up to 1
 };
 
-/// The one to four stored views that surround that of `camera`. They lie on the sphere around
-/// `look_at` through the camera, at whole steps of the polar angle from +z and of the azimuth from
-/// +x; their other numbers are the camera's. Steps are at most `step` radians and divide the circle
-/// evenly. Throws InputError for a camera with a lens, a conoscope, and where `up` is along such a
-/// view.
+/// The one to four stored views that surround that of `camera`: on the sphere around `look_at`
+/// through it, at whole steps of the polar angle from +z and of the azimuth from +x, otherwise like
+/// it. Steps are at most `step` radians and divide the circle evenly. Throws InputError for a
+/// camera with a lens, a conoscope, and where `up` is along such a view.
 std::vector<StoredView> stored_views(const Camera& camera, double step);
 
 /// Where a camera without a lens sees a point: pixels from the upper left corner.

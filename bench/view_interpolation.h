@@ -20,8 +20,8 @@ struct ViewTable {
     RayTable table;
 };
 
-/// `tables` are of the same scene, from the views of stored_views. The result does not depend on
-/// the number of threads. Throws Interrupted.
+/// `tables` are of the same scene, from the views of stored_views. The result is the same for any
+/// number of threads. Throws Interrupted.
 RayTable interpolated(const Scene& scene, const TableRays& rays,
                       const std::vector<ViewTable>& tables, const Progress& progress);
 

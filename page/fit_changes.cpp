@@ -1,3 +1,4 @@
+// What a fit changed, facet by facet.
 
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// What the reader of a fit should look at.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// The proportions of the cut.
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// The figures under the verdict on a fit.
 
 #include <fmt/format.h>
 

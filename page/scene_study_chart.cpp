@@ -1,3 +1,4 @@
+// The study of a scene as a chart and as text.
 
 #include <fmt/format.h>
 

@@ -18,8 +18,8 @@ namespace culet {
 
 namespace {
 
-// Areas are raised to the fourth power before a root is taken, and edges may be 1e-13 of the whole.
-// Beyond these bounds that overflows a double; no stone is measured in such units.
+// Larger or smaller solids overflow a double: areas are raised to the fourth power before a root is
+// taken, and edges may be 1e-13 of the whole.
 constexpr double k_largest_coordinate = 1e50, k_smallest_extent = 1e-50;
 
 void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
@@ -53,7 +53,6 @@ ReadSolid solid_of_gltf(const std::filesystem::path& file) {
     return solid_from_faces(std::move(soup));
 }
 
-// Turns a mesh whose table does not face +z, and adds a note.
 void stand_up(SolidInput& input) {
     const std::optional<int> table = table_by_shape(input.solid);
     if (!table) return;

@@ -20,8 +20,8 @@ namespace {
 constexpr const char* k_no_material =
     "has no material: name one of the catalogue (material = \"diamond\") or add a [material] table";
 
-// The facet that `up = "table"` means in a mesh without facet names: the table by its shape, else
-// the largest facet that faces up more than sideways, else -1.
+// For `up = "table"` in a mesh without facet names: the table by its shape, else the largest facet
+// that faces up more than sideways, else -1.
 int table_of(const Solid& solid) {
     if (const auto table = table_by_shape(solid)) return *table;
     int best = -1;
@@ -45,8 +45,8 @@ Vec3 unit_vector(const TomlTable& table, const char* key, const Vec3& value) {
     return value / length;
 }
 
-// Turns the stone so that its `up` faces +z, together with what the file states in the mesh's
-// frame. A facet named by `up` may be tilted as tables are.
+// Turns the stone, and what the file states in the mesh's frame, so that `up` faces +z. A facet
+// named by `up` may be tilted as tables are.
 void stand_as_stated(bool crystal_is_given, StoneFile& file) {
     Stone& stone = file.stone;
     const Vec3 up = stone.up_facet.empty() ? stone.up : axis_near(stone.up);
@@ -121,7 +121,7 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
     table.fail("", k_no_material);
 }
 
-// Finds tiers, index settings and instructions for a mesh's facets by their names.
+// By the names of the mesh's facets.
 void take_design(const TomlTable& table, Solid& solid) {
     const auto file = table.path("design");
     if (!file) return;

@@ -22,8 +22,8 @@ constexpr std::size_t k_most_tables = 16;
 constexpr double k_least_share = 0.1, k_most_share = 0.85;
 // The other side ends in a point, an edge, or a culet of at most this share of the table's area.
 constexpr double k_largest_culet = 0.4;
-// Shares of the depth: how far the corners of the outline lie from one plane, and how far that
-// plane is below the table.
+// Shares of the depth: how far the outline's corners lie from one plane, and how far that is below
+// the table.
 constexpr double k_girdle_band = 0.2, k_least_crown = 0.02, k_most_crown = 0.45;
 // Distance of the table's middle from the outline's, in square roots of the outline's area.
 constexpr double k_off_middle = 0.2;
@@ -74,7 +74,6 @@ public:
 private:
     const Facet& facet_at(int facet) const { return solid_.facets[std::size_t(facet)]; }
 
-    // The area of all facets that face `direction` to within `tilt`.
     double facing(const Vec3& direction, double tilt) const {
         double sum = 0;
         for (std::size_t f = 0; f < solid_.facets.size(); ++f) {

@@ -38,8 +38,8 @@ void make_folder(const fs::path& folder) {
     if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
 }
 
-// Locks a folder. The lock's file is removed by the last process that leaves; returns -1 if that
-// happened meanwhile. Throws InputError if another process keeps the lock for `tries` pauses.
+// The last process that leaves removes the lock's file; -1 if that happened meanwhile. Throws
+// InputError if another process keeps the lock for `tries` pauses.
 int try_lock(const fs::path& folder, int tries) {
     const fs::path file = folder / k_lock_file;
     const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);

@@ -1,5 +1,5 @@
 #pragma once
-// The folder of a batch's results. jobs.json is the plan, jobs/NAME a finished job. During the
+// The folder of a batch's results: jobs.json is the plan, jobs/NAME a finished job. During the
 // work, unfinished/share-K-of-N/NAME holds a job, and unfinished/table what is made from all jobs.
 
 #include <filesystem>
@@ -10,8 +10,7 @@ namespace culet {
 
 inline constexpr const char* k_plan_file = "jobs.json";
 
-/// One share of a batch: the jobs whose number, from 0, has the remainder `number` when divided by
-/// `of`.
+/// The jobs whose number, from 0, has the remainder `number` when divided by `of`.
 struct BatchShare {
     std::size_t number = 0, of = 1;
 
@@ -21,16 +20,15 @@ struct BatchShare {
 /// Reads `K/N`, with K from 0 to N - 1; empty: the whole batch. Throws InputError.
 BatchShare share_in(const std::string& text);
 
-/// How a finished job ended, as its record says.
+/// As its record says.
 struct JobEnd {
     std::string fingerprint;
     int exit_code = 0;
 };
 
-/// The name under which a share is worked on.
 std::string work_name(const BatchShare& share);
 
-/// While it lives, no other process can do the work of this name. Throws InputError when the folder
+/// No other process can do the work of this name meanwhile. Throws InputError when the folder
 /// cannot be made or written, or another process is at work.
 class BatchFolder {
 public:
@@ -46,14 +44,13 @@ public:
     std::filesystem::path begin(const std::string& name) const;
     /// The folder that `begin` made.
     std::filesystem::path begun(const std::string& name) const { return work_ / name; }
-    /// Turns the work into the finished job in one step, replacing an earlier one.
+    /// In one step, replacing an earlier one.
     void finish(const std::string& name) const;
-    /// Writes a file of the folder itself in one step. If the process is killed half-way, the
-    /// unfinished file is among the unfinished jobs.
+    /// A file of the folder itself, in one step: killed half-way, its rest is among the unfinished
+    /// jobs.
     void write(const std::string& name, const std::string& text) const;
-    /// Removes what `begin` made.
     void drop(const std::string& name) const;
-    /// The lock's file descriptor. Child processes must close it.
+    /// Child processes must close it.
     int lock() const { return lock_; }
 
     const std::filesystem::path& path() const { return folder_; }
@@ -63,7 +60,7 @@ private:
     int lock_ = -1;
 };
 
-/// Removes what killed processes left. Shares that are at work are not touched.
+/// Left by killed processes. Shares that are at work are not touched.
 void remove_unfinished(const std::filesystem::path& folder);
 
 std::filesystem::path job_folder(const std::filesystem::path& folder, const std::string& name);

@@ -26,8 +26,7 @@ namespace {
 
 constexpr std::size_t k_longest_name = 100, k_most_jobs = 1000000;
 
-// A name for a folder: letters, digits, and characters that are harmless in shells, pages and file
-// systems.
+// Letters, digits, and characters that are harmless in shells, pages and file systems.
 std::string plain_name(const std::string& written) {
     constexpr std::string_view k_harmless = "._-+=,@";
     const std::string text = utf8_from_windows1252(written);
@@ -44,7 +43,7 @@ std::string plain_name(const std::string& written) {
     return name;
 }
 
-// `name` if it is short enough for a folder, else its beginning and a hash of the whole.
+// Long names become their beginning and a hash of the whole.
 std::string fitting(const std::string& name, BatchList& list) {
     if (name.size() <= k_longest_name) return name;
     const std::string hash = "_" + hash_of(name).substr(0, 8);
@@ -128,7 +127,6 @@ BatchList read_folder(const fs::path& folder) {
     return list;
 }
 
-// The columns of a table of jobs.
 struct JobColumns {
     int stone = -1, name = -1, material = -1, index = -1;
     std::vector<std::pair<int, std::string>> settings;

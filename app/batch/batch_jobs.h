@@ -19,7 +19,7 @@ struct BatchJob {
     std::vector<std::string> set;
 };
 
-/// Settings that are the same for every stone of a batch.
+/// The same for every stone of a batch.
 struct BatchSettings {
     std::string material, tilts = "-30:30:10";
     std::optional<double> index;
@@ -37,10 +37,9 @@ struct BatchList {
     std::vector<std::string> notes;    ///< names that were shortened
 };
 
-/// Reads the jobs. A folder has one for each stone file, cut design and mesh in it, without the
-/// meshes that its stone files name. A table (.csv) has one per row (docs/batch.md). Throws
-/// InputError when there are no jobs, a row has no stone, or a name is no file name or occurs
-/// twice.
+/// A folder has a job for each stone file, cut design and mesh, but not for meshes that its stone
+/// files name. A table (.csv) has one per row (docs/batch.md). Throws InputError when there are no
+/// jobs, a row has no stone, or a name is no file name or occurs twice.
 BatchList read_batch(const std::filesystem::path& jobs);
 
 }  // namespace culet

@@ -21,8 +21,8 @@ namespace {
 
 using PlanJson = nlohmann::ordered_json;
 
-// Fowler, Noll and Vo's hash (draft-eastlake-fnv, variant 1a, 64 bits). The length of each part is
-// hashed too, so that moving a boundary changes the hash.
+// FNV-1a, 64 bits (draft-eastlake-fnv). Hashes each part's length too, so that moving a boundary
+// changes the hash.
 class Fingerprint {
 public:
     void add(std::string_view text) {

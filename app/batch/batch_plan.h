@@ -10,21 +10,21 @@
 
 namespace culet {
 
-/// The plan as stored with the results: settings and jobs, with no paths except the jobs'.
+/// As stored with the results: settings and jobs, with no paths except the jobs'.
 std::string batch_plan_json(const BatchList& list, const BatchSettings& settings);
-/// The jobs' names in such a plan; `file` is for messages. Throws InputError.
+/// `file` is for messages. Throws InputError.
 std::vector<BatchJob> jobs_of_plan(const std::string& json, const std::filesystem::path& file);
 
-/// A stone's file and all files that it names, directly or through others: every text in a TOML
-/// file that is a file relative to it. Sorted; `set` as for --set. Unreadable files are omitted.
+/// A stone's file and all that it names, directly or through others: every text in a TOML file that
+/// is a file relative to it. Sorted; `set` as for --set. Unreadable files are omitted.
 std::vector<std::filesystem::path> files_of_stone(const std::filesystem::path& file,
                                                   const std::vector<std::string>& set);
 
-/// FNV-1a (64 bits) of a text, 16 hexadecimal digits.
+/// FNV-1a (64 bits), 16 hexadecimal digits.
 std::string hash_of(std::string_view text);
 
-/// Depends on all that the job's results depend on: the version, the settings, the stone's file and
-/// the files that it names. FNV-1a (64 bits), 16 hexadecimal digits.
+/// Of all that the job's results depend on: version, settings, the stone's file and the files that
+/// it names. 16 hexadecimal digits.
 std::string fingerprint_of(const BatchList& list, const BatchJob& job,
                            const BatchSettings& settings);
 

@@ -47,8 +47,8 @@ double number_in(const TableJson& record, const char* part, const char* key) {
     return value != table->end() && value->is_number() ? value->get<double>() : std::nan("");
 }
 
-// How far each light return is from the median, in units of 1.4826 times the median deviation (the
-// standard deviation of normally distributed values).
+// Distance of each light return from the median, in units of 1.4826 times the median deviation (a
+// normal distribution's sigma).
 std::vector<double> deviations(const std::vector<TableJson>& records) {
     constexpr std::size_t k_fewest = 8;  // with fewer, none counts as unusual
     std::vector<double> known;
@@ -68,7 +68,6 @@ std::vector<double> deviations(const std::vector<TableJson>& records) {
     return result;
 }
 
-// Larger for jobs that need a look more.
 int urgency(const TableJson& record) {
     const std::string status = record.value("status", "");
     if (status == "failed") return 3;
@@ -77,7 +76,7 @@ int urgency(const TableJson& record) {
     return code != record.end() && *code == exit_good ? 0 : 1;
 }
 
-// The names of a part's figures that any job has, in the order of their first job.
+// That any job has, in the order of their first job.
 std::vector<std::string> names_in(const std::vector<TableJson>& records, const char* part) {
     std::vector<std::string> names;
     for (const TableJson& record : records) {

@@ -8,7 +8,6 @@
 
 namespace culet {
 
-/// Number of jobs by how they ended.
 struct BatchCounts {
     std::size_t good = 0, untrusted = 0, failed = 0, missing = 0;
 
@@ -21,9 +20,9 @@ struct MergedBatch {
     std::vector<std::string> complaints;
 };
 
-/// Reads the plan and the finished jobs' records, and writes table.csv, table.json and index.html
-/// beside them. The same results give the same bytes, whatever process made them and when. Throws
-/// InputError when the folder is not a batch's or not writable.
+/// Writes table.csv, table.json and index.html from the plan and the finished jobs' records. The
+/// same results give the same bytes. Throws InputError when the folder is not a batch's or not
+/// writable.
 MergedBatch merge_batch(const std::filesystem::path& folder);
 
 }  // namespace culet

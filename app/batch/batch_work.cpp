@@ -57,7 +57,6 @@ GradeChoices choices_of(const BatchJob& job, const BatchSettings& settings) {
     return choices;
 }
 
-// The largest |normalized|, with its reading.
 void add_worst_reading(const FitResult& result, RecordJson& fit) {
     const FittedReading* worst = nullptr;
     for (const FittedReading& reading : result.readings) {
@@ -118,7 +117,6 @@ void draw_small(const GradeInput& input, double index, const fs::path& file) {
     write_picture(drawn.picture, file, look);
 }
 
-// A job in progress: what is known of it so far.
 struct JobInWork {
     const BatchJob& job;
     const BatchSettings& settings;
@@ -128,7 +126,7 @@ struct JobInWork {
     bool trusted = true;
 };
 
-// The fitted stone; nothing for one without readings.
+// Nothing for a stone without readings.
 std::optional<GradeInput> fit_job(JobInWork& work) {
     const fs::path file = work.job.stone;
     if (kind_of(file, work.choices.overrides) != FileKind::stone) return {};

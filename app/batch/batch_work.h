@@ -8,13 +8,13 @@
 
 namespace culet {
 
-/// The file in a job's folder that says how the job ended.
+/// Says how a job ended.
 inline constexpr const char* k_job_record = "job.json";
 
 /// Fits the stone if it has readings, grades and draws it, and writes everything with the job's
-/// record to `folder`. Runs on one thread and returns the record's exit code. Changes the working
-/// directory to the batch's folder, so that names and messages do not depend on where that is: call
-/// it in a process of its own. Throws InputError when the results cannot be written.
+/// record to `folder`, on one thread. Returns the record's exit code. Call it in a process of its
+/// own: it changes the working directory to the batch's folder, so that names and messages do not
+/// depend on where that is. Throws InputError when the results cannot be written.
 int work_on_job(const BatchList& list, const BatchJob& job, const BatchSettings& settings,
                 const std::string& fingerprint, const std::filesystem::path& folder);
 

@@ -41,7 +41,7 @@ double cpu_seconds_of(const rusage& usage) {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// The processors on which this process may run: a cluster gives a job only some of a machine's.
+// A cluster gives a job only some of a machine's processors.
 int usable_processors() {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -71,7 +71,6 @@ private:
     sigset_t child_{}, before_{};
 };
 
-// The task of a child process.
 struct AtWork {
     std::size_t job = 0;
     std::string fingerprint;
@@ -94,7 +93,6 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     std::size_t busy() const { return at_work_.size(); }
-    /// Waits until a child ends, a signal comes, or a quarter of a second has passed.
     void wait() const { signals_.wait(); }
 
     void start(std::size_t number, std::string fingerprint) {
@@ -110,7 +108,7 @@ public:
         at_work_[child] = {number, std::move(fingerprint), Clock::now()};
     }
 
-    /// Moves ended jobs to the finished ones; returns their number.
+    /// Moves ended jobs to the finished ones and counts them.
     std::size_t collect() {
         std::size_t ended = 0;
         int status = 0;

@@ -21,9 +21,9 @@ struct ShareResult {
     double seconds = 0, cpu_seconds = 0;  ///< wall clock; processor time of all processes
 };
 
-/// Works on the share until every job in it is finished. It forks, so the process must not have
-/// threads. Throws Interrupted after its processes have ended and their unfinished work is removed.
-/// Throws InputError when results cannot be written, or already exist and `resume` is false.
+/// Leaves every job of the share finished. Forks, so the process must not have threads. Throws
+/// Interrupted when its processes have ended and their unfinished work is gone, InputError when
+/// results cannot be written, or exist and `resume` is false.
 ShareResult work_on_share(const BatchList& list, const BatchSettings& settings,
                           const std::filesystem::path& out, const ShareOptions& options);
 

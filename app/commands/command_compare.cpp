@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder for the outputs; removed again if nothing was written to it.
+/// Removed again if nothing was written to it.
 class OutputFolder {
 public:
     explicit OutputFolder(const fs::path& folder) : folder_(folder) {
@@ -57,7 +57,6 @@ CompareOptions options_of(const CompareArguments& a) {
     return options;
 }
 
-// The result for one photograph.
 struct Compared {
     Comparison comparison;
     std::optional<CalibratedVerdict> calibrated;
@@ -92,7 +91,7 @@ Compared compare_with_render(const CompareArguments& a, const std::string& versi
     return result;
 }
 
-// Inputs other than the scene, read once for all photographs.
+// Read once for all photographs.
 struct SceneExtras {
     std::optional<Solid> start;
     std::optional<StoneUncertainty> uncertainty;
@@ -161,7 +160,6 @@ void say_result(const CompareArguments& a, const Comparison& comparison, bool ca
     for (const std::string& note : comparison.notes) say("  " + note, a.common.quiet);
 }
 
-// Throws InputError for options that contradict each other.
 void check_asked(const CompareArguments& a) {
     if (a.pictures.size() < 2) {
         throw InputError(

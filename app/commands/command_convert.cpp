@@ -127,8 +127,7 @@ ExportedScene exported(const Scene& scene, const std::filesystem::path& out) {
     return povray_scene(scene);
 }
 
-// Writes a scene, or a stone in the usual light, for another renderer. The file that names the
-// others is written last.
+// For another renderer. The file that names the others is written last.
 int convert_scene(const ConvertOptions& options) {
     StoneScene choices;
     choices.material = options.material;
@@ -176,8 +175,7 @@ ConvertInput converted_input(const ConvertOptions& options) {
     return input;
 }
 
-// The design that the solid was cut by, or the one that its drawing shows. The index is the
-// material's if one is named.
+// The solid's design, or the one that its drawing shows, with the index of a named material.
 std::vector<std::string> write_asc(const ConvertInput& input, const std::filesystem::path& out) {
     Design design = cutting_design(input.solid);
     // Designs state the index to four decimals at most.

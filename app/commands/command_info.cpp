@@ -33,7 +33,7 @@ struct InfoOptions {
     SheetOptions sheet;
 };
 
-// The form for a file's stone: a mesh, a cut design or a stone file.
+// For a mesh, a cut design or a stone file.
 std::vector<std::string> form_of(const InfoOptions& options) {
     const std::filesystem::path& file = options.describe.file;
     FormOptions form = options.form;
@@ -167,7 +167,6 @@ Description describe_file(const DescribeOptions& options) {
 
 namespace {
 
-// Options for meshes and cut designs.
 void add_solid_options(CLI::App& command, InfoOptions& options) {
     command
         .add_option("--meet-tolerance", options.describe.cut.meet_tolerance,

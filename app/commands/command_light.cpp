@@ -197,7 +197,6 @@ int run_light(const LightArguments& a) {
     return probe.usable() ? exit_good : exit_untrusted;
 }
 
-// The photographs, and how they were taken.
 void add_view_options(CLI::App& command, LightArguments& a) {
     command.add_option("PHOTO", a.photos,
                        "photographs: one view, or two to six from places up to 90 degrees from "

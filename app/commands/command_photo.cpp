@@ -103,7 +103,7 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
     Json white;
     Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
     say_notes(a.white, other.notes, a.common.quiet);
-    // It is of the same camera, so its values have the same meaning as those of the shots.
+    // Of the same camera: its values mean the same as the shots'.
     if (merged.curve && other.encoding.starts_with("8-bit sRGB"))
         apply_response(*merged.curve, other);
     const Photo& with_card = a.white.empty() ? photo : other;

@@ -55,7 +55,6 @@ std::vector<RefinePhotograph> photographs_of(const RefineArguments& a) {
     return photographs;
 }
 
-// Median sigma of the facets.
 double usual_sigma_deg(const FitResult& fit) {
     std::vector<double> sigmas;
     for (const FittedFacet& facet : fit.facets) {

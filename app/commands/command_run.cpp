@@ -86,7 +86,7 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
     return job;
 }
 
-// The contents of a job's files; all of them are read and checked before any output.
+// Read and checked before any output.
 struct JobInput {
     StoneFile file;
     FitInput fit;
@@ -122,7 +122,6 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
     return input;
 }
 
-// The results.
 struct JobResult {
     std::optional<FitResult> fit;
     std::optional<RenderResult> rendered, started;
@@ -211,7 +210,7 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
     return report;
 }
 
-// The fitted stone in the job's scene, or face up without a scene.
+// In the job's scene, or face up without one.
 std::string viewer_of(const Job& job, const JobInput& input, const JobResult& made,
                       const std::string& fit_json) {
     ViewSource source;

@@ -31,7 +31,7 @@ struct ViewOptions {
     bool open = false;
 };
 
-// The stones, scenes and designs of a folder, by name.
+// By name.
 std::vector<fs::path> shown_in(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

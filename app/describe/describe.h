@@ -13,7 +13,7 @@
 
 namespace culet {
 
-/// The same for every kind of file: lines for people, a JSON object for programs, and the faults.
+/// Lines for people, a JSON object for programs, and the faults.
 struct Description {
     std::vector<std::string> lines, notes;
     nlohmann::ordered_json object;  ///< keys in snake_case, `format` first
@@ -31,7 +31,7 @@ struct DescribeOptions {
     double width_mm = 0;  ///< scale a mesh or a cut design to this width; 0: do not
 };
 
-/// Goes by the extension and, for TOML files, by their tables. Throws InputError for unknown kinds.
+/// By the extension; TOML files by their tables. Throws InputError for unknown kinds.
 Description describe_file(const DescribeOptions& options);
 
 /// Meshes and cut designs.

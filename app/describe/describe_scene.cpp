@@ -13,7 +13,6 @@ namespace culet {
 
 namespace {
 
-// The objects in the scene besides its stone.
 void describe_objects(const Scene& scene, Description& about) {
     auto& list = about.object["objects"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -162,8 +162,8 @@ void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, D
                                       convex ? "convex" : "not convex", planarity(solid)));
     describe_proportions(solid, about);
     describe_facets(solid, facet_table, about);
-    // The meets of real designs miss, and other programs' meshes are rounded to a few digits.
-    // Neither is a fault of the file.
+    // The meets of real designs miss, and other programs' meshes are rounded: neither is a fault of
+    // the file.
     const std::vector<Fault> faults =
         find_faults(solid, {.planarity = k_largest_miss, .must_be_convex = must_be_convex});
     about.faults.insert(about.faults.end(), faults.begin(), faults.end());

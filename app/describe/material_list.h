@@ -12,7 +12,7 @@ struct MaterialList {
     std::filesystem::path page;  ///< HTML; empty: none
 };
 
-/// Prints the list and writes the requested files. Throws InputError when no material matches.
+/// Prints the list and writes the files. Throws InputError when no material matches.
 void list_materials(const MaterialList& list);
 
 }  // namespace culet

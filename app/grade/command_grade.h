@@ -1,5 +1,5 @@
 #pragma once
-// Writes the page of culet grade, also for other commands that end in one.
+// The page of culet grade, for other commands too.
 
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace culet {
 
-/// Writes report.html, grade.json and pictures of the files side by side, as `culet grade -o` does.
-/// Unless it is empty, `optimized_json` (of `culet optimize --json`) is shown above them.
+/// Writes report.html, grade.json and pictures of the files side by side, as `culet grade -o` does,
+/// below `optimized_json` (of `culet optimize --json`) unless that is empty.
 void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
                       const std::filesystem::path& folder, const CommonOptions& common,
                       const std::string& optimized_json = {});

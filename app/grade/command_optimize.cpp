@@ -64,8 +64,7 @@ nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) 
     return json;
 }
 
-// Tier by tier with the titles of the cutting sheet. Tiers of a design that are equal were changed
-// together.
+// With the titles of the cutting sheet. Equal tiers of a design were changed together.
 std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
     Solid solid = result.start;
     solid.design = std::make_shared<const Design>(design);
@@ -137,7 +136,7 @@ void print_result(const Optimized& result, const std::vector<std::string>& names
     print_lines(text);
 }
 
-// The solid's design, or the one that its drawing shows. Without a title it gets the stone's name.
+// The solid's, or the one that its drawing shows; without a title it gets the stone's name.
 Design design_of(const OptimizeOptions& options, const GradeInput& input) {
     Design design = cutting_design(input.stone.solid);
     if (design.headings.empty()) design.headings.push_back(input.name);
@@ -146,7 +145,7 @@ Design design_of(const OptimizeOptions& options, const GradeInput& input) {
     return design;
 }
 
-// Prints figures that got worse, which a buyer may ask for but the objective ignored.
+// Figures that got worse, which a buyer may ask for but the objective ignored.
 void print_losses(const Optimized& result, const OptimizeOptions& options) {
     GradeOptions grade;
     grade.head = options.merit.head;

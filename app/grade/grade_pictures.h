@@ -15,8 +15,8 @@ struct GradePictureOptions {
     int threads = 0;
 };
 
-/// Draws each scope's picture with the engine beams and writes it to `folder` as PREFIX-aset.png,
-/// ... The stone is clear and without double refraction, as for the grade's figures.
+/// By beams, to `folder` as PREFIX-aset.png, ... The stone is clear and without double refraction,
+/// as for the grade's figures.
 std::vector<GradePicture> draw_scopes(const Stone& stone, const std::filesystem::path& folder,
                                       const std::string& prefix,
                                       const GradePictureOptions& options);

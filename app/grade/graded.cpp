@@ -90,7 +90,7 @@ GradeDesign design_for_page(const Graded& graded, const std::filesystem::path& f
     design.json = graded.json;
     Stone stone = graded.input.stone;
     if (!graded.input.has_material || graded.input.index) {
-        // The material that was graded: an index alone has no dispersion.
+        // An index alone has no dispersion.
         stone.material = graded.input.has_material ? stone.material : Material();
         if (!graded.input.has_material) stone.material.index[0].n = graded.grade.index.n;
     }

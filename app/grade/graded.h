@@ -24,8 +24,8 @@ struct Graded {
 /// `tilts`: "FROM:TO:STEP", or angles separated by commas; all in degrees. Throws InputError.
 GradeOptions grade_options(double head_deg, const std::string& tilts);
 
-/// `draws`: number of stones drawn at random for the sigmas where the input's uncertainty is known;
-/// 0: no sigmas.
+/// `draws`: stones drawn at random for the sigmas where the input's uncertainty is known; 0: no
+/// sigmas.
 Graded grade_input(GradeInput input, const GradeOptions& options, int draws, bool quiet);
 
 struct GradePageOptions {
@@ -34,7 +34,7 @@ struct GradePageOptions {
     int threads = 0;
 };
 
-/// Its part of a page. Writes the scopes' pictures to `folder` as PREFIX-aset.png, ...
+/// Writes the scopes' pictures to `folder` as PREFIX-aset.png, ...
 GradeDesign design_for_page(const Graded& graded, const std::filesystem::path& folder,
                             const std::string& prefix, const GradePageOptions& page);
 

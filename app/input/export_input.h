@@ -24,8 +24,8 @@ struct ExportInput {
     std::vector<std::string> notes, details;
 };
 
-/// Reads a mesh, a cut design, a stone file (as drawn, without a fit) or the stone of a scene. A
-/// mesh is in mm. What has no size gets the usual width, and a note says so. Throws InputError.
+/// A mesh (in mm), a cut design, a stone file (as drawn, without a fit) or the stone of a scene.
+/// What has no size gets the usual width, with a note. Throws InputError.
 ExportInput read_for_export(const std::filesystem::path& file, const ExportChoices& choices);
 
 }  // namespace culet

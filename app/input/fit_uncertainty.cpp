@@ -61,8 +61,8 @@ std::vector<double> covariance_in(const ReportJson& report, const fs::path& file
     return covariance;
 }
 
-// Facets of another stone, or of the mesh that the fit started from, differ by more. Small facets
-// read from a file are off by the rounding of their corners.
+// Facets of another stone, or of the fit's start, differ by more; small facets read from a file are
+// off by their corners' rounding.
 constexpr double k_same_facet = radians(0.5);
 
 void require_same_inclinations(const ReportJson& facets, const Stone& stone, const fs::path& file) {

@@ -9,13 +9,12 @@
 
 namespace culet {
 
-/// Of the facets of `result.solid`, in its order and unit, with their covariance if known.
+/// In the order and unit of `result.solid`, with the covariance if known.
 StoneUncertainty uncertainty_of(const FitResult& result);
 
-/// Reads the uncertainty of the stone's facets from the report of their fit, in the stone's unit.
-/// Uses the report's `facet_covariance` if present (three rows per facet, in the order of its
-/// `facets`: inclination and azimuth in degrees, offset). Throws InputError if it is not a report,
-/// or another stone's.
+/// From a fit's report, in the stone's unit. Uses its `facet_covariance` if present (three rows per
+/// facet, in the order of its `facets`: inclination and azimuth in degrees, offset). Throws
+/// InputError if it is not a report, or another stone's.
 StoneUncertainty uncertainty_in(const std::filesystem::path& report, const Stone& stone);
 
 }  // namespace culet

@@ -39,11 +39,10 @@ struct GradeChoices {
 std::vector<GradeInput> load_for_grade(const std::filesystem::path& file,
                                        const GradeChoices& choices, bool drawn);
 
-/// Replaces the drawn stone by the fitted one, with its facets' uncertainty.
 void take_fit(const FitResult& result, GradeInput& input);
 
-/// Applies the requested material and index, and turns the stone table up, as `load_for_grade`
-/// does. Throws InputError where there is neither material nor index.
+/// Applies the requested material and index, and turns the stone table up. Throws InputError
+/// without material and index.
 void make_ready(const GradeChoices& choices, GradeInput& input);
 
 }  // namespace culet

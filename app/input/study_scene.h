@@ -15,10 +15,10 @@ struct StudySceneOptions {
     double budget = 120;
 };
 
-/// Studies the scene, writes the results, and returns the exit code.
+/// Returns the exit code.
 int study_scene_file(const StudySceneOptions& options);
 
-/// Makes the folder for a study's results. Throws InputError when it cannot.
+/// Throws InputError when the folder cannot be made.
 std::filesystem::path study_folder(const std::filesystem::path& folder);
 
 }  // namespace culet

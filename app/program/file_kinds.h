@@ -9,18 +9,18 @@
 
 namespace culet {
 
-/// Throws InputError when `command` (fit) does not take files of this kind. The message says what
-/// the file is, what the command takes, and which command takes the file. Files of unknown kind
-/// pass: their reader reports what is wrong.
+/// Throws InputError when `command` (fit) does not take files of this kind, saying what the file
+/// is, what the command takes, and which command takes the file. Files of unknown kind pass: their
+/// reader reports what is wrong.
 void require_kind(const std::filesystem::path& file, const std::vector<FileKind>& taken,
                   const std::string& command, const std::vector<std::string>& overrides = {});
 
-/// True for a name of a standard cut, unless a file has that name.
+/// Unless a file has that name.
 bool is_cut_name(const std::string& input);
 
-/// Throws InputError unless `pictures` are photographs followed by a render or a scene. It is an
-/// error if a scene stands before the last, or if the first was rendered by culet and the last was
-/// not (unless `simulated` says that the photographs are).
+/// Throws InputError unless `pictures` are photographs followed by a render or a scene. Wrong are a
+/// scene before the last, and a first picture that culet rendered with a last that it did not
+/// (unless `simulated` photographs).
 void require_photographs_first(const std::vector<std::string>& pictures, bool simulated,
                                const std::vector<std::string>& overrides);
 

@@ -29,7 +29,7 @@ struct CommonOptions {
 /// Adds -q, -v, --threads, --seed and, for commands that read TOML, --set.
 void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = false);
 
-/// The command line of `command`, for pages to say how they were made.
+/// For pages to say how they were made.
 std::string as_given(const CLI::App& command);
 
 /// Reads "1,2,3" as `least` to `most` numbers. `expected` describes the option in errors. Throws
@@ -37,9 +37,8 @@ std::string as_given(const CLI::App& command);
 std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
                                const std::string& expected);
 
-/// Each registers one subcommand. Its callback stores the exit code in `exit_code` and throws
-/// InputError, InternalError or Interrupted. Commands only parse, call and write; they contain no
-/// formulas.
+/// Each registers one subcommand, whose callback stores the exit code and throws InputError,
+/// InternalError or Interrupted. Commands only parse, call and write: no formulas.
 void add_command_fit(CLI::App& program, int& exit_code);
 void add_command_register(CLI::App& program, int& exit_code);
 void add_command_render(CLI::App& program, int& exit_code);

@@ -7,10 +7,9 @@
 
 namespace culet {
 
-/// True if a program of that name is on the PATH.
 bool has_program(const std::string& name);
 
-/// Runs a program and writes its messages to a file. Returns its exit status, or -1.
+/// Messages go to a file. Returns the exit status, or -1.
 int run_program(std::vector<std::string> words, const std::filesystem::path& messages);
 
 }  // namespace culet

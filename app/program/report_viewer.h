@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// A page of the viewer. Empty if the stone could not be turned: culet was built without the
-/// viewer's engine, the engine beams refuses the scene, or the stone has no material.
+/// Empty if the stone could not be turned: no viewer's engine was built, the engine beams refuses
+/// the scene, or the stone has no material.
 std::string viewer_for_report(const ViewSource& source, const std::string& title);
 
 }  // namespace culet

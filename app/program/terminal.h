@@ -14,25 +14,23 @@ namespace culet {
 void catch_interrupts();
 bool interrupted();
 
-/// A progress line for `what`, with the time left. It is drawn only when stderr is a terminal,
-/// `quiet` is off and the work has taken over a second. It reacts to Ctrl-C in any case.
+/// With the time left. Drawn only if stderr is a terminal, not `quiet`, and after a second of work;
+/// always reacts to Ctrl-C.
 Progress progress_line(std::string what, bool quiet);
 
-/// Its text after `seconds`: the share done and the time left at that rate; early on, the time
-/// taken.
+/// The share done and the time left at that rate; early on, the time taken.
 std::string progress_text(double fraction, double seconds);
 
-/// Foreign text as one safe line for `stream` (for_terminal). ASCII on a terminal whose locale
-/// (LC_ALL, LC_CTYPE, LANG) is not UTF-8; files and pipes get UTF-8.
+/// One safe line for `stream` (for_terminal): ASCII on a terminal whose locale (LC_ALL, LC_CTYPE,
+/// LANG) is not UTF-8; files and pipes get UTF-8.
 std::string safe_for(std::FILE* stream, std::string_view text);
 
-/// Prints lines for people on stdout and makes foreign text in them safe (safe_for).
+/// On stdout; makes foreign text safe (safe_for).
 void print_lines(std::string_view text);
 
-/// Prints one line for people, unless `quiet`, and makes foreign text in it safe (safe_for).
+/// One line, unless `quiet`; makes foreign text safe (safe_for).
 void say(const std::string& line, bool quiet);
 
-/// Prints the notes on reading a picture, one per line.
 void say_notes(const std::string& picture, const std::vector<std::string>& notes, bool quiet);
 
 }  // namespace culet

@@ -7,12 +7,11 @@
 
 namespace culet {
 
-/// The message for a command line that cannot be parsed. For an unknown option it suggests the
-/// command's nearest one; for a number with additions, what to write.
+/// For an unknown option the command's nearest one; for a number with additions, what to write.
 std::string usage_advice(const CLI::App& program, const std::vector<std::string>& words,
                          const CLI::ParseError& error);
 
-/// Text for `culet` without arguments: what it is and which commands to begin with.
+/// For `culet` without arguments.
 std::string first_commands();
 
 }  // namespace culet

@@ -64,7 +64,7 @@ Frames frames_of(const RenderOptions& options) {
             options.exposure,           options.tonemap,  options.spectral};
 }
 
-// The scene of the file and the command line; prints its notes.
+// Prints the scene's notes.
 Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
     std::vector<std::string> settings = settings_of(options);
     if (plan != nullptr)
@@ -133,7 +133,6 @@ private:
     bool wanted_, any_ = false;
 };
 
-// Throws for options that contradict each other.
 void require_sense(const RenderOptions& options) {
     if (options.out.empty() && options.stats.empty())
         throw InputError("render needs -o IMAGE, --stats FILE, or --explain");
@@ -179,7 +178,7 @@ void add_uncertainty(const RenderOptions& options, const Scene& scene,
             quiet);
 }
 
-// Draws all frames of a turntable and returns the first, or draws and writes the single picture.
+// All frames of a turntable (returns the first), or the single picture.
 RenderResult draw(const RenderOptions& options, const Scene& scene,
                   const std::optional<SavedPlan>& saved,
                   const std::optional<StoneUncertainty>& uncertainty, const PictureOutput& output,

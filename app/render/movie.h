@@ -6,15 +6,12 @@
 
 namespace culet {
 
-/// True for the extension .mp4.
 bool is_movie(const std::filesystem::path& out);
 
-/// Throws InputError if ffmpeg is not installed.
 void require_ffmpeg(const std::filesystem::path& movie);
 
-/// Makes a film with 25 pictures per second from `frame-#####.png` in `folder`, numbered from
-/// 00001. It appears complete or not at all. Throws InputError with the last line of ffmpeg's
-/// output if that fails.
+/// 25 pictures per second from `frame-#####.png` in `folder`, from 00001. Complete or not at all.
+/// Throws InputError with ffmpeg's last line.
 void write_movie(const std::filesystem::path& folder, const std::filesystem::path& movie);
 
 }  // namespace culet

@@ -13,17 +13,16 @@ namespace culet {
 class PictureOutput {
 public:
     /// `out`: .exr, .png or .hdr; "-": stdout, as PNG; empty: nowhere. Throws InputError for other
-    /// extensions, for a place that cannot be written, and for a terminal.
+    /// extensions, unwritable places, and a terminal.
     PictureOutput(std::string out, bool spectral);
 
     /// Options as in shown_picture.h. Throws InputError.
     void look_as(const std::string& exposure, const std::string& tonemap, const Scene& scene);
 
-    /// The exposure factor of a picture.
     double exposure_of(const Picture& picture) const;
 
     bool goes_to_a_file() const { return !out_.empty() && out_ != "-"; }
-    /// Writes the picture completely or not at all; replaces an existing file.
+    /// Complete or not at all; replaces an existing file.
     void write(const Picture& picture,
                const std::vector<std::pair<std::string, std::string>>& text) const;
 

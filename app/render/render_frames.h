@@ -18,16 +18,14 @@ struct Frames {
     bool spectral = false;
 };
 
-/// Throws InputError if `out` has no #, ffmpeg is missing for a film, or the place cannot be
-/// written.
+/// Throws InputError if `out` has no #, a film has no ffmpeg, or the place cannot be written.
 void require_frames(const Frames& frames);
 
 /// The picture's name for frame 0, 1, ...; the numbers in names begin at 0001.
 std::string frame_name(const std::string& pattern, int frame);
 
-/// Draws all frames and prints a line for each. `first` draws the first frame and chooses and
-/// checks its settings; the others get the same settings and exposure. Returns the first result,
-/// without its picture.
+/// Prints a line for each frame. `first` draws the first and chooses and checks its settings, which
+/// the others share with its exposure. Returns the first result, without its picture.
 RenderResult draw_frames(const Frames& frames, const Scene& scene,
                          const std::function<RenderResult(const Scene&)>& first, bool quiet);
 

@@ -21,7 +21,7 @@ struct SavedPlan {
     ScenePlan of(const Scene& scene) const;
 };
 
-/// Throws InputError if the file is not JSON or holds no plan.
+/// Throws InputError if the file is not JSON or has no plan.
 SavedPlan read_saved_plan(const std::filesystem::path& file);
 
 }  // namespace culet

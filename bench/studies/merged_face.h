@@ -1,6 +1,6 @@
 #pragma once
-// Compares a face of a uniaxial crystal with the same face with the two waves merged (Guy & Soler
-// 2004, 4.2 and fig. 4): one index, the mean, and Fresnel's coefficients of an isotropic face.
+// A face of a uniaxial crystal, compared with one whose two waves are merged (Guy & Soler 2004, 4.2
+// and fig. 4): one index, the mean, and Fresnel's coefficients of an isotropic face.
 
 #include <array>
 
@@ -25,7 +25,7 @@ FacePowers exact_face(double n_o, double n_e, const Vec3& axis, double incidence
 /// between their vibrations and those of the two waves along the single ray.
 FacePowers merged_face(double n_o, double n_e, const Vec3& axis, double incidence);
 
-/// The largest difference of any of the eight, over incidences to 90 degrees in `steps` steps.
+/// Any of the eight, over incidences to 90 degrees in `steps` steps.
 double largest_face_difference(double n_o, double n_e, const Vec3& axis, int steps);
 
 }  // namespace culet

@@ -1,6 +1,5 @@
 #pragma once
-// The parameters of a study: one table of parameters.toml. Remembers which ones were used, for the
-// study's page.
+// The parameters of a study: one table of parameters.toml. Remembers which were used.
 
 #include <string>
 #include <utility>

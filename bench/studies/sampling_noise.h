@@ -16,9 +16,9 @@ struct SamplingNoise {
     Picture picture;
 };
 
-/// For a scene file drawn by the reference renderer, `width` pixels wide. For each number of
-/// samples two pictures with different random numbers are drawn; their difference has twice the
-/// variance of either. `overrides` are keys of the scene.
+/// Scene files by the reference renderer, `width` pixels wide. Two pictures with different random
+/// numbers per number of samples: their difference has twice the variance of either. `overrides`
+/// are keys of the scene.
 std::vector<SamplingNoise> sampling_noise(const std::filesystem::path& scene, int width,
                                           const std::vector<int>& samples,
                                           const std::vector<std::string>& overrides = {});

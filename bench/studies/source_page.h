@@ -38,7 +38,7 @@ public:
     std::string html(const std::vector<std::vector<std::string>>& parameters) const;
 
 private:
-    struct Part {  // one of the members
+    struct Part {
         std::string words = {}, learned = {}, chart_html = {};
         std::vector<View> tables = {}, pictures = {};
         View view() const;

@@ -1,3 +1,4 @@
+// Compares photographs with renders and scenes.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

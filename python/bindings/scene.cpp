@@ -1,3 +1,4 @@
+// Scenes and their pictures.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,3 +1,4 @@
+// Stones and their readings.
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -44,16 +44,15 @@ struct Builder {
     }
 };
 
-// The upper and lower corners of the girdle from a main to a break, or from a break to the next
-// main.
+// Upper and lower girdle corners between a main and a break, or a break and the next main.
 struct GirdleStretch {
     std::vector<int> up, low;
     GirdleStretch(int up_from, int up_to, int low_from, int low_to)
         : up{up_from, up_to}, low{low_from, low_to} {}
 };
 
-// Beyond the chord of a stretch the halves continue towards each other. The girdle is thinnest in
-// the middle of a stretch ("valley") and has its full height at mains and breaks ("hills").
+// Beyond the chord the halves continue towards each other. The girdle is thinnest in the middle of
+// a stretch ("valley") and has its full height at mains and breaks ("hills").
 void add_scallops(Builder& b, GirdleStretch& stretch, const std::vector<Vec2>& arc, int star_meet,
                   int lower_meet) {
     const auto height_on = [&b](int from, int to, int meet, const Vec2& at) {
@@ -84,7 +83,7 @@ std::string numbered(const char* letter, std::size_t i) {
     return fmt::format("{}{}", letter, i + 1);
 }
 
-// Replaces the point by a culet facet: cuts the pavilion mains off level.
+// Cuts the pavilion mains off level.
 Solid cut_culet(const Solid& solid, double level) {
     std::vector<NamedPlane> planes;
     for (const Facet& facet : solid.facets) planes.push_back({facet.name, facet.plane});
@@ -126,8 +125,8 @@ Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
     for (std::size_t i = 0; i < k; ++i) {
         const std::size_t next = (i + 1) % k;
         const bool notch = static_cast<int>(i) == outline.notch;
-        // The edge between two mains lies over the line from the table's crossing to the girdle's.
-        // The girdle's is the table's enlarged, so seen from above both lie on a ray from the axis.
+        // The girdle's crossing is the table's enlarged, so from above both lie on a ray from the
+        // axis; the edge between two mains lies over it.
         const Vec2 y = crossing(outline.mains[i], outline.tangents[i], outline.mains[next],
                                 outline.tangents[next]);
         const double y_radius = glm::length(y);

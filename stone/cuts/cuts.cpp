@@ -23,8 +23,8 @@ const CutParameter k_azimuth{"azimuth", 0,     -360,
                              360,       "deg", "turns the stone about its axis, counter-clockwise"};
 const CutParameter k_girdle{"girdle", 3.5, 0.1, 20, "%", "girdle thickness, of the width"};
 
-// With one girdle facet per half the girdle is a polygon of even thickness. With more it follows
-// the circle and shows the trade's scallops; `girdle` is then its thickness at the mains.
+// With one girdle facet per half the girdle has even thickness; with more it follows the circle and
+// shows the trade's scallops, and `girdle` is its thickness at the mains.
 const CutParameter k_girdle_segments{
     "girdle-segments", 1, 1, 16, "", "girdle facets under each upper half; 2 and more: scallops"};
 
@@ -53,8 +53,7 @@ CutParameter width_parameter() {
     return {"width", 5, 1e-3, 1e4, "mm", "width, along y"};
 }
 
-// Angles are those of the mains at the ends of the width, as a goniometer across the stone measures
-// them.
+// Angles are those at the ends of the width, as a goniometer across the stone measures them.
 BrilliantProportions proportions_of(const Values& v, double width) {
     BrilliantProportions p;
     p.table = v.at("table") / 100;
@@ -67,7 +66,6 @@ BrilliantProportions proportions_of(const Values& v, double width) {
     return p;
 }
 
-// The flattest step of a tier must still rise.
 void require_rising_steps(const Values& v, const std::string& part) {
     const double angle = v.at(part + "-angle"), spread = v.at(part + "-spread");
     if (!(angle - spread >= 1)) {
@@ -118,8 +116,7 @@ Solid princess_of(const Values& v) {
     return princess_cut(p);
 }
 
-// For round stones and their stretched images the star is measured as in the trade
-// (star_of_length).
+// Round stones and their stretched images measure the star as the trade does (star_of_length).
 std::vector<CutParameter> with_star_length(std::vector<CutParameter> parameters) {
     for (CutParameter& p : parameters) {
         if (p.name == "star")

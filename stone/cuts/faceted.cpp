@@ -35,8 +35,8 @@ std::vector<Side> sides_of(const StepProportions& p) {
     return sides;
 }
 
-// Tiers offset the outline inwards. Each of the eight sides shortens by 2 tan(22.5 deg) times the
-// inset, so the last tier that starts with eight sides limits the size of a corner.
+// Each of the eight sides shortens by 2 tan(22.5 deg) times the inset, so the last tier that starts
+// with eight sides limits the size of a corner.
 void require_eight_sides(const StepProportions& p) {
     double inset = 0;
     for (const std::vector<StepTier>* tiers : {&p.crown, &p.pavilion}) {
@@ -57,7 +57,7 @@ void require_eight_sides(const StepProportions& p) {
     }
 }
 
-// The solid of the planes; every plane must have a facet.
+// Every plane must have a facet.
 Solid solid_of(const std::vector<NamedPlane>& planes, const char* what) {
     const HalfSpaceSolid raw = intersect_half_spaces(planes);
     const ContractedSolid clean = contract_near_meets(raw.solid, 1e-9 * diameter(raw.solid));
@@ -143,8 +143,8 @@ Solid princess_cut(const PrincessProportions& p) {
                                               corner(next, middle_scale, middle_height),
                                               corner(next, p.table, z_table))});
             } else {
-                // The profile in the middle of the side bulges out from the straight line to the
-                // culet. Each chevron is the triangle of two of its points and the girdle's corner.
+                // The profile in the side's middle bulges out from the straight line to the culet;
+                // a chevron is the triangle of two of its points and the girdle's corner.
                 std::vector<Vec3> profile;
                 for (int j = 1; j <= p.chevrons; ++j) {
                     const double t = static_cast<double>(j) / p.chevrons;

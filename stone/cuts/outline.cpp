@@ -10,8 +10,8 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-// Even points are mains, odd ones breaks. A main is parallel to the chord of its two breaks, so
-// both lie inside its line on any convex outline.
+// Even points are mains, odd ones breaks. A main is parallel to the chord of its breaks, so on a
+// convex outline both lie inside its line.
 Outline outline_of(const std::vector<Vec2>& points) {
     Outline outline;
     const std::size_t count = points.size();
@@ -23,8 +23,7 @@ Outline outline_of(const std::vector<Vec2>& points) {
     return outline;
 }
 
-// Adds the mirror images of points[1] .. points[last - 1] (points[0] and points[last] lie on the
-// axis).
+// Mirrors points[1] .. points[last - 1]; points[0] and points[last] lie on the axis.
 std::vector<Vec2> mirrored(std::vector<Vec2> upper) {
     for (std::size_t i = upper.size() - 2; i >= 1; --i) upper.push_back({upper[i].x, -upper[i].y});
     return upper;

@@ -15,9 +15,9 @@ namespace culet {
 
 namespace {
 
-// Least rate at which facets miss the corner that stops them, per length that they are cut deeper.
-// The girdle of a standard brilliant, whose mains and halves differ by a degree, has 0.006; facets
-// that meet by symmetry have 1e-5, from the rounding of the index settings.
+// Least miss per length that facets are cut deeper. The girdle of a standard brilliant, whose mains
+// and halves differ by a degree, has 0.006; facets that meet by symmetry have 1e-5, from the
+// rounding of the index settings.
 constexpr double k_least_miss = 1e-3;
 // Cosine: opposite within 2 degrees.
 constexpr double k_opposite = -0.9994;
@@ -101,8 +101,7 @@ private:
                plane.normal.z;
     }
 
-    // True if the facets would meet over the middle if nothing else were cut, as nearly as in real
-    // designs.
+    // If nothing else were cut; as nearly as in real designs.
     bool meet_over_the_middle(const std::vector<int>& facets) const {
         double least = 0, most = 0;
         for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -113,8 +112,8 @@ private:
         return facets.size() >= 3 && most - least <= k_largest_miss * diameter(solid_);
     }
 
-    // By how much the planes at a corner miss each other (least squares) when those of `step` are
-    // cut one unit deeper.
+    // By how much the planes at a corner miss (least squares) when those of `step` are cut one unit
+    // deeper.
     double miss_of(std::size_t corner, std::size_t step) const {
         glm::dmat3 normal_matrix(0.0);
         Vec3 right(0);
@@ -173,7 +172,7 @@ private:
         return {CutDepth::To::distance, {}, std::abs(height_above(plane, middle_))};
     }
 
-    // Height to the point on the other side, if that is cut already.
+    // If the other side is cut already.
     CutDepth height(std::size_t step) const {
         const Plane& plane = facet_of(list_[step]).plane;
         double most = 0;
@@ -189,7 +188,7 @@ private:
     }
 
     // The remaining width of a facet cut before, from its edge with this tier to its farthest
-    // corner, if that is cut already. Girdle facets are tried first.
+    // corner if that is cut. Girdle facets come first.
     CutDepth left_of_a_neighbour(std::size_t step) const {
         const Facet& facet = facet_of(list_[step]);
         CutDepth best;
@@ -212,7 +211,7 @@ private:
         return best;
     }
 
-    // From edge a b of a facet to its farthest corner; 0 where that is not cut yet.
+    // 0 where the farthest corner is not cut yet.
     double width_from(const Facet& facet, std::size_t a, std::size_t b, std::size_t step) const {
         const Vec3 along = glm::normalize(solid_.vertices[b] - solid_.vertices[a]);
         double most = 0;

@@ -33,7 +33,6 @@ public:
           teeth_(gear_of(solid, options)),
           shown_teeth_(options.shown_deg * teeth_ / 360),
           table_(table_facet(solid, {0, 0, 1})) {
-        // Convert to the requested wheel.
         const double factor = teeth_ / std::abs(design_.gear);
         design_.gear *= factor;
         design_.gear_offset *= factor;
@@ -90,7 +89,7 @@ private:
         return setting_of(solid_.facets[std::size_t(f)].plane, design_);
     }
 
-    // Finds the turn against the design that most facets share.
+    // By which most facets are turned against the design.
     void find_turn() {
         std::vector<double> off;
         double most = 0;
@@ -142,8 +141,7 @@ private:
             double cheater = 0;
             IndexSetting::Tooth tooth;
         };
-        // A turn about the axis tilts a facet by its sine, and what the machine can resolve is a
-        // tilt.
+        // A turn about the axis tilts a facet by its sine, and a machine resolves tilts.
         constexpr double k_flattest_deg = 5;
         const double limit = shown_teeth_ / std::sin(radians(std::max(angle_deg, k_flattest_deg)));
         std::vector<Cut> cuts;

@@ -25,8 +25,8 @@ struct SinCos {
     double sin = 0, cos = 1;
 };
 
-/// Of part / whole of a full turn. Reduced exactly to an eighth of a turn about the nearest
-/// quarter, so that settings that mirror each other give values that mirror each other exactly.
+/// Of part / whole of a full turn, reduced exactly to an eighth of a turn about the nearest
+/// quarter, so that mirrored settings give exactly mirrored values.
 SinCos of_turn(double part, double whole) {
     part = std::fmod(part, whole);
     const double rest = std::remainder(4 * part, whole);
@@ -74,7 +74,7 @@ std::string common_stem(const std::vector<std::string>& labels) {
     return stem;
 }
 
-// The letters before the part of a name that tells facets of a standard cut, or of one tier, apart.
+// The letters before what tells facets of a standard cut, or of one tier, apart.
 std::string stem_of(const std::string& label) {
     const std::size_t point = label.rfind('.');
     if (point != std::string::npos && point > 0 && point + 1 < label.size() &&
@@ -102,7 +102,7 @@ int turn_of(StonePart part) {
     return 4;
 }
 
-// Rounds to the digits of a design where the difference is the planes' rounding error.
+// Rounds to a design's digits if only the planes' rounding error is lost.
 double without_rounding(double value) {
     constexpr double k_step = 1e-4, k_rounding = 1e-9;
     const double near = k_step * std::round(value / k_step);
@@ -227,7 +227,7 @@ void join_split_tiers(const Solid& solid, Design& design) {
             });
         return all ? own : std::string();
     };
-    // Tiers of one setting that an author lists separately are meant to be separate.
+    // Tiers of one setting that an author lists separately stay separate.
     const auto differ = [](const CutSetting& a, const CutSetting& b) {
         constexpr double k_digits = 1e-6;
         return std::abs(a.angle_deg - b.angle_deg) > k_digits ||

@@ -16,10 +16,9 @@ namespace culet {
 namespace {
 
 // A round stone misses its symmetry by 1 % (rms of corners, half diameter 1), an oval of 1.2 to 1
-// misses the round one's by 9 %.
+// the round one's by 9 %.
 constexpr double k_near = 0.05;
-// The error of angles with two decimals of a degree, over a facet's reach of a quarter of the
-// diameter.
+// The error of two decimals of a degree over a facet's reach of a quarter of the diameter.
 constexpr double k_digits = 1e-4;
 // Facets share corners, so F scatters more than for independent ones. Of 40 brilliants with corners
 // off by 0.01 of 6.5 mm, 14 lose their mirrors at a level of 1 %, and 4 at this one.
@@ -33,8 +32,8 @@ struct Place {
     double tilt_weight = 0, weight = 0;
 };
 
-// Inverse variance of a facet's tilt when its corners have errors of variance one along the normal
-// (least-squares plane; the tilt of slender facets is well known along them, badly across).
+// Inverse variance of a facet's tilt for corners with unit variance along the normal (least-squares
+// plane; slender facets are well known along, badly across).
 double tilt_weight(const Solid& solid, const Facet& facet, const Vec3& up) {
     const Vec3& n = facet.plane.normal;
     const Vec3 level = glm::cross(up, n);
@@ -68,7 +67,6 @@ struct Misfit {
     double variance() const { return freedom > 0 ? squares / freedom : 0; }
 };
 
-// How much the facets of the group's orbits differ.
 Misfit misfit_of(const AxisGroup& group, const std::vector<Place>& places) {
     Misfit misfit;
     const auto add = [&](const FacetOrbit& orbit, double Place::*what, double Place::*weight) {

@@ -25,7 +25,7 @@ std::optional<double> index_number(std::string_view text) {
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// What a cutter calls the facets of a solid: the tier in its design, and the tooth of each.
+// The tier and the tooth of each facet, as a cutter calls them.
 class Places {
 public:
     Places(const Solid& solid, double gear)
@@ -38,8 +38,7 @@ public:
         return places_[f].tier < 0 ? std::string() : titles_[std::size_t(places_[f].tier)];
     }
 
-    /// The design's tooth, which a fit keeps. For other facets and on another wheel, the facet's
-    /// azimuth.
+    /// The design's tooth, which a fit keeps; for other facets and on another wheel, the azimuth.
     std::optional<double> tooth(std::size_t f) const {
         if (gear_ == 0) return std::nullopt;
         Design wheel;

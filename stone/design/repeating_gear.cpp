@@ -12,7 +12,7 @@ constexpr double k_same_index = 0.01;        // of a tooth; files give two decim
 constexpr std::size_t k_most_facets = 1000;  // larger tiers are not tested: the test compares all
                                              // pairs
 
-// True if a turn by this many teeth maps the tier's facets onto each other.
+// True if a turn by `teeth` maps the tier onto itself.
 bool tier_repeats(const DesignTier& tier, double gear, double teeth) {
     if (tier.setting.angle_deg == 0) return true;
     return std::all_of(tier.facets.begin(), tier.facets.end(), [&](const DesignFacet& one) {

@@ -9,7 +9,7 @@ namespace culet {
 
 namespace {
 
-// G for GNE: the part before the side that a facet faces; empty where the name has no side.
+// G for GNE; empty where the name has no side.
 std::string before_side(const std::string& name) {
     for (const std::string_view side : {"NE", "NW", "SE", "SW", "N", "E", "S", "W"}) {
         if (name.size() > side.size() && name.ends_with(side)) {
@@ -26,7 +26,6 @@ std::string repeated_name(const std::string& name) {
     return numbered ? name.substr(0, digits - 1) : std::string();
 }
 
-// The part of each name before its number.
 std::vector<std::string> stems_of(const Solid& solid) {
     std::set<std::string> repeated;
     std::map<std::string, int> sides;

@@ -24,7 +24,7 @@ constexpr double k_girdle_deg = 80;
 constexpr double k_same_angle_deg = 0.02;
 // Distances have five decimals of the width, and meets miss.
 constexpr double k_same_distance = k_largest_miss;
-// How near a drawing comes to its symmetry (drawn_symmetry.h): radians, and share of half the
+// As near as drawings come to their symmetry (drawn_symmetry.h): radians, and share of half the
 // diameter.
 constexpr double k_near_drawing = 0.05;
 
@@ -33,7 +33,7 @@ bool touches(const Facet& facet, const std::set<int>& corners) {
                        [&](int corner) { return corners.contains(corner); });
 }
 
-// Where the mains of a side end: the table's corners, or the lowest corner and the culet's corners.
+// The table's corners, or the lowest corner and the culet's.
 std::set<int> far_end(const Solid& solid, const Vec3& up, bool crown, int table) {
     std::set<int> end;
     if (crown && table >= 0) {
@@ -147,7 +147,7 @@ public:
         for (const std::string& name : names_) ++named_[name];
     }
 
-    // The part of most of them: a girdle drawn by hand is not upright everywhere.
+    // The most frequent: a girdle drawn by hand is not upright everywhere.
     StonePart part(const std::vector<int>& facets) const {
         std::map<StonePart, int> count;
         for (const int f : facets) ++count[part(f)];
@@ -180,7 +180,7 @@ public:
     }
 
 private:
-    // For each facet the first facet of its tier; empty where the design does not have all facets.
+    // For each facet the first of its tier; empty where the design lacks facets.
     static std::vector<int> roots_by_design(const std::vector<DesignPlace>& places) {
         std::map<int, int> first;
         std::vector<int> root;
@@ -240,13 +240,13 @@ private:
         const Plane& p = solid_.facets[static_cast<std::size_t>(f)].plane;
         return p.offset - glm::dot(p.normal, middle_);
     }
-    // If one askew facet spoils the symmetry, a common name confirms facets that are near to it.
+    // If one askew facet spoils the symmetry, a common name confirms near facets.
     bool are_one_name_and_near(int a, int b) const {
         return drawn_.near.is_trivial() && have_one_name(a, b) && part(a) == part(b) &&
                std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) < k_near_drawing &&
                std::abs(from_middle(a) - from_middle(b)) < near_limit_;
     }
-    // Same angle, and same distance or name: one setting of the machine apart from the index.
+    // One setting of the machine apart from the index; a name stands for the same distance.
     bool are_cut_alike(int a, int b) const {
         if (std::abs(tilt(solid_, a, up_) - tilt(solid_, b, up_)) > radians(k_same_angle_deg) ||
             part(a) != part(b) || !may_belong(a, b)) {

@@ -14,7 +14,7 @@ namespace culet {
 
 namespace {
 
-// Edges of a grown stone that are shorter than this share of its diameter are rounding errors.
+// Shorter edges of a grown stone are rounding errors; share of its diameter.
 constexpr double k_rounding = 1e-9;
 
 std::vector<NamedPlane> planes_of(const Solid& solid, double outward) {

@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    // Elements begin at a multiple of four bytes.
+    // At a multiple of four bytes.
     template <class T>
     int add_view(const std::vector<T>& elements, int target) {
         std::vector<unsigned char>& data = model_.buffers[0].data;
@@ -164,7 +164,7 @@ private:
 
     void add_extension(tinygltf::Material& material, const char* name, Value::Object values) {
         material.extensions[name] = Value(std::move(values));
-        // Readers that do not know the extension may draw without it, so it is not required.
+        // Not required: readers may draw without the extension.
         model_.extensionsUsed.emplace_back(name);
     }
 
@@ -240,7 +240,7 @@ std::string gltf_bytes(const Stone& stone, const std::optional<GltfLook>& look, 
 }
 
 GltfLook gltf_look_of(const Material& material) {
-    // Fraunhofer's d, F and C lines, which define the Abbe number of KHR_materials_dispersion.
+    // The Fraunhofer lines of KHR_materials_dispersion's Abbe number.
     constexpr double k_d_nm = 587.56, k_f_nm = 486.13, k_c_nm = 656.27;
     const double n_d = mean_index(material, k_d_nm);
     const double spread = mean_index(material, k_f_nm) - mean_index(material, k_c_nm);

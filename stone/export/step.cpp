@@ -35,8 +35,7 @@ std::string real(double value) {
     return exponent == std::string::npos ? digits : digits + "E" + text.substr(exponent + 1);
 }
 
-// A string of part 21: doubles quotes and backslashes, writes what is beyond ASCII as \X4\, drops
-// control characters.
+// Doubles quotes and backslashes, writes what is beyond ASCII as \X4\, drops control characters.
 std::string step_string(std::string_view text) {
     std::string result = "'";
     for (std::size_t i = 0; i < text.size();) {
@@ -133,7 +132,7 @@ private:
     }
 
     void header() {
-        // No date, so that the same stone gives the same bytes. Some programs do not read the
+        // No date, so that the same stone gives the same bytes; not every program reads the
         // standard's empty date.
         result_.text = fmt::format(
             "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('faceted stone, mm'),'2;1');\n"
@@ -165,7 +164,7 @@ private:
         return vertices_[corner] = entity("VERTEX_POINT('',#{})", at);
     }
 
-    // The edge runs from its first corner to its second; the other face uses it reversed.
+    // From its first corner to its second; the other face uses it reversed.
     int edge(int from, int to) {
         const std::pair<int, int> key{std::min(from, to), std::max(from, to)};
         const auto known = edges_.find(key);
@@ -205,7 +204,7 @@ private:
         return entity("MANIFOLD_SOLID_BREP({},#{})", step_string(name_), shell);
     }
 
-    // The entities that make the solid a part in millimetres.
+    // Makes the solid a part in millimetres.
     void product(int solid) {
         const int origin = placement({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
         const int mm = entity("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");

@@ -14,8 +14,8 @@ namespace culet {
 
 namespace {
 
-/// Planes this close are one plane given twice. Files give angles to 1e-6 degrees (2e-8 rad) and
-/// distances to 1e-8, so two that agree this well were meant to be equal.
+/// Planes this close are one plane given twice: files give angles to 1e-6 degrees (2e-8 rad) and
+/// distances to 1e-8.
 constexpr double k_same_plane = 1e-9;
 
 /// More planes than any stone has facets; the exact intersection takes seconds for this many.

@@ -87,8 +87,8 @@ private:
         }
     }
 
-    /// An instruction may take several lines, and one of them may begin with a keyword's letter. It
-    /// is a record only if the record's number follows: indices cannot stand there.
+    /// An instruction may take several lines, and one may begin with a keyword's letter. It is a
+    /// record only if the record's number follows, since indices cannot stand there.
     bool goes_on_with_instruction(const std::vector<std::string_view>& words) const {
         if (!in_tier_ || !instruction_) return false;
         const std::string_view keyword = words[0];
@@ -164,7 +164,7 @@ private:
         read_settings(values.subspan(2), line);
     }
 
-    /// A horizontal facet may have any index or none, so its tier needs none.
+    /// A horizontal facet needs no index.
     void end_tier() {
         if (!in_tier_) return;
         const bool has_facet = !design.tiers.back().facets.empty();
@@ -178,7 +178,6 @@ private:
         in_tier_ = awaits_name_ = instruction_ = false;
     }
 
-    /// `words` are the last ones of `line`.
     void read_settings(std::span<const std::string_view> words, std::string_view line) {
         for (const std::string_view word : words) {
             if (awaits_name_) {

@@ -20,8 +20,7 @@ namespace culet {
 
 namespace {
 
-/// Accuracy with which a plane must read back: the direction in radians, the distance relative to
-/// the size.
+/// Planes must read back this well: direction in radians, distance relative to the size.
 constexpr double k_reads_back = 2e-13;
 /// Quartz, GemCad's default.
 constexpr double k_gemcads_index = 1.54;
@@ -30,8 +29,7 @@ double difference(const Plane& a, const Plane& b, double size) {
     return std::max(glm::length(a.normal - b.normal), std::abs(a.offset - b.offset) / size);
 }
 
-/// The shortest decimal form, with at least `places` digits, that `good` accepts; all digits if
-/// none is good.
+/// The shortest form with at least `places` decimals that `good` accepts, else all digits.
 template <class Good>
 std::string short_decimal(double value, int places, Good good) {
     for (int p = places; p <= 15; p += 2) {
@@ -131,8 +129,7 @@ private:
         if (lines_.size() > first) lines_.back().instruction = tier.instruction;
     }
 
-    // True for a design's plane that lies outside the solid, which has no facet of it: it may stay
-    // in the design.
+    // A plane outside the solid, which has no facet of it, may stay in the design.
     bool bounds_nothing(const Plane& plane) const {
         return std::all_of(solid_.vertices.begin(), solid_.vertices.end(), [&](const Vec3& v) {
             return height_above(plane, v) <= k_largest_miss * size_;
@@ -155,7 +152,7 @@ private:
         line.facets.push_back(facet);
     }
 
-    // Adds a facet by its plane, to a line from `first` on.
+    // To a line from `first` on.
     void add_facet(int f, std::size_t first, const std::string& label = {}) {
         const Plane& plane = solid_.facets[std::size_t(f)].plane;
         const CutSetting wanted = setting_of(plane, design_);
@@ -170,7 +167,6 @@ private:
         line.facets.push_back(f);
     }
 
-    // True if the design's labels give every facet its name when read back.
     bool labels_read_back() const {
         std::vector<std::string> own, of_tier, wanted;
         for (const Line& line : lines_) {
@@ -186,7 +182,7 @@ private:
         return told_apart(std::move(own), of_tier) == wanted;
     }
 
-    // Names a tier A, A.1, A.2, ... once, as GemCad does, if all names read back the same.
+    // As GemCad does, if all names read back the same.
     void name_tiers_once() {
         for (Line& tier : lines_) tier.named_at = named_at(tier.labels);
         for (bool again = true; again;) {

@@ -115,7 +115,7 @@ Material pure_material(const std::string& id, const Json& entry) {
 
 constexpr std::size_t k_longest_query = 200, k_most_suggested = 8;
 
-// A variety's own title, else its host's.
+// A variety's own, else its host's.
 std::string title_of(const std::string& id) {
     const auto colour = catalogue().at("absorption").find(id);
     if (colour == catalogue().at("absorption").end())
@@ -125,7 +125,7 @@ std::string title_of(const std::string& id) {
                        : own;
 }
 
-// The text that a search of the catalogue looks at: names, kind, colour.
+// What a search of the catalogue looks at: names, kind, colour.
 std::string about(const std::string& id) {
     const Json& absorptions = catalogue().at("absorption");
     const auto colour = absorptions.find(id);
@@ -135,7 +135,7 @@ std::string about(const std::string& id) {
                 : text_of(*colour, "material"));
 }
 
-// The one material with that title; empty where none or several have it (topaz).
+// Empty where none or several have that title (topaz).
 std::string titled(const std::string& name) {
     std::string found;
     for (const std::string& id : catalogue_names()) {
@@ -166,7 +166,7 @@ Material catalogue_material(const std::string& name) {
     if (plain != materials.end() && colour == absorptions.end()) return pure_material(name, *plain);
     if (colour != absorptions.end()) {
         // A coloured variety has the host's indices and the absorption of one stone of its kind. A
-        // name that is both (emerald, peridot) means the coloured stone, which is what people own.
+        // name of both (emerald, peridot) means the coloured stone, which people own.
         const std::string host = colour->at("material");
         Material material = pure_material(host, materials.at(host));
         material.id = name;
@@ -175,7 +175,7 @@ Material catalogue_material(const std::string& name) {
         material.absorption_confidence = text_of(*colour, "confidence");
         material.absorption_depth = text_of(*colour, "scale_reason");
         material.usual_colour.clear();
-        // Colour depth of stones of this name relative to the one that was measured.
+        // Colour depth relative to the measured stone.
         const double depth = colour->value("scale", 1.0);
         const auto nm = colour->at("wavelength_nm").get<std::vector<double>>();
         const Json& rays = colour->at("rays");

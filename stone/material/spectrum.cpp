@@ -52,7 +52,7 @@ Spectrum Spectrum::scaled(double factor) const {
 
 namespace {
 
-// The columns of an embedded table: `#` comments, one header line, then numbers.
+// `#` comments, one header line, then numbers.
 std::vector<std::vector<double>> columns_of(const char* csv) {
     std::istringstream lines{std::string(csv)};
     std::vector<std::vector<double>> columns;

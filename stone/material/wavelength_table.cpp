@@ -38,7 +38,7 @@ bool holds_any(const std::string& text, std::initializer_list<std::string_view> 
 }
 
 // True when a word after the first (a column may be called `a`), or the only word, is one of
-// `units` or begins with one that is written out. `wl_um` and `wavelength (nm)` have two words.
+// `units` or begins with a spelt-out one. `wl_um` and `wavelength (nm)` have two words.
 bool names_unit(std::string header, std::initializer_list<std::string_view> units) {
     constexpr std::size_t k_longest_sign = 3;
     for (char& c : header) {
@@ -56,7 +56,7 @@ bool names_unit(std::string header, std::initializer_list<std::string_view> unit
     return false;
 }
 
-// The cells of a row. In a table with blanks between columns, a row is one field.
+// With blanks between columns, a row is one field.
 std::vector<std::string> cells_of(const CsvRow& row) {
     std::vector<std::string> cells;
     const bool by_blanks = row.fields.size() == 1;

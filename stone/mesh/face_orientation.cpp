@@ -1,5 +1,3 @@
-// Repairs faces that run the wrong way round, and removes faces that a file holds twice.
-
 #include "stone/mesh/face_orientation.h"
 
 #include <fmt/format.h>
@@ -22,7 +20,7 @@ std::vector<FaceSide> sides_of(const std::vector<SoupFace>& faces) {
     return sides;
 }
 
-/// True if each edge has two faces. Sorts `sides`.
+/// Sorts `sides`.
 bool are_paired(std::vector<FaceSide>& sides) {
     std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
         return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);

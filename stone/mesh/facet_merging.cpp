@@ -1,5 +1,5 @@
-// Decides which faces of a mesh form one facet: those joined by edges whose corners lie in one
-// plane, within the accuracy of the coordinates.
+// Finds the faces of each facet: joined by edges, with corners in one plane within the coordinates'
+// accuracy.
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ namespace culet {
 
 namespace {
 
-/// A facet that grows. The sum of its faces' area vectors is the area vector of its outline, so its
-/// direction is as good as one computed from the whole outline.
+/// Its area vector is the sum of the faces', so its direction is as good as one from the whole
+/// outline.
 struct GrowingFacet {
     Vec3 area_vector{0, 0, 0};
     Vec3 corner_sum{0, 0, 0};
@@ -44,7 +44,7 @@ public:
 
     std::vector<int> grow_all() {
         facet_.assign(soup_.faces.size(), -1);
-        // Largest faces first: their directions are the most certain.
+        // The largest faces have the most certain directions.
         std::vector<int> seeds(soup_.faces.size());
         std::iota(seeds.begin(), seeds.end(), 0);
         std::vector<double> area;
@@ -56,7 +56,6 @@ public:
         for (const int seed : seeds) {
             if (facet_[seed] < 0) grow(seed);
         }
-        // Number facets in the file's order.
         std::vector<int> number(soup_.faces.size(), -1);
         int next = 0;
         for (int& facet : facet_) {
@@ -114,7 +113,6 @@ private:
                           sides[end].high == sides[i].high;) {
                 ++end;
             }
-            // Only across a sound edge: two faces that run along it in opposite directions.
             if (end - i != 2 || sides[i].forward == sides[i + 1].forward) continue;
             neighbours_[sides[i].face].push_back(sides[i + 1].face);
             neighbours_[sides[i + 1].face].push_back(sides[i].face);
@@ -127,12 +125,11 @@ private:
         });
     }
 
-    // True if `face` may join the facet that grows from `seed`.
     bool fits(const GrowingFacet& facet, const GrowingFacet& joined, int seed, int face) const {
         const SoupFace &first = soup_.faces[seed], &other = soup_.faces[face];
         if (first.name != other.name) return false;
-        // A writer that gives each triangle its facet's own normal tells which ones belong
-        // together, even where near-miss meets bend the facet.
+        // A writer that repeats a facet's own normal tells which triangles belong together, even
+        // where near-miss meets bend the facet.
         if (trust_normals_ && shapes_[seed].normal_agrees && shapes_[face].normal_agrees &&
             first.given_normal == other.given_normal) {
             const Vec3 normal = glm::normalize(first.given_normal);

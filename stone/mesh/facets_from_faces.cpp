@@ -17,8 +17,8 @@ namespace culet {
 
 namespace {
 
-/// Planes from comments without a hash are used if no corner is further off them than this share of
-/// the diameter, a little more than the meets of real designs miss by.
+/// Planes from comments without a hash are used if corners are off by at most this share of the
+/// diameter, a little more than the meets of real designs miss.
 constexpr double k_plane_agrees = 1e-3;
 
 struct Outline {
@@ -44,7 +44,6 @@ double largest_miss(const FaceSoup& soup, const std::vector<int>& corners, const
 
 enum class StatedPlanes { none, names_only, all };
 
-/// Checks whether the planes in the file's comments belong to its faces.
 StatedPlanes judge_stated_planes(FaceSoup& soup) {
     if (soup.planes.empty()) return StatedPlanes::none;
     if (soup.planes.size() != soup.faces.size()) {
@@ -88,7 +87,7 @@ void name_faces_by_planes(FaceSoup& soup) {
     }
 }
 
-/// Removes corners that repeat the one before, and faces without area because of that.
+/// Removes repeated corners, and faces without area because of that.
 void drop_collapsed_faces(FaceSoup& soup) {
     const std::size_t before = soup.faces.size();
     for (SoupFace& face : soup.faces) {
@@ -103,7 +102,7 @@ void drop_collapsed_faces(FaceSoup& soup) {
     }
 }
 
-/// The outline of merged faces; empty when it is not a single loop.
+/// Empty when it is not a single loop.
 std::vector<int> outline_of(const FaceSoup& soup, const std::vector<int>& members) {
     std::vector<std::pair<int, int>> sides;
     for (const int f : members) {
@@ -169,7 +168,6 @@ std::vector<Outline> merge_faces(FaceSoup& soup, double tolerance) {
     return outlines;
 }
 
-/// Removes corners where two facets meet in a straight line.
 void drop_straight_corners(const FaceSoup& soup, std::vector<Outline>& outlines, double tolerance) {
     std::vector<std::vector<int>> facets_at(soup.vertices.size());
     for (std::size_t f = 0; f < outlines.size(); ++f) {
@@ -201,8 +199,8 @@ void drop_straight_corners(const FaceSoup& soup, std::vector<Outline>& outlines,
     }
 }
 
-/// A facet's plane: through its corners, unless the file gives the direction to more digits than
-/// corners can (the ASCII STL that culet writes).
+/// Through the corners, unless the file gives the direction to more digits than they do (culet's
+/// ASCII STL).
 Plane facet_plane(const FaceSoup& soup, const Outline& outline, bool precise_normals, double size) {
     const Plane own = plane_through(loop_of(soup, outline.corners));
     const double length = glm::length(outline.given_normal);

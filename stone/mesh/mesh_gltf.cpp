@@ -23,9 +23,9 @@ namespace culet {
 namespace {
 
 constexpr int k_deepest_node = 64;
-// A mesh may be placed many times, so a hostile file of a few lines could grow without this limit.
+// A hostile file of a few lines may place a mesh many times.
 constexpr std::size_t k_most_triangles = 50'000'000;
-// Limit for the elements of an accessor that takes no room in the file.
+// For accessors that take no room in the file.
 constexpr std::size_t k_most_zeros = 1'000'000;
 
 class Reader {
@@ -110,7 +110,7 @@ private:
         }
     }
 
-    // EXT_mesh_gpu_instancing: one placement per element of the accessors that it names.
+    // EXT_mesh_gpu_instancing: one placement per element of its accessors.
     std::vector<glm::dmat4> instances_of(const tinygltf::Node& node) const {
         const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
         if (extension == node.extensions.end()) return {glm::dmat4(1.0)};
@@ -157,8 +157,8 @@ private:
         return {buffer.data.data() + view.byteOffset + offset, stride};
     }
 
-    // A number of an accessor. Normalized integers stand for 0 .. 1 or -1 .. 1 (specification,
-    // 3.6.2.2). File and machine are both little-endian.
+    // Normalized integers stand for 0 .. 1 or -1 .. 1 (specification, 3.6.2.2). File and machine
+    // are little-endian.
     template <class T>
     static double as(const unsigned char* raw, bool normalized) {
         T value;
@@ -194,8 +194,8 @@ private:
         return static_cast<std::size_t>(size);
     }
 
-    // All numbers of an accessor, `components` per element: those of its buffer view, or zeros,
-    // with the replacements of its sparse part (specification, 3.6.2.3).
+    // `components` per element: from the buffer view, or zeros, with the replacements of the sparse
+    // part (specification, 3.6.2.3).
     std::vector<double> numbers(int index, int components) const {
         const tinygltf::Accessor& accessor = entry(model_.accessors, index, "accessor");
         if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) !=
@@ -285,7 +285,6 @@ private:
     TriangleMesh mesh_;
 };
 
-// Textures are not used.
 bool pass_over_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
                      const unsigned char*, int, void*) {
     return true;
@@ -301,8 +300,7 @@ bool is_extension_known(const std::string& name) {
     return false;
 }
 
-// Checked before tinygltf reads the file, since it reports unknown extensions as other errors or
-// not at all.
+// tinygltf reports unknown extensions as other errors or not at all.
 void require_known_extensions(std::string_view json, const std::filesystem::path& file) {
     const auto root = nlohmann::json::parse(json, nullptr, false);
     if (!root.is_object() || !root.contains("extensionsRequired")) return;
@@ -337,7 +335,7 @@ std::string_view json_of(std::string_view bytes, bool binary) {
     return chunk_at(bytes, 12);
 }
 
-// If a buffer's stated length is too short, use its length in the file, as other programs do.
+// Other programs accept a stated length that is too short, too.
 void take_whole_buffer(std::string_view bytes, tinygltf::Model& model) {
     if (model.buffers.empty() || !model.buffers[0].uri.empty()) return;
     const std::string_view whole = chunk_at(bytes, 20 + chunk_at(bytes, 12).size());

@@ -37,8 +37,8 @@ public:
     }
 
 private:
-    /// The next line without its comment, joined with the lines that a backslash continues it on.
-    /// Text that ends in a backslash (mtllib C:\gems\) and comments are not continued.
+    /// Joined with the lines that a backslash continues it on. Text that ends in a backslash
+    /// (mtllib C:\gems\) and comments are not continued.
     std::optional<std::string_view> statement() {
         auto line = lines_.next();
         first_line_ = lines_.line();

@@ -78,7 +78,7 @@ private:
         }
     }
 
-    /// The words of the next line that is neither blank nor a comment.
+    /// The next line that is neither blank nor a comment.
     std::vector<std::string_view> next_words(const std::string& expected) {
         while (const auto line = lines_.next()) {
             const std::string_view content = trimmed(*line);

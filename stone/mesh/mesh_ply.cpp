@@ -165,8 +165,8 @@ private:
         elements_.back().properties.push_back(std::move(property));
     }
 
-    // If the rest of the file cannot hold the stated count, the file is wrong or cut short. Checked
-    // before anything is stored.
+    // Checked before anything is stored: a file whose rest cannot hold the stated count is wrong or
+    // cut short.
     void check_room(const Element& element) const {
         std::size_t least = 0;
         for (const Property& property : element.properties) {
@@ -180,7 +180,6 @@ private:
         }
     }
 
-    // Skips a value without checking it.
     void pass_over(Scalar type) {
         if (form_ == Form::text) {
             find_word();

@@ -65,9 +65,8 @@ public:
     AsciiStlParser(std::string_view text, const std::filesystem::path& file)
         : lines_(text), file_(file) {}
 
-    // Reads words without regard to line breaks and case, since writers differ in both and in
-    // `endloop` and `end loop`. A solid's name is the rest of its line and is skipped, like lines
-    // that begin with `;` or `#`.
+    // Ignores line breaks and case, since writers differ in both and in `endloop` and `end loop`. A
+    // solid's name is the rest of its line and is skipped, like lines that begin with `;` or `#`.
     FaceSoup parse() {
         while (next_word()) {
             if (is("solid") || is("endsolid")) {
@@ -218,8 +217,7 @@ FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
 }
 
 std::string stl_text(const Solid& solid) {
-    // Every triangle has its facet's normal with all digits, so that readers can tell which
-    // triangles form one facet.
+    // With all digits, so that readers can tell which triangles form one facet.
     std::string text = "solid culet\n";
     for (const Facet& facet : solid.facets) {
         const Vec3& n = facet.plane.normal;

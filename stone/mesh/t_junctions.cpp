@@ -1,5 +1,5 @@
-// Closes T-junctions: corners of one face in the middle of another's side. Modellers that cut a
-// face leave them; the surface is open there although nothing is missing.
+// Closes T-junctions: corners in the middle of another face's side, which modellers leave when they
+// cut a face. The surface is open there although nothing is missing.
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ public:
         corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
     }
 
-    /// The corners on the straight line between two corners, in order.
+    /// In order.
     std::vector<int> between(int from, int to) const {
         const Vec3 p = at(from), along = at(to) - p;
         const double length = glm::length(along);

@@ -15,7 +15,7 @@ namespace culet {
 
 namespace {
 
-/// Number of half-edges without one in the opposite direction.
+/// Half-edges without one in the opposite direction.
 std::size_t open_edges(const FaceSoup& soup, const std::vector<int>& welded) {
     std::vector<std::pair<int, int>> edges;
     for (const SoupFace& face : soup.faces) {
@@ -48,7 +48,7 @@ std::vector<int> weld_equal(const std::vector<Vec3>& vertices) {
     return welded;
 }
 
-/// Merges vertices within `reach` of each other (also along chains), in addition to `welded`.
+/// Also along chains, in addition to `welded`.
 std::vector<int> weld_close(const std::vector<Vec3>& vertices, std::vector<int> welded,
                             double reach) {
     using Cell = std::array<std::int64_t, 3>;

@@ -1,5 +1,4 @@
-// The parts of stone/numbers/dense_algebra.h that find orthonormal bases. They have their own file
-// so that both compile in parallel.
+// Orthonormal bases of stone/numbers/dense_algebra.h; a file of its own compiles in parallel.
 
 #include <Eigen/QR>
 #include <cmath>

@@ -1,5 +1,4 @@
-// The eigenvalues of stone/numbers/dense_algebra.h, in their own file so that they compile in
-// parallel.
+// Part of stone/numbers/dense_algebra.h; a file of its own compiles in parallel.
 
 #include <Eigen/Eigenvalues>
 

@@ -11,8 +11,8 @@ namespace culet {
 
 namespace {
 
-// In wire diameters: thickness of the wall, how far its lip and seat reach inside the outline,
-// thickness of the lip's edge, and height below the seat.
+// In wire diameters: wall thickness, reach of lip and seat inside the outline, thickness of the
+// lip's edge, height below the seat.
 constexpr double k_wall = 0.5, k_lip = 0.3, k_lip_edge = 0.12, k_below_seat = 0.6;
 constexpr double k_longest_lip = 0.2;  // share of the stone's inner radius
 constexpr double k_leg = 0.4;          // radius, in wire diameters

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-// Sections with less area than this share of the largest are not part of the girdle.
+// Share of the largest area; smaller sections are not girdle.
 constexpr double k_girdle_area = 0.998;
 constexpr std::size_t k_most_levels = 200;
 constexpr int k_levels_between = 32;
@@ -120,7 +120,6 @@ double height_of_girdle(const Solid& solid) {
     return 0.5 * (*low + *high);
 }
 
-// Removes corners that nearly coincide, and those on straight edges.
 PlanOutline cleaned(const PlanOutline& points) {
     PlanOutline kept = points;
     const double near = 1e-5 * length_round(points);

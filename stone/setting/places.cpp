@@ -97,7 +97,6 @@ void GripOutline::find_corners() {
     }
     std::sort(corners.begin(), corners.end(),
               [](const Corner& a, const Corner& b) { return a.way < b.way; });
-    // The two corners of a cut corner become one, at the middle of its side.
     std::vector<bool> joined(corners.size(), false);
     for (std::size_t i = 0; corners.size() > 2 && i < corners.size(); ++i) {
         const std::size_t next = (i + 1) % corners.size();

@@ -54,8 +54,7 @@ Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& 
         if (kept_at && (next <= too_near || next >= *kept_at)) next = 0.5 * (too_near + *kept_at);
         if (!kept_at && next <= too_near) next = too_near + 0.1 * plan.wire;
         if (next > 2 * plan.wire + plan.clearance) break;
-        // Distances may be negative: a hull is wider than the stone where the stone recedes on both
-        // sides.
+        // Negative where the stone recedes on both sides, so that the hull is wider than the stone.
         distance = std::max(next, k_least_distance * plan.wire);
         if (kept_at == distance) break;
     }

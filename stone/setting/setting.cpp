@@ -17,8 +17,8 @@ namespace culet {
 namespace {
 
 constexpr double k_wire = 1.0 / 8, k_clearance = 1.0 / 500;  // of the girdle's width
-// The gallery's base: how far inside the girdle's outline it lies, as a share of the inner radius,
-// and how far it may reach sideways on the hoop, as a share of the hoop's radius.
+// The gallery's base: its distance inside the girdle's outline / the inner radius, and its sideways
+// reach on the hoop / the hoop's radius.
 constexpr double k_base_inside = 0.5, k_base_on_hoop = 0.4, k_furthest_inside = 0.8;
 constexpr double k_shank_wire = 0.105;  // wire diameter / ring diameter: 1.8 mm on 17 mm
 constexpr int k_hoop_steps = 6;         // per side of the wire

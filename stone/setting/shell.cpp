@@ -58,7 +58,6 @@ private:
     Shell shell_;
 };
 
-// Removes points that nearly coincide with their neighbours.
 std::vector<Vec3> without_repeats(const std::vector<Vec3>& path, double near, bool closed) {
     std::vector<Vec3> kept;
     for (const Vec3& point : path) {
@@ -123,8 +122,7 @@ Shell closed_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3
 Shell swept_collar(const PlanOutline& outline, const std::vector<PlanPoint>& section) {
     const std::size_t count = outline.size();
     Shell shell;
-    // For each point of the section, the vertices at the outline's corners. Corners that coincide
-    // share one.
+    // One row per point of the section; corners that coincide share a vertex.
     std::vector<std::vector<int>> rows;
     for (const PlanPoint& point : section) {
         const PlanOutline moved = moved_outline(outline, point.x);

@@ -40,8 +40,8 @@ std::vector<Dart> darts_of(const Solid& solid) {
     return darts;
 }
 
-// What automorphisms keep of a dart: the number of corners of its facet and of the neighbour, and
-// the number of facets at either end. A mirroring swaps the two ends.
+// Invariants of a dart: the number of corners of its facet and of the neighbour, and of facets at
+// either end, which a mirroring swaps.
 using Shape = std::array<int, 4>;
 
 std::vector<Shape> shapes_of(const Solid& solid, const std::vector<Dart>& darts) {
@@ -62,8 +62,8 @@ Shape mirrored(const Shape& s) {
     return {s[0], s[1], s[3], s[2]};
 }
 
-// Follows neighbours from one dart and its image. A mirroring maps a dart to one in the same facet
-// that runs the other way, so next becomes previous.
+// A mirroring maps a dart to one of the same facet that runs the other way, so next becomes
+// previous.
 class Propagation {
 public:
     Propagation(const Solid& solid, const std::vector<Dart>& darts)
@@ -138,7 +138,6 @@ std::vector<Automorphism> automorphisms(const Solid& solid) {
     std::vector<Automorphism> all;
     Automorphism found;
     if (!propagation.follow(first, first, false, found)) {
-        // For several pieces only the identity is returned.
         found.facets.resize(solid.facets.size());
         found.vertices.resize(solid.vertices.size());
         std::iota(found.facets.begin(), found.facets.end(), 0);
@@ -174,7 +173,6 @@ Automorphism followed_by(const Automorphism& first, const Automorphism& second) 
 }
 
 int order_of(const Automorphism& automorphism) {
-    // The least common multiple of all cycles.
     long order = 1;
     for (const std::vector<int>* map : {&automorphism.facets, &automorphism.vertices}) {
         std::vector<bool> seen(map->size(), false);

@@ -28,7 +28,6 @@ std::vector<AxisMotion> motions_about_z(const std::vector<Automorphism>& all,
     for (const Vec3& p : points) mean += p / double(points.size());
     std::vector<AxisMotion> motions;
     for (const Automorphism& map : all) {
-        // The turn that brings all points nearest to their images.
         Complex sum = 0;
         for (std::size_t v = 0; v < points.size(); ++v) {
             const Vec3 p = points[v] - mean, q = points[map.vertices[v]] - mean;

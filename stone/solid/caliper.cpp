@@ -19,8 +19,7 @@ double cross(const Vec2d& a, const Vec2d& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Andrew's monotone chain (1979), counter-clockwise. Drops corners that are within rounding of an
-// edge.
+// Andrew's monotone chain (1979), counter-clockwise; drops corners within rounding of an edge.
 std::vector<int> hull_of(const std::vector<Vec2d>& points, double size) {
     const auto at = [&](int p) -> const Vec2d& { return points[std::size_t(p)]; };
     std::vector<int> order(points.size());

@@ -18,12 +18,11 @@ namespace culet {
 
 namespace {
 
-// Number of faults of one kind that are listed.
 constexpr int k_most_told = 20;
 constexpr int k_most_parts_told = 4;
 
-// Planes this close (angle in radians, and offset / diameter) are one plane given twice. The
-// rounding of doubles is far below this, any facet that a cutter could tell apart far above.
+// Angle in radians, and offset / diameter: far above the rounding of doubles, far below what a
+// cutter could tell apart.
 constexpr double k_same_plane = 1e-9;
 
 bool is_finite(const Vec3& v) {
@@ -72,7 +71,6 @@ private:
         return sound;
     }
 
-    /// True when the surface is closed and its facets agree on which side is out.
     bool check_surface() {
         bool whole = true;
         for (const Facet& facet : solid_.facets) {
@@ -118,7 +116,7 @@ private:
     }
 
     void check_pieces(Groups& pieces) {
-        // The number of facets of each part, by the part's first facet.
+        // By the first facet of each part.
         std::map<int, int> first_of, sizes;
         for (int f = 0; f < static_cast<int>(solid_.facets.size()); ++f)
             ++sizes[first_of.try_emplace(pieces.find(f), f).first->second];
@@ -253,8 +251,8 @@ private:
                 const Vec3& corner = solid_.vertices[solid_.facets[order[j]].corners.empty()
                                                          ? 0
                                                          : solid_.facets[order[j]].corners[0]];
-                // Compare a corner's heights, not the offsets: far from the origin the offsets
-                // depend on the last digit of the normals.
+                // Heights, not offsets: far from the origin offsets depend on the last digit of the
+                // normals.
                 if (std::abs(height_above(a, corner) - height_above(b, corner)) >
                     k_same_plane * size) {
                     continue;

@@ -15,8 +15,8 @@ namespace culet {
 
 namespace {
 
-/// Solid angle of a facet's corner fan seen from a point, positive when the facet faces away (Van
-/// Oosterom and Strackee 1983).
+/// Solid angle of a facet's corner fan, positive when it faces away from `eye` (Van Oosterom and
+/// Strackee 1983).
 double solid_angle(const Solid& solid, const Facet& facet, const Vec3& eye) {
     double sum = 0;
     const Vec3 a = glm::normalize(solid.vertices[facet.corners[0]] - eye);
@@ -29,8 +29,8 @@ double solid_angle(const Solid& solid, const Facet& facet, const Vec3& eye) {
     return sum;
 }
 
-/// For each facet those that share an edge with it. Empty when the solid is small enough to test
-/// every corner against every facet.
+/// Facets that share an edge. Empty when the solid is small enough to test every corner against
+/// every facet.
 std::vector<std::vector<int>> tested_neighbours(const Solid& solid) {
     constexpr std::size_t k_most_tests = 100'000'000;
     if (solid.facets.size() * solid.vertices.size() <= k_most_tests) return {};
@@ -62,8 +62,8 @@ bool is_convex(const Solid& solid) {
     if (!is_closed(solid)) return false;
     const double allowance = std::min(planarity(solid), k_largest_miss * diameter(solid));
     const Vec3 middle = centroid(solid);
-    // The volume of a surface that crosses itself is a difference: it may nearly vanish and its
-    // centroid lie anywhere. A convex solid has no corner strictly inside.
+    // The volume of a self-crossing surface may nearly vanish and its centroid lie anywhere. A
+    // convex solid has no corner strictly inside.
     if (!std::isfinite(middle.x + middle.y + middle.z)) return false;
     double seen = 0;
     const std::vector<std::vector<int>> neighbours = tested_neighbours(solid);

@@ -14,9 +14,8 @@ namespace culet {
 namespace {
 
 #ifdef __wasm__
-// CGAL's filtered kernels decide most sides by interval arithmetic, which needs directed rounding.
-// WebAssembly only rounds to nearest, so the intervals would be wrong. There every side is computed
-// exactly from the start, with as many digits as needed.
+// CGAL's filtered kernels use interval arithmetic, which needs directed rounding. WebAssembly only
+// rounds to nearest, so every side is computed exactly from the start there.
 using Kernel = CGAL::Simple_cartesian<CGAL::MP_Float>;
 #else
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

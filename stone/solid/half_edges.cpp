@@ -18,7 +18,7 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
 
-// OpenMesh reports faces that it refuses on stderr; our library must not print.
+// OpenMesh reports refused faces on stderr; our library must not print.
 class SilentOpenMesh {
 public:
     SilentOpenMesh() : was_enabled_(omerr().is_enabled()) { omerr().disable(); }

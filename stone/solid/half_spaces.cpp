@@ -92,8 +92,7 @@ public:
         if (!any_inside) return false;
         if (!any_outside) return true;  // touches a facet, an edge, a corner, or nothing
 
-        // Each edge that the plane cuts belongs to two facets. Their planes and this one meet in
-        // the new corner.
+        // Its two facets' planes and this one meet in the new corner.
         std::map<CornerPair, std::pair<int, int>> planes_of_cut;
         for (const Face& face : faces_) {
             for_each_edge(face, [&](int from, int to) {
@@ -109,7 +108,7 @@ public:
             corner_of_cut[edge] = add_corner(pair.first, pair.second, plane);
         }
 
-        // The new facet's edges, from corner to next corner.
+        // From corner to next corner.
         std::unordered_map<int, int> next;
         std::vector<Face> kept;
         kept.reserve(faces_.size() + 1);
@@ -150,9 +149,8 @@ private:
         }
     }
 
-    // What the plane leaves of a facet. The new facet runs against the cut: from where the outline
-    // comes back inside to where it left. A facet that vanishes but has an edge in the plane passes
-    // that edge on.
+    // The new facet runs against the cut, from where the outline comes back inside to where it
+    // left. A facet that vanishes but has an edge in the plane passes that edge on.
     Face cut(const Face& face, const std::map<CornerPair, int>& corner_of_cut,
              std::unordered_map<int, int>& next) const {
         bool any_inside = false, any_outside = false;
@@ -195,8 +193,8 @@ bool all_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Power of two that scales the largest offset to 1/2..1. The scaling is exact, and tiny or huge
-/// stones use the same range of exponents as others.
+/// Scales the largest offset to 1/2..1, exactly, so that tiny and huge stones use the same
+/// exponents as others.
 int scale_exponent(std::span<const NamedPlane> planes) {
     double largest = 0;
     for (const NamedPlane& p : planes) {
@@ -237,8 +235,8 @@ Vec3 rounded(const Exact::Point_3& point, int exponent) {
 
 std::vector<int> find_repeated(std::span<const NamedPlane> planes,
                                const std::vector<Exact::Plane_3>& exact) {
-    // Equal planes have equal unit normals to rounding. Sorted by one component they are close
-    // together, and only such pairs are compared exactly.
+    // Equal planes are close together when sorted by one component of the unit normal; only such
+    // pairs are compared exactly.
     std::vector<std::pair<double, int>> order;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const Vec3& n = planes[i].plane.normal;

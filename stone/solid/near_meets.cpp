@@ -41,7 +41,6 @@ public:
         for (const Facet& facet : solid.facets) outlines_.push_back(facet.corners);
     }
 
-    /// Contracts the shortest edge that is at most `tolerance` long and can be contracted.
     bool contract_shortest(double tolerance) {
         std::vector<std::tuple<double, int, int>> edges;
         for (const Outline& outline : outlines_) {
@@ -75,8 +74,7 @@ public:
             for (const int corner : outlines_[f]) {
                 if (index[corner] < 0) {
                     index[corner] = static_cast<int>(out.solid.vertices.size());
-                    // Facets may have vanished since the corner was made, so compute the meet of
-                    // the remaining ones.
+                    // Facets may have vanished since the corner was made.
                     out.solid.vertices.push_back(corners_[corner].members.size() > 1
                                                      ? meet(corner)
                                                      : corners_[corner].position);
@@ -108,8 +106,7 @@ private:
         return true;
     }
 
-    // A facet with two corners has no area: its neighbours meet in that edge. A corner with two
-    // facets lies within their common edge.
+    // A facet with two corners has no area. A corner with two facets lies within their common edge.
     void drop_vanished() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -124,9 +121,9 @@ private:
         }
     }
 
-    // The least-squares meet of a corner's planes, relative to the mean of the corners that it
-    // stands for. If the planes (nearly parallel ones) would move it along a direction by more than
-    // those corners are apart, they do not define that direction, and it keeps the mean.
+    // The least-squares meet of a corner's planes, starting from the mean of its members. Along
+    // directions in which nearly parallel planes would move it further than the members are apart,
+    // it keeps the mean.
     Vec3 meet(int corner) const {
         const std::vector<int>& members = corners_[corner].members;
         Vec3 mean{0, 0, 0};

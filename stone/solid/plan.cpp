@@ -47,8 +47,7 @@ PlanOutline convex_hull(std::vector<PlanPoint> points) {
 PlanOutline moved_outline(const PlanOutline& outline, double distance) {
     const std::size_t count = outline.size();
     const double sign = distance < 0 ? -1 : 1;
-    // Edge i begins at corner i. `left` are the edges that have not vanished; left[k] now begins at
-    // starts[k].
+    // Edge i begins at corner i. `left` are the remaining edges; left[k] begins at starts[k].
     std::vector<PlanPoint> normals;
     for (std::size_t i = 0; i < count; ++i)
         normals.push_back(normal_of(outline[i], outline[(i + 1) % count]));
@@ -63,7 +62,6 @@ PlanOutline moved_outline(const PlanOutline& outline, double distance) {
         for (std::size_t k = 0; k < size; ++k)
             speeds.push_back(sign *
                              corner_speed(normals[left[(k + size - 1) % size]], normals[left[k]]));
-        // The edge that vanishes first.
         double soonest = still;
         std::size_t vanishes = size;
         for (std::size_t k = 0; k < size; ++k) {

@@ -46,16 +46,16 @@ double width_along(const Solid& solid, const Vec3& direction) {
 
 namespace {
 
-// Sums over the tetrahedra from a corner of the solid to the corner fan of every facet. Using the
-// origin instead would lose digits for a stone far from it.
+// Sums over tetrahedra from a corner of the solid; from the origin, a distant stone would lose
+// digits.
 struct VolumeMoments {
     double six_volumes = 0;
     Vec3 weighted{0, 0, 0};  // 24 times the first moment about the reference corner
     Vec3 reference{0, 0, 0};
 };
 
-// Twice the area vector of a triangle, from its two shorter edges. In a needle, the product of two
-// long edges would be a difference of numbers larger by its aspect ratio.
+// From the two shorter edges: in a needle, the product of two long ones would be a difference of
+// numbers larger by its aspect ratio.
 Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const double of_ab = glm::dot(ab, ab), of_bc = glm::dot(bc, bc), of_ca = glm::dot(ca, ca);

@@ -12,14 +12,14 @@ namespace culet {
 
 namespace {
 
-// The lines before the header: blank lines, comments, and Excel's `sep=;`.
+// Blank lines, comments, and Excel's `sep=;`.
 bool precedes_the_header(std::string_view line) {
     const std::string plain = lower_case(std::string(trimmed(line)));
     const std::size_t start = plain.find_first_not_of("\";,\t ");
     return start == std::string::npos || plain[start] == '#' || plain.starts_with("sep=");
 }
 
-// The separator of the fields, judged by the header.
+// By the header.
 char separator_of(std::string_view text) {
     std::size_t begin = 0;
     while (begin < text.size()) {

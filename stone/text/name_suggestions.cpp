@@ -9,7 +9,7 @@ namespace culet {
 
 namespace {
 
-// Longer words are not compared: the cost of edit distances is the product of lengths.
+// The cost of edit distances is the product of lengths.
 constexpr std::size_t k_longest_word = 64;
 
 // Lower case, with every run of characters other than letters and digits as one blank.
@@ -99,8 +99,8 @@ std::vector<std::string> names_like(std::string_view word, const std::vector<std
         if (holds_words(name, wanted)) found.push_back(name);
     }
     if (!found.empty()) return found;
-    // Allows a slip or two in a whole name or in one part of it (saphire is near sapphire_blue). At
-    // most a third of the letters may differ; with more, every short name is near every other.
+    // A slip or two in a whole name or in one part (saphire is near sapphire_blue). With more than
+    // a third of the letters every short name is near every other.
     std::size_t least = std::max<std::size_t>(1, wanted.size() / 3) + 1;
     for (const std::string& name : known) {
         const std::string whole = plain(name);

@@ -31,8 +31,7 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
         throw InputError(target_,
                          fmt::format("cannot be written: there is no folder {}", folder.string()));
     }
-    // Exclusive creation, so that two programs that write the same target never share a temporary
-    // file.
+    // Exclusive creation: programs that write the same target never share a temporary file.
     for (int attempt = 0; attempt < 100; ++attempt) {
         temporary_ = folder / fmt::format(".{}.{}.{}{}", target_.stem().string(), ::getpid(),
                                           attempt, target_.extension().string());

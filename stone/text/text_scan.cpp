@@ -26,7 +26,7 @@ namespace {
 constexpr std::string_view k_wide_blanks[] = {"\u00a0", "\u2007", "\u2009",
                                               "\u202f", "\u3000", "\ufeff"};
 
-// Number of bytes of the blank that `text` begins with; 0: none.
+// In bytes; 0: none.
 std::size_t blank_before(std::string_view text) {
     const char c = text.front();
     if (c == ' ' || (c >= '\t' && c <= '\r')) return 1;
@@ -157,7 +157,7 @@ std::optional<std::int64_t> integer_in(std::string_view word) {
 void WrittenPrecision::add(std::string_view word, double value) {
     largest_ = std::max(largest_, std::abs(value));
     if (value == 0) return;
-    // Count the mantissa's digits from the first that is not zero, and find the last one's place.
+    // Counted from the mantissa's first digit that is not zero.
     int digits = 0, decimals = 0, exponent = 0;
     bool after_point = false;
     for (std::size_t i = 0; i < word.size(); ++i) {
@@ -196,9 +196,9 @@ double WrittenPrecision::rounding() const {
     const bool is_single = any_single_ || all_near_single_;
     double rounding = largest_ * (is_single ? FLT_EPSILON / 2 : DBL_EPSILON / 2);
     if (count_ == 0) return rounding;
-    // Digits tell about rounding only when most numbers use as many as any. `%.6f` ends all at one
-    // place; `%.6e` and `%g` give all, or most, the same number of digits. In a file of short exact
-    // numbers (0.5, 2, 1.25) neither holds.
+    // Digits tell about rounding only when most numbers use as many as any: `%.6f` ends all at one
+    // place, `%.6e` and `%g` give most the same number. Files of short exact numbers (0.5, 2, 1.25)
+    // do neither.
     long most = 0;
     int last_place = 0;
     for (int i = 0; i < static_cast<int>(with_last_place_.size()); ++i) {

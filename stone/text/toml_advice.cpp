@@ -36,7 +36,6 @@ std::optional<LeadingNumber> leading_number(std::string_view text) {
     return number;
 }
 
-// True if `written` is one of the ways in which people write `unit`.
 bool means(std::string_view written, std::string_view unit) {
     if (written == unit) return true;
     if (unit.starts_with("deg"))

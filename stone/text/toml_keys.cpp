@@ -4,8 +4,8 @@ namespace culet {
 
 namespace {
 
-// The end of the string whose opening quote is at `from`: past its closing quote, or the text's
-// end. Strings in three quotes may span lines; others end with theirs.
+// Past the closing quote of the string that begins at `from`, or the text's end. Strings in three
+// quotes may span lines; others end with theirs.
 std::size_t end_of_string(std::string_view text, std::size_t from) {
     const char quote = text[from];
     const bool is_long = text.substr(from, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''");

@@ -25,11 +25,11 @@ std::vector<std::string> split(std::string_view text, char at) {
     return parts;
 }
 
-// Nested tables are destroyed by recursion. toml++ limits the nesting of values (256) but not the
-// parts of dotted keys.
+// Nested tables are destroyed by recursion, and toml++ limits the nesting of values (256) but not
+// dotted keys.
 constexpr std::size_t k_most_key_parts = 16;
 
-// Line `number` of a text, counted from 1.
+// From 1.
 std::string_view line_of_text(std::string_view text, long number) {
     for (; number > 1; --number) {
         const std::size_t end = text.find('\n');

@@ -39,7 +39,7 @@ constexpr std::array<UnitWord, 37> k_units{{
     {"percent", Of::percent, 1},
 }};
 
-// Removes the number that `text` begins with, and returns it.
+// Removes it from `text`.
 std::optional<double> leading_number(std::string& text) {
     const char* begin = text.data();
     if (*begin == '+') ++begin;
