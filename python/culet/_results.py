@@ -30,10 +30,10 @@ class Fit:
     sigma_inclinations: np.ndarray  #: (F,) degrees, one standard uncertainty
     sigma_azimuths: np.ndarray  #: (F,) degrees
     sigma_offsets: np.ndarray  #: (F,) in the stone's unit, from the middle of the stone
-    #: (3F, 3F) of inclination, azimuth (degrees) and offset (unit), three rows a facet; None: not
-    #: known, or over 300 facets
+    #: (3F, 3F): inclination, azimuth (degrees) and offset (unit), three rows per facet; None:
+    #: unknown, or over 300 facets
     covariance: Optional[np.ndarray]
-    summary: List[str]  #: what a cutter should know, a sentence each
+    summary: List[str]  #: what a cutter should know, one sentence each
     report: Dict[str, Any] = field(repr=False)  #: all of it (docs/measuring.md, FIT.json)
 
 
@@ -58,12 +58,12 @@ class Comparison:
 
     verdict: str  #: match, partial, no_evidence or refused
     reason: str  #: the verdict in one sentence
-    usable: bool  #: False: the outlines do not fit, and scores mean nothing
+    usable: bool  #: False: the outlines do not fit, so scores mean nothing
     scores: Dict[str, Any] = field(repr=False)  #: all of it, as `culet compare --json`
-    #: arrays in the frame of the photograph's close-up: photo and render (H, W, 3), and (H, W) with
-    #: NaN where nothing is compared: luminance_difference (-1 to 1), colour_difference (CIEDE2000),
+    #: Arrays in the frame of the photograph's close-up. (H, W, 3): photo and render. (H, W), with NaN
+    #: where nothing is compared: luminance_difference (-1 to 1), colour_difference (CIEDE2000),
     #: visible_difference (FLIP, 0 to 1), similarity (SSIM), and within_readings (0: within one sigma
-    #: of what the readings leave open, 0.5: within two, 1: outside)
+    #: of the readings' uncertainty, 0.5: within two, 1: outside)
     maps: Dict[str, np.ndarray] = field(repr=False)
     page: str = field(repr=False)  #: the report as one HTML page
 
