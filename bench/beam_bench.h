@@ -24,7 +24,7 @@ public:
     BeamBench(int pixels, const std::filesystem::path& cache)
         : pixels_(pixels), references_(cache), base_(base_scene(pixels)) {}
 
-    /// Empty: all sections. Throws InputError for an unknown one.
+    /// Runs one section, or all if `only` is empty. Throws InputError for an unknown one.
     void run(const std::string& only);
     const BenchTables& tables() const { return tables_; }
 

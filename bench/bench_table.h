@@ -13,14 +13,15 @@ public:
     BenchTables();
     ~BenchTables();
 
-    /// Title, what readers should know, and the names of all columns except the first.
+    /// Begins a section; `columns` are all names except the first.
     void section(const std::string& name, const std::string& remark,
                  const std::vector<std::string>& columns);
     /// Numbers as text, empty where there is none.
     void line(const std::string& what, const std::vector<std::string>& values);
     /// A conclusion from the lines before.
     void remark(const std::string& text);
-    /// One object: `head`, and `sections`, each with `name`, `about`, `lines` and `remarks`.
+    /// Returns one object: `head`, and `sections`, each with `name`, `about`, `lines` and
+    /// `remarks`.
     std::string json(const std::vector<std::pair<std::string, std::string>>& head) const;
 
 private:

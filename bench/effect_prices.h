@@ -3,8 +3,8 @@
 
 namespace culet {
 
-/// Processor times of a picture of `pixels` a side, one thread, the quickest of several, with each
-/// effect on and off in turn.
+/// Prints processor times of a picture of `pixels` a side, one thread, the quickest of several,
+/// with each effect on and off in turn.
 void print_effect_prices(int pixels);
 
 }  // namespace culet

@@ -14,8 +14,8 @@ struct CorpusFit {
     std::string group;  ///< fits that one figure counts together
     std::string name;   ///< unique in the corpus
     std::function<Trial()> fit;
-    /// From the stone's own corners, for `succeeds` to compare with. Computed once for all fits of
-    /// a stone.
+    /// Starts from the stone's own corners; `succeeds` compares with it. Computed once for all fits
+    /// of a stone.
     std::function<const Trial&()> reference;
     Stone declared;
 };

@@ -18,7 +18,8 @@ namespace {
 constexpr double k_cuts[] = {0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
 constexpr int k_nodes[] = {1, 3, 5, 8, 15};
 constexpr int k_sides[] = {1, 2, 3, 4, 6, 8, 12, 16, 24};
-// Times the tolerance, or the cost of another setting within it: beyond, settings are not pursued.
+// Settings are not pursued if their error exceeds the tolerance, or their cost that of another one
+// within it, by this factor.
 constexpr double k_hopeless = 4;
 
 struct Hand {

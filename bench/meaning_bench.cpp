@@ -129,7 +129,7 @@ double area_under(const std::vector<double>& right, const std::vector<double>& w
     return wins / (static_cast<double>(right.size()) * static_cast<double>(wrong.size()));
 }
 
-// Of `count` random angles, normal with standard deviation 1.
+// For `count` normal random angles of standard deviation 1.
 double root_mean_square(std::size_t count, std::uint64_t seed) {
     Chance chance(seed);
     double squares = 0;

@@ -89,7 +89,7 @@ Truth truth_of(const Scene& scene, const Options& options) {
     return draw_truth(scene, finest_plan(), options.checked, options.truth_rays);
 }
 
-// The same at every pixel, which takes minutes: kept in a file.
+// Draws every pixel, which takes minutes; kept in a file.
 Truth whole_truth_of(const Scene& scene, std::size_t number, const Options& options) {
     const std::filesystem::path file =
         options.whole / fmt::format("{}-{}-{}.exr", number, options.pixels, options.truth_rays);

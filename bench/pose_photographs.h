@@ -44,7 +44,7 @@ struct PosePhotograph {
 PosePhotograph pose_photograph(const PhotographSettings& settings, int seed,
                                Fault fault = Fault::none);
 
-/// Over the turns of the model's symmetry.
+/// Takes the smallest over the turns of the model's symmetry.
 Vec3 turn_between(const StoneView& truth, const StoneView& found, int fold);
 
 }  // namespace culet

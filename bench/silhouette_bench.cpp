@@ -39,7 +39,7 @@ struct FacetErrors {
     double rms_deg = 0, worst_deg = 0, rms_offset = 0;
 };
 
-// With the nearest planes of the scanner, in its frame.
+// Compares with the nearest planes of the scanner, in its frame.
 FacetErrors facet_errors(const FitResult& result, const FrameMotion& to_stone, const Solid& scan) {
     FacetErrors errors;
     double squares = 0, offsets = 0;

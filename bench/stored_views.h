@@ -18,8 +18,8 @@ struct StoredView {
 
 /// The one to four stored views that surround that of `camera`: on the sphere around `look_at`
 /// through it, at whole steps of the polar angle from +z and of the azimuth from +x, otherwise like
-/// it. Steps are at most `step` radians and divide the circle evenly. Throws InputError for a
-/// camera with a lens, a conoscope, and where `up` is along such a view.
+/// it. Steps are at most `step` radians and divide the range evenly. Throws InputError for a camera
+/// with a lens, a conoscope, and where `up` is along such a view.
 std::vector<StoredView> stored_views(const Camera& camera, double step);
 
 /// Where a camera without a lens sees a point: pixels from the upper left corner.

@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    // In every band.
+    // Adds the exits in every band.
     void put(const TableHit& hit, std::size_t y) {
         const EyeRay eye = eyes_.ray(hit.ray);
         // Where the ray meets the plane through the middle, perpendicular to the line of sight. Of
@@ -112,7 +112,7 @@ private:
         }
     }
 
-    // With the same front facet if there is one.
+    // Prefers a hit with the same front facet.
     bool find_ray(std::size_t v, const Vec3& at, int facet, std::size_t& found) const {
         const RayTable& table = tables_[v].table;
         const std::array<double, 2> place = places_[v].of(at);

@@ -26,7 +26,7 @@ struct BatchPage {
     std::vector<BatchPageJob> jobs;  ///< in display order
 };
 
-/// Its links lead to the folder `jobs` beside the page.
+/// The page links to the folder `jobs` beside it.
 std::string batch_page(const BatchPage& page);
 
 }  // namespace culet

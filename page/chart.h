@@ -32,9 +32,9 @@ struct Chart {
     std::vector<ChartSeries> series;
 };
 
-/// Self-contained, 760 x 480, dark on white. Series differ by shape and by colour (Okabe and Ito
-/// 2008). Points that are not finite, or not positive on a logarithmic axis, are omitted. Empty
-/// when no point remains. Text is escaped.
+/// Draws a self-contained picture, 760 x 480, dark on white. Series differ by shape and by colour
+/// (Okabe and Ito 2008). Points that are not finite, or not positive on a logarithmic axis, are
+/// omitted. Empty when no point remains. Text is escaped.
 std::string draw_chart_svg(const Chart& chart);
 
 }  // namespace culet

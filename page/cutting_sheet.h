@@ -21,7 +21,7 @@ struct CuttingSheet {
     std::vector<double> sigmas_deg;
 };
 
-/// To be printed on one sheet of A4.
+/// A page to print on one sheet of A4.
 std::string cutting_sheet_page(const CuttingSheet& sheet);
 
 /// The same as lines of text.

@@ -29,7 +29,7 @@ std::string fit_drawing_section(const FitView& view, bool fold);
 /// The proportions that people ask for first, with calipers beside the diameter; the others are
 /// collapsed.
 std::string fit_proportions_section(const FitView& view);
-/// Everything else, collapsed.
+/// All the rest, collapsed.
 std::string fit_section(const FitView& view);
 
 /// Facets are coloured by how much steeper (red) or flatter (blue) they became.

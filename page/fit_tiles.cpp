@@ -48,7 +48,7 @@ std::string readings_tile(const Json& fit) {
     std::string about = suspects == 0 ? "none suspect" : fmt::format("{} suspect", suspects);
     const std::size_t rows = rows_of(readings);
     if (rows < readings.size()) about = fmt::format("from {} rows; {}", rows, about);
-    // With a prior there are few such readings: each is checked against its tier instead.
+    // With a prior few readings check each other; each is compared with its tier instead.
     const std::string source = prior_source(fit);
     if (unchecked > 0 && source.empty()) {
         about += fmt::format("; nothing checks {} of them", unchecked);

@@ -19,7 +19,7 @@ struct PrintedForm {
     std::string readings;  ///< the file into which the values are typed
 };
 
-/// Two sides of A4.
+/// A page of two sides of A4.
 std::string form_page(const PrintedForm& form);
 
 }  // namespace culet

@@ -7,10 +7,10 @@
 
 namespace culet {
 
-/// From the JSON of a section (render/grade/path_section.h); empty where it has no outline.
+/// Draws the JSON of a section (render/grade/path_section.h); empty where it has no outline.
 std::string section_drawing(const std::string& section_json);
 
-/// From the JSON of `culet optimize`; false where that is empty.
+/// Shows the JSON of `culet optimize`; false where that is empty.
 View optimized_view(const std::string& optimized_json);
 
 }  // namespace culet

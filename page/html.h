@@ -11,33 +11,33 @@ namespace culet {
 inline constexpr const char* k_svg_font =
     "system-ui, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
 
-/// Safe in HTML and in quoted attributes: & < > " ' become entities; control characters and invalid
-/// UTF-8 become U+FFFD.
+/// Makes text safe in HTML and in quoted attributes: & < > " ' become entities; control characters
+/// and invalid UTF-8 become U+FFFD.
 std::string escaped(std::string_view text);
 
-/// JSON for a script element: contains no `<`.
+/// Returns JSON without `<`.
 std::string json_for_script(std::string_view json);
 
 std::string base64(std::string_view bytes);
-/// Empty for invalid base64 (RFC 4648, section 4, padding required).
+/// Returns nothing for invalid base64 (RFC 4648, section 4, padding required).
 std::optional<std::string> bytes_of_base64(std::string_view text);
 
 /// `data:image/png;base64,...`
 std::string png_uri(std::string_view png);
 
-/// With `count` decimals and a true minus sign; a dash for nothing, NaN and infinity.
+/// Writes `count` decimals and a true minus sign; a dash for nothing, NaN and infinity.
 std::string decimals(const std::optional<double>& value, int count);
 
-/// Without decimals.
+/// Writes no decimals.
 std::string whole(const std::optional<double>& value);
 
-/// Quoted for a POSIX shell where necessary.
+/// Quotes for a POSIX shell where necessary.
 std::string shell_word(const std::string& word);
 
 /// Adds a capital and a full stop. Not escaped.
 std::string as_sentence(std::string text);
 
-/// With `count` significant digits, without trailing zeros from rounding: 0.00123, 12.3, 1230.
+/// Writes `count` significant digits without trailing zeros from rounding: 0.00123, 12.3, 1230.
 std::string significant(const std::optional<double>& value, int count = 3);
 
 }  // namespace culet

@@ -34,7 +34,7 @@ std::optional<double> number_at(const Json& object, const char* key) {
     return found->template get<double>();
 }
 
-/// NaN for a missing field.
+/// Returns NaN for a missing field.
 template <typename Json>
 double value_at(const Json& object, const char* key) {
     return number_at(object, key).value_or(std::numeric_limits<double>::quiet_NaN());
@@ -63,7 +63,7 @@ const Json& array_at(const Json& object, const char* key) {
     return found != object.end() && found->is_array() ? *found : none;
 }
 
-/// Null for a missing number, NaN and infinity, which JSON lacks.
+/// Writes null for a missing number, NaN and infinity, which JSON lacks.
 template <typename Json>
 Json json_number(const std::optional<double>& value) {
     return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);

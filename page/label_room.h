@@ -28,7 +28,7 @@ public:
             take({x - 2, y - 2, x + 2, y + 2});
         }
     }
-    /// Nothing when every place is taken.
+    /// Returns nothing when every place is taken.
     std::optional<LabelBox> find(double x, double y, double width, double height) {
         for (const double away : {9.0, 20.0, 34.0}) {
             const double w = 0.5 * width, h = 0.5 * height;

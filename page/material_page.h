@@ -5,8 +5,8 @@
 
 namespace culet {
 
-/// Colour field, indices, birefringence, density and sources of every material. Throws InputError
-/// when `json` is not an object.
+/// Shows colour field, indices, birefringence, density and sources of every material. Throws
+/// InputError when `json` is not an object.
 std::string material_page(const std::string& json, const std::string& version);
 
 }  // namespace culet

@@ -21,7 +21,7 @@ std::string turn_button();
 /// `<section id=... >` with its heading; empty when the body is empty.
 std::string section(const std::string& id, const std::string& heading, const std::string& body);
 
-/// Collapsible; the summary is HTML too. Empty when the body is empty.
+/// Collapsible HTML; the summary is HTML too. Empty when the body is empty.
 std::string folded(const std::string& summary, const std::string& body, bool open = false);
 
 /// The heading is the summary.
@@ -43,7 +43,7 @@ struct ListItem {
 };
 std::string short_list(const std::vector<ListItem>& items);
 
-/// More rows than fit on a screen: the table scrolls under its heading.
+/// True for more rows than fit on a screen: the table then scrolls under its heading.
 bool is_tall(const std::vector<View>& rows);
 
 /// `rows` and `tall`, for a table that is omitted when it has no rows.

@@ -38,7 +38,7 @@ std::string in_place(double value, int place) {
     return decimals(std::round(value / unit) * unit, 0);
 }
 
-/// To the unit's finest place, without trailing zeros.
+/// Rounds to the unit's finest place, without trailing zeros.
 std::string trimmed(double value, std::string_view unit) {
     if (!(std::abs(value) < k_largest_written)) return significant(value, 6);
     std::string text = decimals(value, static_cast<int>(std::round(-std::log10(finest_of(unit)))));

@@ -40,8 +40,8 @@ std::string as_read(const std::optional<double>& value, std::string_view unit);
 std::string smallest_slip(const std::optional<double>& detectable,
                           const std::optional<double>& value, std::string_view unit);
 
-/// "0.6 degrees (+- 0.1)" -> "0.6° (± 0.1)", "mm3" -> "mm³". Changes units only after a digit or a
-/// blank, so that names stay as they are.
+/// Rewrites "0.6 degrees (+- 0.1)" as "0.6° (± 0.1)", "mm3" as "mm³". Changes units only after a
+/// digit or a blank, so that names stay as they are.
 std::string typeset(std::string_view sentence);
 
 }  // namespace culet

@@ -9,7 +9,8 @@ namespace culet {
 
 enum class FileKind { solid, stone, scene, job, material, picture, table, unknown };
 
-/// By the extension; TOML files by their tables. Throws InputError for an unreadable TOML file.
+/// Goes by the extension, for TOML files by their tables. Throws InputError for an unreadable TOML
+/// file.
 FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The kind in words that follow "is": "a scene", "a job", ...

@@ -121,7 +121,7 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
     table.fail("", k_no_material);
 }
 
-// By the names of the mesh's facets.
+// Facets are found by their names.
 void take_design(const TomlTable& table, Solid& solid) {
     const auto file = table.path("design");
     if (!file) return;

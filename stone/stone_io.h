@@ -29,14 +29,15 @@ StoneFile read_stone(const std::filesystem::path& file,
 /// The same for a parsed file: [stone] and, beside it, [material].
 StoneFile stone_of(const TomlTable& root);
 
-/// `file` is for the InputError.
+/// Throws InputError, for `file`, if the stone has no material.
 void require_material(const StoneFile& stone, const std::filesystem::path& file);
 
 /// The material that the table's `material` names (catalogue or *.toml), or else the [material]
 /// table beside it. Throws InputError when there is neither.
 Material material_named_in(const TomlTable& table, const TomlTable& root);
 
-/// `optic_axis` or `principal_axes`, made orthonormal; identity when neither is given.
+/// Reads `optic_axis` or `principal_axes` and makes them orthonormal; identity when neither is
+/// given.
 CrystalFrame crystal_frame_in(const TomlTable& table, OpticCharacter optic);
 
 }  // namespace culet

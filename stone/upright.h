@@ -13,14 +13,14 @@ namespace culet {
 /// x.
 glm::dmat3 turn_upright(const Vec3& up);
 
-/// About the origin.
+/// Turns about the origin.
 Solid turned(Solid solid, const glm::dmat3& turn);
 
 /// Turns solid, crystal and up direction by the least rotation. The up facet's normal counts where
 /// the stone names one.
 Stone standing_upright(const Stone& stone);
 
-/// Unit; the up facet's normal where the stone names one.
+/// A unit vector: the up facet's normal where the stone names one.
 Vec3 up_of(const Stone& stone);
 
 /// Turns an upright solid into the frame of the stone whose up direction is `up`.
@@ -30,7 +30,7 @@ Solid turned_back(Solid upright, const Vec3& up);
 /// coordinate axis stands for it.
 inline constexpr double k_table_tilt = 5 * 3.14159265358979323846 / 180;
 
-/// Within `k_table_tilt` of the unit `direction`, or else `direction` itself.
+/// The axis within `k_table_tilt` of the unit `direction`, or else `direction` itself.
 Vec3 axis_near(const Vec3& direction);
 
 /// For people: +y, -x, ... or the three components.

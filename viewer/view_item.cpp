@@ -174,7 +174,7 @@ ViewSource upright(const ViewSource& source, const Scene& scene) {
     return turned;
 }
 
-// In the material of the shown stone.
+// It gets the material of the shown stone.
 std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_at) {
     Stone catalogue = looked_at;
     if (source.catalogue != nullptr) {

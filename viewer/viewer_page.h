@@ -7,8 +7,9 @@
 
 namespace culet {
 
-/// Self-contained; opens with a double click. Shows the first item's picture at once; with the
-/// engine (viewer/engine_file.h) the stone turns. Without it the page says how to get the engine.
+/// The page is self-contained and opens with a double click. It shows the first item's picture at
+/// once; with the engine (viewer/engine_file.h) the stone turns. Without it the page says how to
+/// get the engine.
 std::string viewer_page(const ViewDocument& document);
 
 }  // namespace culet

@@ -20,7 +20,7 @@ struct BatchShare {
 /// Reads `K/N`, with K from 0 to N - 1; empty: the whole batch. Throws InputError.
 BatchShare share_in(const std::string& text);
 
-/// As its record says.
+/// How a finished job ended, as its record says.
 struct JobEnd {
     std::string fingerprint;
     int exit_code = 0;
@@ -28,7 +28,7 @@ struct JobEnd {
 
 std::string work_name(const BatchShare& share);
 
-/// No other process can do the work of this name meanwhile. Throws InputError when the folder
+/// While it lives, no other process can do the work of this name. Throws InputError when the folder
 /// cannot be made or written, or another process is at work.
 class BatchFolder {
 public:
@@ -38,13 +38,13 @@ public:
     BatchFolder(const BatchFolder&) = delete;
     BatchFolder& operator=(const BatchFolder&) = delete;
 
-    /// Nothing for a job that is not finished.
+    /// Returns nothing for a job that is not finished.
     std::optional<JobEnd> end_of(const std::string& name) const;
     /// Makes an empty folder to work in.
     std::filesystem::path begin(const std::string& name) const;
     /// The folder that `begin` made.
     std::filesystem::path begun(const std::string& name) const { return work_ / name; }
-    /// In one step, replacing an earlier one.
+    /// Replaces an earlier job in one step.
     void finish(const std::string& name) const;
     /// A file of the folder itself, in one step: killed half-way, its rest is among the unfinished
     /// jobs.
@@ -60,7 +60,7 @@ private:
     int lock_ = -1;
 };
 
-/// Left by killed processes. Shares that are at work are not touched.
+/// Removes what killed processes left, but nothing of shares that are at work.
 void remove_unfinished(const std::filesystem::path& folder);
 
 std::filesystem::path job_folder(const std::filesystem::path& folder, const std::string& name);

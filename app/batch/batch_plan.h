@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// As stored with the results: settings and jobs, with no paths except the jobs'.
+/// The plan as it is stored: settings and jobs, with no paths except the jobs'.
 std::string batch_plan_json(const BatchList& list, const BatchSettings& settings);
 /// `file` is for messages. Throws InputError.
 std::vector<BatchJob> jobs_of_plan(const std::string& json, const std::filesystem::path& file);
@@ -20,11 +20,11 @@ std::vector<BatchJob> jobs_of_plan(const std::string& json, const std::filesyste
 std::vector<std::filesystem::path> files_of_stone(const std::filesystem::path& file,
                                                   const std::vector<std::string>& set);
 
-/// FNV-1a (64 bits), 16 hexadecimal digits.
+/// Returns FNV-1a (64 bits) as 16 hexadecimal digits.
 std::string hash_of(std::string_view text);
 
-/// Of all that the job's results depend on: version, settings, the stone's file and the files that
-/// it names. 16 hexadecimal digits.
+/// Hashes all that the job's results depend on: version, settings, the stone's file and the files
+/// that it names. 16 hexadecimal digits.
 std::string fingerprint_of(const BatchList& list, const BatchJob& job,
                            const BatchSettings& settings);
 

@@ -76,7 +76,7 @@ int urgency(const TableJson& record) {
     return code != record.end() && *code == exit_good ? 0 : 1;
 }
 
-// That any job has, in the order of their first job.
+// Collects the names that any job has, in the order of their first job.
 std::vector<std::string> names_in(const std::vector<TableJson>& records, const char* part) {
     std::vector<std::string> names;
     for (const TableJson& record : records) {

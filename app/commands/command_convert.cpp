@@ -127,7 +127,7 @@ ExportedScene exported(const Scene& scene, const std::filesystem::path& out) {
     return povray_scene(scene);
 }
 
-// For another renderer. The file that names the others is written last.
+// Writes files for another renderer; the one that names the others comes last.
 int convert_scene(const ConvertOptions& options) {
     StoneScene choices;
     choices.material = options.material;

@@ -103,7 +103,7 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
     Json white;
     Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
     say_notes(a.white, other.notes, a.common.quiet);
-    // Of the same camera: its values mean the same as the shots'.
+    // It is of the same camera, so its values mean the same.
     if (merged.curve && other.encoding.starts_with("8-bit sRGB"))
         apply_response(*merged.curve, other);
     const Photo& with_card = a.white.empty() ? photo : other;

@@ -210,7 +210,7 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
     return report;
 }
 
-// In the job's scene, or face up without one.
+// Shows the stone in the job's scene, or face up without one.
 std::string viewer_of(const Job& job, const JobInput& input, const JobResult& made,
                       const std::string& fit_json) {
     ViewSource source;

@@ -31,7 +31,7 @@ struct ViewOptions {
     bool open = false;
 };
 
-// By name.
+// Lists what can be shown, by name.
 std::vector<fs::path> shown_in(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -18,7 +18,7 @@ struct NearLightWords {
 /// `words` must outlive `command`.
 void add_near_light_options(CLI::App& command, NearLightWords& words);
 
-/// In the stone's unit and the photographs' pixels. Throws InputError.
+/// Results are in the stone's unit and the photographs' pixels. Throws InputError.
 std::vector<NearLightRequest> near_requests(const NearLightWords& words);
 
 }  // namespace culet

@@ -13,7 +13,7 @@ struct SheetOptions {
     std::filesystem::path report;  ///< of the stone's fit, for the angles' sigmas; empty: none
 };
 
-/// For a mesh or cut design; gear and width are those of `describe`. Throws InputError.
+/// Takes a mesh or cut design; gear and width are those of `describe`. Throws InputError.
 void write_cutting_sheet(const SheetOptions& options, const DescribeOptions& describe);
 
 }  // namespace culet

@@ -31,7 +31,7 @@ struct DescribeOptions {
     double width_mm = 0;  ///< scale a mesh or a cut design to this width; 0: do not
 };
 
-/// By the extension; TOML files by their tables. Throws InputError for unknown kinds.
+/// Goes by the extension, for TOML files by their tables. Throws InputError for unknown kinds.
 Description describe_file(const DescribeOptions& options);
 
 /// Meshes and cut designs.

@@ -64,7 +64,7 @@ nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) 
     return json;
 }
 
-// With the titles of the cutting sheet. Equal tiers of a design were changed together.
+// Uses the titles of the cutting sheet. Equal tiers of a design were changed together.
 std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
     Solid solid = result.start;
     solid.design = std::make_shared<const Design>(design);

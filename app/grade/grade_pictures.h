@@ -15,8 +15,8 @@ struct GradePictureOptions {
     int threads = 0;
 };
 
-/// By beams, to `folder` as PREFIX-aset.png, ... The stone is clear and without double refraction,
-/// as for the grade's figures.
+/// Draws with the engine beams and writes PREFIX-aset.png, ... to `folder`. The stone is clear and
+/// without double refraction, as for the grade's figures.
 std::vector<GradePicture> draw_scopes(const Stone& stone, const std::filesystem::path& folder,
                                       const std::string& prefix,
                                       const GradePictureOptions& options);

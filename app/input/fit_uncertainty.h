@@ -9,12 +9,12 @@
 
 namespace culet {
 
-/// In the order and unit of `result.solid`, with the covariance if known.
+/// Keeps the order and unit of `result.solid`; adds the covariance if known.
 StoneUncertainty uncertainty_of(const FitResult& result);
 
-/// From a fit's report, in the stone's unit. Uses its `facet_covariance` if present (three rows per
-/// facet, in the order of its `facets`: inclination and azimuth in degrees, offset). Throws
-/// InputError if it is not a report, or another stone's.
+/// Reads a fit's report; the result is in the stone's unit. Uses `facet_covariance` if present
+/// (three rows per facet, in the order of its `facets`: inclination and azimuth in degrees,
+/// offset). Throws InputError if it is not a report, or another stone's.
 StoneUncertainty uncertainty_in(const std::filesystem::path& report, const Stone& stone);
 
 }  // namespace culet

@@ -29,13 +29,13 @@ void require_form(const FormOptions& options);
 std::vector<std::string> write_form(const FormOptions& options, Stone stone, bool has_material,
                                     const std::filesystem::path& mesh);
 
-/// "6.5mm" or "6,5", in mm. Throws InputError that names the option.
+/// Reads "6.5mm" or "6,5"; the result is in mm. Throws InputError that names the option.
 double length_mm(const std::string& text, const std::string& option);
 
 /// The same for a number in `unit`: mm, %, deg or nothing.
 double number_in_unit(const std::string& text, const std::string& unit, const std::string& option);
 
-/// W is that of `culet info`, the smaller extent along x and y. Throws InputError for a solid
+/// Scales W of `culet info`, the smaller extent along x and y. Throws InputError for a solid
 /// without extent and for an impossible width.
 void scale_to_width(Solid& solid, double width_mm);
 

@@ -15,12 +15,12 @@ namespace culet {
 void require_kind(const std::filesystem::path& file, const std::vector<FileKind>& taken,
                   const std::string& command, const std::vector<std::string>& overrides = {});
 
-/// Unless a file has that name.
+/// False if a file has that name.
 bool is_cut_name(const std::string& input);
 
-/// Throws InputError unless `pictures` are photographs followed by a render or a scene. Wrong are a
-/// scene before the last, and a first picture that culet rendered with a last that it did not
-/// (unless `simulated` photographs).
+/// Throws InputError unless `pictures` are photographs followed by a render or a scene. It refuses
+/// a scene before the last one, and a first picture that culet rendered with a last that it did not
+/// (unless the photographs are `simulated`).
 void require_photographs_first(const std::vector<std::string>& pictures, bool simulated,
                                const std::vector<std::string>& overrides);
 

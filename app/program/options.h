@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// Exit codes; scripts rely on them.
+/// Scripts rely on these.
 enum ExitCode : int {
     exit_good = 0,
     exit_untrusted = 1,   ///< done, but the answer should not be trusted; outputs are written
@@ -29,7 +29,7 @@ struct CommonOptions {
 /// Adds -q, -v, --threads, --seed and, for commands that read TOML, --set.
 void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = false);
 
-/// For pages to say how they were made.
+/// The command line as text, for pages to say how they were made.
 std::string as_given(const CLI::App& command);
 
 /// Reads "1,2,3" as `least` to `most` numbers. `expected` describes the option in errors. Throws

@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// Empty if the stone could not be turned: no viewer's engine was built, the engine beams refuses
-/// the scene, or the stone has no material.
+/// Returns an empty page if the stone could not be turned: no viewer's engine was built, the engine
+/// beams refuses the scene, or the stone has no material.
 std::string viewer_for_report(const ViewSource& source, const std::string& title);
 
 }  // namespace culet

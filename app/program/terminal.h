@@ -14,21 +14,21 @@ namespace culet {
 void catch_interrupts();
 bool interrupted();
 
-/// With the time left. Drawn only if stderr is a terminal, not `quiet`, and after a second of work;
-/// always reacts to Ctrl-C.
+/// A progress line with the time left. It is drawn only if stderr is a terminal, not `quiet`, and
+/// after a second of work; it always reacts to Ctrl-C.
 Progress progress_line(std::string what, bool quiet);
 
 /// The share done and the time left at that rate; early on, the time taken.
 std::string progress_text(double fraction, double seconds);
 
-/// One safe line for `stream` (for_terminal): ASCII on a terminal whose locale (LC_ALL, LC_CTYPE,
-/// LANG) is not UTF-8; files and pipes get UTF-8.
+/// Makes foreign text one safe line for `stream` (for_terminal): ASCII on a terminal whose locale
+/// (LC_ALL, LC_CTYPE, LANG) is not UTF-8; files and pipes get UTF-8.
 std::string safe_for(std::FILE* stream, std::string_view text);
 
-/// On stdout; makes foreign text safe (safe_for).
+/// Prints to stdout and makes foreign text safe (safe_for).
 void print_lines(std::string_view text);
 
-/// One line, unless `quiet`; makes foreign text safe (safe_for).
+/// Prints one line, unless `quiet`, and makes foreign text safe (safe_for).
 void say(const std::string& line, bool quiet);
 
 void say_notes(const std::string& picture, const std::vector<std::string>& notes, bool quiet);

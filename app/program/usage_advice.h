@@ -7,11 +7,12 @@
 
 namespace culet {
 
-/// For an unknown option the command's nearest one; for a number with additions, what to write.
+/// Suggests the command's nearest option for an unknown one, and what to write instead of a number
+/// with additions.
 std::string usage_advice(const CLI::App& program, const std::vector<std::string>& words,
                          const CLI::ParseError& error);
 
-/// For `culet` without arguments.
+/// The text that `culet` prints without arguments.
 std::string first_commands();
 
 }  // namespace culet

@@ -10,8 +10,8 @@ bool is_movie(const std::filesystem::path& out);
 
 void require_ffmpeg(const std::filesystem::path& movie);
 
-/// 25 pictures per second from `frame-#####.png` in `folder`, from 00001. Complete or not at all.
-/// Throws InputError with ffmpeg's last line.
+/// Shows 25 pictures per second from `frame-#####.png` in `folder`, from 00001. The film appears
+/// complete or not at all. Throws InputError with ffmpeg's last line.
 void write_movie(const std::filesystem::path& folder, const std::filesystem::path& movie);
 
 }  // namespace culet

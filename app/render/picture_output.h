@@ -22,7 +22,7 @@ public:
     double exposure_of(const Picture& picture) const;
 
     bool goes_to_a_file() const { return !out_.empty() && out_ != "-"; }
-    /// Complete or not at all; replaces an existing file.
+    /// Writes completely or not at all; replaces an existing file.
     void write(const Picture& picture,
                const std::vector<std::pair<std::string, std::string>>& text) const;
 

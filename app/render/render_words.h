@@ -10,7 +10,7 @@ namespace culet {
 /// k_usual_budget_ns in words for people.
 constexpr int k_usual_seconds = 10;
 
-/// If the choice was left to culet.
+/// Says how accurate the picture is, if that was left to culet.
 void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet);
 void say_all_about(const RenderStats& stats);
 void say_verified(const Verification& found, bool quiet);

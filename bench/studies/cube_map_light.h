@@ -9,12 +9,12 @@ namespace culet {
 /// The light that arrives at the origin, as a map of all directions, `width` texels wide.
 EnvironmentMap light_at_origin(const Lights& lights, int width);
 
-/// Perpendicular to x, at that distance from the origin; as large as it must be to look the same
-/// from there.
+/// The wall is perpendicular to x at that distance, and as large as it must be to look the same
+/// from the origin.
 Lights windows_at(double distance);
 
-/// Mean over the stone's pixels, relative to their mean, of the picture lit by the map against that
-/// by the lights themselves.
+/// The mean difference between the picture lit by the map and the one lit by the lights, over the
+/// stone's pixels, relative to their mean.
 double cube_map_error(const Scene& scene, const Lights& lights, int map_width);
 
 }  // namespace culet

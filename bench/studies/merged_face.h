@@ -21,11 +21,11 @@ struct FacePowers {
 /// incidence.
 FacePowers exact_face(double n_o, double n_e, const Vec3& axis, double incidence);
 
-/// The same with merged waves: s and p enter as through glass. They are then divided by the angle
-/// between their vibrations and those of the two waves along the single ray.
+/// The same with merged waves: s and p enter as through glass. They are then split according to the
+/// angle between their vibrations and those of the two waves along the single ray.
 FacePowers merged_face(double n_o, double n_e, const Vec3& axis, double incidence);
 
-/// Any of the eight, over incidences to 90 degrees in `steps` steps.
+/// Takes the largest of the eight, over incidences to 90 degrees in `steps` steps.
 double largest_face_difference(double n_o, double n_e, const Vec3& axis, int steps);
 
 }  // namespace culet

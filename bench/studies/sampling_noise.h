@@ -16,9 +16,9 @@ struct SamplingNoise {
     Picture picture;
 };
 
-/// Scene files by the reference renderer, `width` pixels wide. Two pictures with different random
-/// numbers per number of samples: their difference has twice the variance of either. `overrides`
-/// are keys of the scene.
+/// Draws a scene file with the reference renderer, `width` pixels wide: two pictures with different
+/// random numbers per number of samples, whose difference has twice the variance of either.
+/// `overrides` are keys of the scene.
 std::vector<SamplingNoise> sampling_noise(const std::filesystem::path& scene, int width,
                                           const std::vector<int>& samples,
                                           const std::vector<std::string>& overrides = {});

@@ -17,7 +17,7 @@ struct TableCost {
     Picture picture;
 };
 
-/// With one ray per pixel.
+/// Uses one ray per pixel.
 TableCost table_cost(const Scene& scene);
 
 }  // namespace culet

@@ -9,7 +9,7 @@ namespace culet {
 /// At heights of 0.70 and 0.98 on the unit sphere, that is 44.4 and 78.5 degrees of elevation.
 ScopeBands diamond_webgl_bands();
 
-/// Found by bisection over round brilliants of index `n`, in degrees.
+/// Bisects over round brilliants of index `n`; degrees.
 double table_flip_deg(double n);
 
 /// Two opposite mains reflect light that comes straight down; it leaves the table at n sin(180 - 4

@@ -60,10 +60,10 @@ class Comparison:
     reason: str  #: the verdict in one sentence
     usable: bool  #: False: the outlines do not fit, so scores mean nothing
     scores: Dict[str, Any] = field(repr=False)  #: all of it, as `culet compare --json`
-    #: Arrays in the frame of the photograph's close-up. (H, W, 3): photo and render. (H, W), with NaN
+    #: Arrays in the frame of the photograph's close-up. (H, W, 3): photo and render. (H, W), NaN
     #: where nothing is compared: luminance_difference (-1 to 1), colour_difference (CIEDE2000),
-    #: visible_difference (FLIP, 0 to 1), similarity (SSIM), and within_readings (0: within one sigma
-    #: of the readings' uncertainty, 0.5: within two, 1: outside)
+    #: visible_difference (FLIP, 0 to 1), similarity (SSIM), and within_readings (0: within one
+    #: sigma of the readings' uncertainty, 0.5: within two, 1: outside)
     maps: Dict[str, np.ndarray] = field(repr=False)
     page: str = field(repr=False)  #: the report as one HTML page
 

@@ -20,7 +20,7 @@ struct StepProportions {
         pavilion;  ///< from the girdle outwards; the last pavilion tier ends in the keel
 };
 
-/// Eight sides (four when `corner` is 0). All sides of a tier have one slope, so tiers meet in
+/// Has eight sides (four when `corner` is 0). All sides of a tier have one slope, so tiers meet in
 /// level edges and the pavilion ends in a keel. Throws InputError when tiers close before the
 /// table.
 Solid step_cut(const StepProportions& proportions);

@@ -101,7 +101,7 @@ private:
                plane.normal.z;
     }
 
-    // If nothing else were cut; as nearly as in real designs.
+    // True if the facets would meet if nothing else were cut, as nearly as in real designs.
     bool meet_over_the_middle(const std::vector<int>& facets) const {
         double least = 0, most = 0;
         for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -172,7 +172,7 @@ private:
         return {CutDepth::To::distance, {}, std::abs(height_above(plane, middle_))};
     }
 
-    // If the other side is cut already.
+    // The height to the other side, if that is cut already.
     CutDepth height(std::size_t step) const {
         const Plane& plane = facet_of(list_[step]).plane;
         double most = 0;

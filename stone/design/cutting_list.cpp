@@ -89,7 +89,7 @@ private:
         return setting_of(solid_.facets[std::size_t(f)].plane, design_);
     }
 
-    // By which most facets are turned against the design.
+    // Finds the turn against the design that most facets share.
     void find_turn() {
         std::vector<double> off;
         double most = 0;

@@ -55,8 +55,8 @@ struct CuttingOptions {
     double shown_deg = 0.1;  ///< what the goniometer shows; smaller differences are ignored
 };
 
-/// In the order of the solid's design (`cutting_design`). A turn against the design that the facets
-/// of a fitted or recut stone share is taken out. z is up.
+/// Follows the order of the solid's design (`cutting_design`). A turn against the design that the
+/// facets of a fitted or recut stone share is removed. z is up.
 std::vector<CuttingStep> cutting_list(const Solid& solid, const CuttingOptions& options = {});
 
 double gear_of(const Solid& solid, const CuttingOptions& options);

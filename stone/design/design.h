@@ -55,7 +55,7 @@ struct DesignPlace {
     int tier = -1, facet = -1;  ///< of the design; -1: it does not have the facet
 };
 
-/// By facet of the solid.
+/// One place for each facet of the solid.
 std::vector<DesignPlace> places_of(const Solid& solid);
 
 /// A cutter's names of the tiers: the tier's one label; else what its labels have in common, if no
@@ -73,7 +73,8 @@ Design cutting_design(const Solid& solid);
 /// gets their mean angle and distance.
 void join_split_tiers(const Solid& solid, Design& design);
 
-/// As lines of GemCad's .asc that hold the facets' names too, and back. Throws InputError.
+/// Writes lines of GemCad's .asc that hold the facets' names too, and reads them. Throws
+/// InputError.
 std::string design_text(const Design& design);
 Design design_in(std::string_view text);
 

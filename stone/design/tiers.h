@@ -15,7 +15,7 @@ enum class StonePart { table, crown, girdle, pavilion, culet };
 
 StonePart part_of(const Solid& solid, int facet, int table, const Vec3& up);
 
-/// Or -1.
+/// Returns -1 without a table.
 int table_facet(const Solid& solid, const Vec3& up);
 
 /// Facets that reach from the girdle to the table (crown), or to the lowest corner or the culet
@@ -40,7 +40,7 @@ struct FacetTier {
 
 std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
 
-/// For each of `facets` facets the index of the tier that lists it; -1: none does.
+/// For each facet the index of the tier that lists it; -1: none does.
 template <class Tier>
 std::vector<int> tier_of_each(const std::vector<Tier>& tiers, std::size_t facets) {
     std::vector<int> tier_of(facets, -1);

@@ -5,9 +5,9 @@
 
 namespace culet {
 
-/// The same stone turned by the least rotation that brings its up direction to +z, in mm, and moved
-/// along z only. The girdle's plane is the middle of where the stone is widest (`girdle_outline`).
-/// Throws InputError for a solid without extent.
+/// Turns the stone by the least rotation that brings its up direction to +z, scales it to mm, and
+/// moves it along z only. The girdle's plane is the middle of where the stone is widest
+/// (`girdle_outline`). Throws InputError for a solid without extent.
 Stone in_export_frame(const Stone& stone);
 
 /// Puts all corners of a convex stone on their planes: intersects the planes anew where corners are

@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    // At a multiple of four bytes.
+    // Aligns to a multiple of four bytes.
     template <class T>
     int add_view(const std::vector<T>& elements, int target) {
         std::vector<unsigned char>& data = model_.buffers[0].data;

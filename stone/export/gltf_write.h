@@ -33,7 +33,7 @@ enum class GltfForm {
 /// InputError for a solid without facets.
 std::string gltf_bytes(const Stone& stone, const std::optional<GltfLook>& look, GltfForm form);
 
-/// Without the material's colour (see render/export): the mean index at the d line, and the
+/// Leaves out the colour (see render/export). Takes the mean index at the d line, and the
 /// dispersion from the F to the C line.
 GltfLook gltf_look_of(const Material& material);
 

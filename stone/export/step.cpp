@@ -164,7 +164,7 @@ private:
         return vertices_[corner] = entity("VERTEX_POINT('',#{})", at);
     }
 
-    // From its first corner to its second; the other face uses it reversed.
+    // The edge runs from its first corner to its second; the other face uses it reversed.
     int edge(int from, int to) {
         const std::pair<int, int> key{std::min(from, to), std::max(from, to)};
         const auto known = edges_.find(key);

@@ -17,8 +17,8 @@ struct CutPlane {
     int tier = 0, facet = 0;  ///< of the design
 };
 
-/// For each tier its label, if exactly one stands in it: it holds for all facets. Empty otherwise:
-/// several labels belong to single facets.
+/// A tier's label, if exactly one stands in it: it holds for all facets. Several labels belong to
+/// single facets; the tier has none then.
 std::vector<std::string> tier_labels(const Design& design);
 
 /// Fills in the solid with its design, notes and lists of planes. Throws InputError.

@@ -119,7 +119,7 @@ private:
         }
     }
 
-    /// Once the gear is known; removes the planes' rounding error.
+    /// Call it once the gear is known. Removes the planes' rounding error.
     void settle_tiers() {
         constexpr double k_step = 1e-4, k_rounding = 1e-6;
         const auto plain = [](double value) {

@@ -152,7 +152,7 @@ private:
         line.facets.push_back(facet);
     }
 
-    // To a line from `first` on.
+    // Searches the lines from `first` on.
     void add_facet(int f, std::size_t first, const std::string& label = {}) {
         const Plane& plane = solid_.facets[std::size_t(f)].plane;
         const CutSetting wanted = setting_of(plane, design_);
@@ -182,7 +182,7 @@ private:
         return told_apart(std::move(own), of_tier) == wanted;
     }
 
-    // As GemCad does, if all names read back the same.
+    // Does as GemCad, if all names read back the same.
     void name_tiers_once() {
         for (Line& tier : lines_) tier.named_at = named_at(tier.labels);
         for (bool again = true; again;) {

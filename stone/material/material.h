@@ -55,10 +55,10 @@ struct Material {
     bool has_absorption() const;
 };
 
-/// In order: materials, then coloured varieties (`ruby_pale` is `corundum` with an absorption).
+/// Lists materials, then coloured varieties (`ruby_pale` is `corundum` with an absorption).
 std::vector<std::string> catalogue_names();
 
-/// By name in the catalogue, or by title up to a parenthesis if that is unique (`ruby` is ruby_gem,
+/// Finds a material by name, or by title up to a parenthesis if that is unique (`ruby` is ruby_gem,
 /// `blue sapphire` sapphire_blue). Throws InputError with the nearest names.
 Material catalogue_material(const std::string& name);
 

@@ -13,7 +13,7 @@ Material material_of(const TomlTable& table);
 Material read_material(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {});
 
-/// For the option --material: a material file if the name ends in .toml, else a name of the
+/// Resolves the option --material: a material file if the name ends in .toml, else a name of the
 /// catalogue.
 Material material_called(const std::string& name);
 

@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// Wavelength and value are separated by commas, semicolons, tabs or blanks, with at most one
+/// Reads wavelength and value, separated by commas, semicolons, tabs or blanks, with at most one
 /// header line, in either order of wavelengths. `quantity` (refractive index) is for messages.
 ///
 /// The wavelengths' unit is the header's (nm, um, Angstrom), or else the first of nm, um, Angstrom

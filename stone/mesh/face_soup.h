@@ -62,14 +62,14 @@ void drop_repeated_faces(FaceSoup& soup);
 /// has not exactly two faces, or the surface only one side.
 void orient_faces(FaceSoup& soup);
 
-/// On open surfaces: corners within `tolerance` of an open side of a face become corners of that
+/// On open surfaces: makes corners within `tolerance` of an open side of a face corners of that
 /// face, if that leaves fewer open sides.
 void close_t_junctions(FaceSoup& soup, double tolerance);
 
 /// The facet of each face, numbered in the order of their first faces.
 std::vector<int> facet_of_face(const FaceSoup& soup, double tolerance);
 
-/// FNV-1a of vertices and faces; tells whether a mesh was edited since culet wrote it.
+/// Hashes vertices and faces by FNV-1a; tells whether a mesh was edited since culet wrote it.
 std::uint64_t corner_hash(const std::vector<Vec3>& vertices,
                           const std::vector<const std::vector<int>*>& outlines);
 
@@ -80,8 +80,8 @@ void read_comment(FaceSoup& soup, std::string_view comment);
 /// The same comments for a solid, one per line after `sign` (`# `, `comment `).
 std::string plane_comments(const Solid& solid, std::string_view sign);
 
-/// Control characters, and a `#` or `\` that would begin a comment or continue a line, become `_`;
-/// blanks at the ends are removed.
+/// Turns control characters, and a `#` or `\` that would begin a comment or continue a line, into
+/// `_`; removes blanks at the ends.
 std::string writable_name(std::string_view name);
 
 /// Makes names unique: repeated ones get .1, .2 ...; empty ones become f0, f1 ... in order,

@@ -199,8 +199,8 @@ void drop_straight_corners(const FaceSoup& soup, std::vector<Outline>& outlines,
     }
 }
 
-/// Through the corners, unless the file gives the direction to more digits than they do (culet's
-/// ASCII STL).
+/// The plane passes through the corners, unless the file gives the direction to more digits than
+/// they do (culet's ASCII STL).
 Plane facet_plane(const FaceSoup& soup, const Outline& outline, bool precise_normals, double size) {
     const Plane own = plane_through(loop_of(soup, outline.corners));
     const double length = glm::length(outline.given_normal);

@@ -15,7 +15,7 @@ namespace culet {
 
 enum class MeshFormat { obj, off, ply, stl };
 
-/// By the extension, in either case.
+/// Goes by the extension, in either case.
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& file);
 
 struct ReadSolid {

@@ -217,7 +217,7 @@ FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
 }
 
 std::string stl_text(const Solid& solid) {
-    // With all digits, so that readers can tell which triangles form one facet.
+    // Normals have all digits, so that readers can tell which triangles form one facet.
     std::string text = "solid culet\n";
     for (const Facet& facet : solid.facets) {
         const Vec3& n = facet.plane.normal;

@@ -43,7 +43,7 @@ public:
         corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
     }
 
-    /// In order.
+    /// Sorted along the line.
     std::vector<int> between(int from, int to) const {
         const Vec3 p = at(from), along = at(to) - p;
         const double length = glm::length(along);

@@ -48,7 +48,7 @@ std::vector<int> weld_equal(const std::vector<Vec3>& vertices) {
     return welded;
 }
 
-/// Also along chains, in addition to `welded`.
+/// Merges chains too, in addition to `welded`.
 std::vector<int> weld_close(const std::vector<Vec3>& vertices, std::vector<int> welded,
                             double reach) {
     using Cell = std::array<std::int64_t, 3>;

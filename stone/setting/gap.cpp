@@ -22,7 +22,7 @@ double from_point_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
     return squared(a + t * side - p);
 }
 
-// Squared.
+// The squared distance.
 double between_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 u = b - a, v = d - c, w = a - c;
     const double uu = squared(u), vv = squared(v), uv = glm::dot(u, v);
@@ -38,7 +38,7 @@ double between_edges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
     return nearest;
 }
 
-// Squared; infinite if the corner is not over the face.
+// The squared distance; infinite if the corner is not over the face.
 double over_face(const Vec3& p, const Triangle& t) {
     const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double length = squared(normal);

@@ -19,8 +19,8 @@ class StoneSurface {
 public:
     explicit StoneSurface(const Solid& solid);
 
-    /// 0 where they meet. Does not tell a shell wholly inside from one outside. Distances above
-    /// `up_to` are not searched.
+    /// Returns 0 where they meet. Does not tell a shell wholly inside from one outside. Distances
+    /// above `up_to` are not searched.
     double distance_to(const Shell& shell, double up_to) const;
 
 private:

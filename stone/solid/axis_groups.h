@@ -43,8 +43,8 @@ struct AxisGroup {
 /// The largest group of motions with misfits up to `largest_misfit` (in the points' unit).
 AxisGroup largest_group(const std::vector<AxisMotion>& motions, double largest_misfit);
 
-/// Without the trivial one, the largest (the group itself) first. Conjugate subgroups are listed
-/// separately (C8v contains C4v twice).
+/// Excludes the trivial one; the group itself comes first, then smaller ones. Conjugate subgroups
+/// are listed separately (C8v contains C4v twice).
 std::vector<AxisGroup> subgroups_of(const AxisGroup& group);
 
 struct FacetOrbit {

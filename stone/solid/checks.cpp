@@ -116,7 +116,7 @@ private:
     }
 
     void check_pieces(Groups& pieces) {
-        // By the first facet of each part.
+        // Keyed by the first facet of each part.
         std::map<int, int> first_of, sizes;
         for (int f = 0; f < static_cast<int>(solid_.facets.size()); ++f)
             ++sizes[first_of.try_emplace(pieces.find(f), f).first->second];

@@ -22,8 +22,8 @@ std::vector<std::array<int, 3>> facet_triangles(const Solid& solid, const Facet&
         });
     };
     while (left.size() > 3) {
-        // From the second corner, so that a convex facet becomes a fan about its first. Without an
-        // ear, by rounding, the rest has no width and any corner will do.
+        // Starts at the second corner, so that a convex facet becomes a fan about its first. If
+        // rounding leaves no ear, the rest has no width and any corner will do.
         std::size_t ear = 1;
         for (std::size_t i = 0; i < left.size(); ++i) {
             if (is_ear((1 + i) % left.size())) {

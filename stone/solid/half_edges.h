@@ -8,7 +8,7 @@
 
 namespace culet {
 
-/// From corner `from` to `to`, with facet `left` on its left as seen from outside. Each edge
+/// Runs from corner `from` to `to`, with facet `left` on its left as seen from outside. Each edge
 /// appears once, with from < to.
 struct Edge {
     int from = -1, to = -1;

@@ -108,7 +108,7 @@ public:
             corner_of_cut[edge] = add_corner(pair.first, pair.second, plane);
         }
 
-        // From corner to next corner.
+        // Maps each corner to the next.
         std::unordered_map<int, int> next;
         std::vector<Face> kept;
         kept.reserve(faces_.size() + 1);

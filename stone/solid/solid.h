@@ -42,7 +42,7 @@ struct Solid {
     std::shared_ptr<const Design> design = nullptr;
 };
 
-/// Or -1.
+/// Returns -1 if there is none.
 int find_facet(const Solid& solid, std::string_view name);
 
 /// Twice the largest distance from the bounding box's middle to a vertex. 0 without vertices.
@@ -51,7 +51,7 @@ double diameter(const Solid& solid);
 /// Distance between caliper jaws along a direction of any length.
 double width_along(const Solid& solid, const Vec3& direction);
 
-/// By the divergence theorem over the facets' corner fans; negative when inside-out.
+/// Uses the divergence theorem over the facets' corner fans; negative when inside-out.
 double volume(const Solid& solid);
 
 Vec3 centroid(const Solid& solid);

@@ -15,7 +15,7 @@ inline Change facets_turned_round(const std::string& why, int count) {
     return {"facets turned round", why, double(count), 0, "facets inside out"};
 }
 
-/// For any JSON type of nlohmann's.
+/// Works for any JSON type of nlohmann's.
 template <class Json>
 void to_json(Json& json, const Change& change) {
     json = Json{{"what", change.what},

@@ -19,7 +19,7 @@ bool precedes_the_header(std::string_view line) {
     return start == std::string::npos || plain[start] == '#' || plain.starts_with("sep=");
 }
 
-// By the header.
+// The header decides.
 char separator_of(std::string_view text) {
     std::size_t begin = 0;
     while (begin < text.size()) {

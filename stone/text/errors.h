@@ -38,7 +38,7 @@ public:
 /// 2000.
 std::string for_terminal(std::string_view text, bool ascii = false);
 
-/// In release builds too.
+/// Stays on in release builds.
 inline void check(bool condition, const char* what) {
     if (!condition) throw InternalError(what);
 }

@@ -29,14 +29,14 @@ private:
 /// Call it before long work and before the first of several outputs.
 void require_writable(const std::filesystem::path& target);
 
-/// Complete or not at all; `-` is stdout.
+/// Writes completely or not at all; `-` is stdout.
 void write_text(const std::filesystem::path& target, std::string_view text);
 
 /// Throws InputError when the file is missing, a folder, not readable, or larger than
 /// `limit_bytes`.
 std::string read_text(const std::filesystem::path& file, std::size_t limit_bytes = 256u << 20);
 
-/// `foreign_kind` (text_decoding.h) of the file's first bytes; empty if unreadable.
+/// Returns `foreign_kind` (text_decoding.h) of the file's first bytes; empty if unreadable.
 std::string foreign_kind_of(const std::filesystem::path& file);
 
 }  // namespace culet

@@ -26,7 +26,7 @@ namespace {
 constexpr std::string_view k_wide_blanks[] = {"\u00a0", "\u2007", "\u2009",
                                               "\u202f", "\u3000", "\ufeff"};
 
-// In bytes; 0: none.
+// The number of bytes; 0: none.
 std::size_t blank_before(std::string_view text) {
     const char c = text.front();
     if (c == ' ' || (c >= '\t' && c <= '\r')) return 1;

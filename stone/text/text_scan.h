@@ -24,21 +24,21 @@ private:
     long line_ = 0;
 };
 
-/// Separated by blanks: those of ASCII, U+00A0, U+2007, U+2009, U+202F, U+3000 (no-break, thin and
-/// wide ones) and a byte order mark.
+/// Words are separated by blanks: those of ASCII, U+00A0, U+2007, U+2009, U+202F, U+3000 (no-break,
+/// thin and wide ones) and a byte order mark.
 std::vector<std::string_view> words_of(std::string_view line);
 
 /// Removes the same blanks at both ends.
 std::string_view trimmed(std::string_view line);
 
-/// ASCII letters only.
+/// Converts ASCII letters only.
 std::string lower_case(std::string text);
 
-/// Without its point, in lower case.
+/// The extension without its point, in lower case.
 std::string extension_of(const std::filesystem::path& file);
 
-/// Safe to show: at most 40 characters of UTF-8; control characters, those that reorder text, and
-/// invalid bytes become `?`.
+/// Makes a word safe to show: at most 40 characters of UTF-8; control characters, those that
+/// reorder text, and invalid bytes become `?`.
 std::string shown(std::string_view word);
 
 /// Replaces a typographic minus (U+2212, an en dash, ...) before a number by `-`.
@@ -51,7 +51,7 @@ std::optional<double> number_in(std::string_view word);
 std::string not_a_number(std::string_view word);
 std::optional<std::int64_t> integer_in(std::string_view word);
 
-/// How precisely a file states its coordinates, estimated from their digits.
+/// Estimates how precisely a file states its coordinates, from their digits.
 class WrittenPrecision {
 public:
     /// A coordinate as written in the text.

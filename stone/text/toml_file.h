@@ -40,7 +40,7 @@ public:
     enum class Kind { missing, number, boolean, text, list, table, other };
     Kind kind(std::string_view key) const;
 
-    /// Resolved against the file's folder.
+    /// Paths are resolved against the file's folder.
     std::optional<std::filesystem::path> path(std::string_view key) const;
     /// A file that came with the text; null: read it from disk.
     const std::string* held_file(std::string_view key) const;

@@ -29,7 +29,7 @@ std::vector<std::string> split(std::string_view text, char at) {
 // dotted keys.
 constexpr std::size_t k_most_key_parts = 16;
 
-// From 1.
+// `number` counts from 1.
 std::string_view line_of_text(std::string_view text, long number) {
     for (; number > 1; --number) {
         const std::size_t end = text.find('\n');

@@ -18,7 +18,7 @@ struct TomlTable::Content {
     HeldFiles held;
 };
 
-/// With `overrides` (KEY.PATH=VALUE) applied. Throws InputError.
+/// Applies `overrides` (KEY.PATH=VALUE). Throws InputError.
 toml::table parse_toml(std::string_view text, const std::filesystem::path& file,
                        const std::vector<std::string>& overrides);
 void apply_override(toml::table& root, const std::string& setting);

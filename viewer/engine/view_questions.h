@@ -20,7 +20,7 @@ struct SeenFacet {
 /// Throws InputError for a conoscope.
 std::vector<SeenFacet> seen_facets(const Stone& stone, const Camera& camera);
 
-/// As `culet probe --json` writes them. Throws InputError.
+/// Writes what `culet probe --json` writes. Throws InputError.
 std::string paths_at(const Scene& scene, double x, double y);
 
 }  // namespace culet

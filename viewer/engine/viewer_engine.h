@@ -25,11 +25,11 @@ public:
 
     static std::vector<std::string_view> calls();
 
-    /// Of the last `draw`: RGBA, row by row from the top.
+    /// RGBA of the last `draw`, row by row from the top.
     const std::vector<std::uint8_t>& pixels() const;
-    /// Of the last `radiance`: linear RGB.
+    /// Linear RGB of the last `radiance`.
     const std::vector<float>& radiance() const;
-    /// Of the last `gpu`: all its textures, RGBA.
+    /// RGBA of all textures of the last `gpu`.
     const std::vector<float>& texels() const;
 
 private:

@@ -18,7 +18,7 @@ class FinePicture {
     this.busy = null;
   }
 
-  // As the page's other engine holds it: the item, a changed cut, a panorama.
+  // Opens what the page's other engine holds: the item, a changed cut, a panorama.
   async open() {
     const page = this.page, item = page.state.get("item");
     const key = JSON.stringify([item, page.scene_version]);

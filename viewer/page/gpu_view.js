@@ -100,7 +100,7 @@ class GpuView {
     }
   }
 
-  // From a small picture by the engine.
+  // Computed from a small picture by the engine.
   async exposure_to_the_stone(settings, width, height) {
     const page = this.page, scale = 200 / Math.max(200, width, height);
     const stone = page.shown_index();

@@ -156,7 +156,7 @@ function camera_of(base, view, center, width, height) {
   return camera;
 }
 
-// From points of the stone to pixels [x, y] (x to the right, y down).
+// Maps points of the stone to pixels [x, y] (x to the right, y down).
 function projection_of(base, view, center, width, height) {
   const scale = height / 2 / half_height_of(base, view.zoom, width, height);
   return (point) => {
@@ -168,7 +168,7 @@ function projection_of(base, view, center, width, height) {
   };
 }
 
-// By the facet's outward normal and a point of it.
+// Needs the facet's outward normal and a point of it.
 function faces_eye(base, view, center, normal, point) {
   const n = Turn.of(view.turn, normal);
   if (base.orthographic) return n[2] > 0;
