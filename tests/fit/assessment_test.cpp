@@ -1,5 +1,5 @@
-// What a fit's numbers say: proportions, wrong readings, disagreements, what is open, what to
-// measure next, instruments that round, robust losses, fitting again.
+// What a fit reports beside the stone: proportions, wrong readings, disagreements, open directions,
+// what to measure next, rounding of instruments, robust losses, refits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ std::vector<Reading> full_readings(const Solid& truth) {
     return readings;
 }
 
-// From the truth on, which saves the search for a start: statistics need many fits.
+// Starts at the truth, which saves the search for a start: these statistics need many fits.
 FitResult fit_from_truth(const Solid& truth, const std::vector<Reading>& readings) {
     FitOptions options;
     options.start = truth;
@@ -50,8 +50,9 @@ std::size_t index_of(const std::vector<Reading>& readings, ReadingKind kind, int
     throw std::runtime_error("no such reading");
 }
 
-// The brilliant is made from its proportions (test_stones.h): table 57 %, crown 34.5, pavilion 40.8
-// degrees, radius 3. Its girdle is a regular 16-gon of circumradius 3: perimeter / pi.
+// The brilliant is made from its proportions (test_stones.h): table 57 %, crown 34.5 degrees,
+// pavilion 40.8 degrees, radius 3 mm. Its girdle is a regular 16-gon of circumradius 3, so its
+// diameter is perimeter / pi.
 TEST(Proportions, OfABrilliantAreThoseItWasMadeFrom) {
     const Solid truth = brilliant();
     const FitResult result = fit_stone(stone_of(truth), full_readings(truth));
@@ -71,7 +72,8 @@ TEST(Proportions, OfABrilliantAreThoseItWasMadeFrom) {
     for (const FittedProportion& p : result.findings.proportions) EXPECT_GT(p.sigma, 0) << p.name;
 }
 
-// Derivatives of every proportion against central differences, on a stone without symmetry.
+// Compares the derivatives of every proportion with central differences on a stone without
+// symmetry.
 TEST(Proportions, SlopesMatchDifferences) {
     const Solid box = enclosed({{"T", {glm::normalize(Vec3{0.02, 0.01, 1}), 1}},
                                 {"X+", {glm::normalize(Vec3{1, 0.1, 0.05}), 1.4}},
@@ -126,13 +128,14 @@ TEST(Snooping, NamesTwoErrorsPlantedAtOnce) {
             named += result.readings[r].suspect;
         }
     }
-    // The figure to reach is 80 %; of 20 a success rate of 95 % gives fewer than 16 once in 3000.
+    // The required success rate is 80 %. At a true rate of 95 %, 20 trials give fewer than 16
+    // successes once in 3000.
     EXPECT_GE(tried, 12);
     EXPECT_GE(named, 0.8 * tried);
 }
 
-// Of 40 clean stones at a level of 0.001 for each of two tests, more than two alarms happen less
-// than once in 10^4 trials.
+// Two tests at a level of 0.001 each, on 40 clean stones: more than two false alarms happen less
+// than once in 10^4 runs.
 TEST(Snooping, RarelyCriesWolf) {
     const Solid truth = brilliant();
     const std::vector<Reading> clean = full_readings(truth);
@@ -143,9 +146,9 @@ TEST(Snooping, RarelyCriesWolf) {
     EXPECT_LE(alarms, 2);
 }
 
-// Coverage of one and two sigma by inclinations. Facets of one fit hang together: the count of fits
-// times ten independent combinations each bounds the scatter: 3.5 binomial standard deviations of
-// 250 (0.103 and 0.048).
+// Coverage of one and two sigma by inclinations. Facets of one fit are correlated. Ten independent
+// combinations per fit give 250 in all; the bounds are 3.5 binomial standard deviations (0.103 and
+// 0.048).
 TEST(Honesty, TrueAnglesLieWithinTheirSigmas) {
     const Solid truth = brilliant();
     const std::vector<Reading> clean = full_readings(truth);
@@ -166,7 +169,7 @@ TEST(Honesty, TrueAnglesLieWithinTheirSigmas) {
     }
     EXPECT_NEAR(double(one) / count, 0.6827, 0.103);
     EXPECT_NEAR(double(two) / count, 0.9545, 0.048);
-    // Error over the Cramer-Rao limit.
+    // The error relative to the Cramer-Rao limit.
     EXPECT_NEAR(std::sqrt(squares / count), 1, 0.15);
 }
 
@@ -186,7 +189,7 @@ TEST(Slips, AreRecognised) {
     ASSERT_TRUE(inch);
     EXPECT_EQ(inch->what, "inches for mm");
     EXPECT_NEAR(find_slip(1.24, {1.42, 0.005, 0.01}, Measured::length)->corrected, 1.42, 1e-12);
-    // A stone of 1.2 ct, weighed as 0.24 g.
+    // A stone of 1.2 ct whose weight was entered as 0.24 g.
     const auto grams = find_slip(0.24, {1.203, 0.005, 0.01}, Measured::weight);
     ASSERT_TRUE(grams);
     EXPECT_EQ(grams->what, "grams for carats");
@@ -196,15 +199,17 @@ TEST(Slips, AreRecognised) {
     EXPECT_FALSE(find_slip(77.77, {34.5, 0.005, 0.01}, Measured::length));
 }
 
-// What was meant is known in these: a width of an oval, and angles whose tiers say where they lie.
+// The intended value is known in these cases: a width of an oval, and angles that agree with the
+// rest of their tier.
 TEST(Slips, OfSeveralTheOneNearestToWhatWasMeantIsNamed) {
-    // 9.59 has two digits swapped, two sigmas off; 9.45 one digit wrong, and is what others say.
+    // 9.59 has two digits swapped and is two sigmas off; 9.45 has one wrong digit and is what the
+    // others say.
     EXPECT_NEAR(find_slip(9.95, {9.45, 0.066, 0.132}, Measured::length)->corrected, 9.45, 1e-12);
-    // Swapped digits where both are as near.
+    // Where both corrections are equally near, swapped digits win.
     EXPECT_EQ(find_slip(43.5, {34.5, 0.3, 1}, Measured::angle)->what, "two digits swapped");
-    // 30.3 typed as 03.3: a spreadsheet keeps 3.3.
+    // 30.3 was typed as 03.3, and a spreadsheet keeps 3.3.
     EXPECT_NEAR(find_slip(3.3, {30.2, 0.3, 1}, Measured::angle)->corrected, 30.3, 1e-12);
-    // None is better than one that leads far away.
+    // No correction is better than one that leads far away.
     EXPECT_FALSE(find_slip(40.8, {37.4, 0.15, 0.5}, Measured::angle));
 }
 
@@ -238,8 +243,8 @@ TEST(Slips, OfAnImpossibleInclinationAreProposedAtOnce) {
     }
 }
 
-// The box's four sides: three inclinations exact and a rotation exact cannot all hold when one
-// differs; the others have no part in it.
+// The box's four sides: three exact inclinations and an exact rotation contradict each other when
+// one inclination differs. The other readings take no part.
 TEST(Disagreement, OfExactReadingsNamesTheFewest) {
     const Solid box = cube();
     const auto exact = [&](const char* name, double deg) {
@@ -262,8 +267,8 @@ TEST(Disagreement, OfExactReadingsNamesTheFewest) {
         << result.message;
 }
 
-// Three equal depths and one that differs by 8 sigma: it is named, and the fewest that disagree are
-// it and one other.
+// Three equal depths and one that is 8 sigma off: the smallest disagreeing set is that one and one
+// other.
 TEST(Disagreement, OfReadingsOfOneQuantityIsBetweenTwo) {
     std::vector<Reading> readings;
     for (int i = 0; i < 4; ++i) {
@@ -278,7 +283,7 @@ TEST(Disagreement, OfReadingsOfOneQuantityIsBetweenTwo) {
     EXPECT_EQ(result.findings.disagreeing.size(), 2u);
 }
 
-// Two readings of one quantity: neither can be told to be the wrong one.
+// With two readings of one quantity nothing tells which one is wrong.
 TEST(Disagreement, OfTwoNamesBoth) {
     std::vector<Reading> readings{depth(cube(), 0.01), depth(cube(), 0.01)};
     readings[0].id = "a";
@@ -295,7 +300,7 @@ TEST(Undetermined, IsSaidInWords) {
     const Solid truth = brilliant();
     std::vector<Reading> readings;
     const int s3 = find_facet(truth, "S3");
-    // Angles of all but one star's azimuth, no edges; offsets are open but for the depth.
+    // All angles but one star's azimuth, and no edges: all offsets but the depth are open.
     for (const Reading& r : full_readings(truth)) {
         if (r.kind == ReadingKind::edge) continue;
         if (r.kind == ReadingKind::azimuth && r.facets[0] == s3) continue;
@@ -308,8 +313,8 @@ TEST(Undetermined, IsSaidInWords) {
     EXPECT_THAT(result.message, Not(IsEmpty()));
 }
 
-// What the proposal promises is what it gives: fitted again with that reading added, the total
-// variance drops by that part. And a box of two known widths lacks its depth.
+// A box with two known widths lacks its depth. Adding the proposed reading must lower the rank
+// defect by one.
 TEST(Help, KeepsItsPromise) {
     const Solid box = cube();
     std::vector<Reading> readings = all_angles(box, radians(0.1), "T");
@@ -336,8 +341,9 @@ TEST(Help, KeepsItsPromise) {
     EXPECT_EQ(after.statistics.rank_defect, before.statistics.rank_defect - 1);
 }
 
-// Widrow & Kollar: without noise all of step^2/12 is common, from half a step on next to nothing;
-// in between by simulation of the mean square of E[rounded] - truth.
+// Without noise the whole of step^2/12 is common to all readings; from sigma = step/2 on almost
+// none of it is (Widrow & Kollar). In between, the expectation is a computed mean square of
+// E[rounded] - truth.
 TEST(Rounding, CommonVarianceMatchesSimulation) {
     const double step = 0.1;
     EXPECT_NEAR(common_rounding_variance(0, step), step * step / 12, 1e-15);
@@ -347,7 +353,7 @@ TEST(Rounding, CommonVarianceMatchesSimulation) {
         const int positions = 400;
         for (int i = 0; i < positions; ++i) {
             const double truth = step * (i + 0.5) / positions;
-            // E[rounded] = sum over steps of value times probability (normal tails).
+            // E[rounded] is the sum over the steps of value times probability (normal tails).
             double mean = 0;
             for (int k = -20; k <= 20; ++k) {
                 const auto below = [&](double x) {
@@ -362,9 +368,9 @@ TEST(Rounding, CommonVarianceMatchesSimulation) {
     }
 }
 
-// A box read to 0.1 mm, ten times each width: the depth's reported uncertainty against its error
-// over many positions between the steps. Counting ten readings as independent would claim
-// step / sqrt(120), which is too small by a factor of three.
+// A box read to 0.1 mm, ten times per width. The depth's reported uncertainty is compared with its
+// error over many positions between the steps. If the ten readings counted as independent, the
+// claim would be step / sqrt(120), too small by a factor of three.
 TEST(Rounding, RepeatedReadingsShareTheirRounding) {
     double squares = 0, sigma = 0;
     const int stones = 40;
@@ -421,7 +427,7 @@ TEST(Refit, EndsWhereAFreshFitEnds) {
     for (std::size_t f = 0; f < truth.facets.size(); ++f) {
         EXPECT_NEAR(again.facets[f].inclination, fresh.facets[f].inclination, 1e-6);
     }
-    // A start of another stone is no start.
+    // A start from another stone is ignored.
     options.start = cube();
     EXPECT_NEAR(fit_stone(mesh, readings, options).statistics.chi2, fresh.statistics.chi2, 1e-4);
 }

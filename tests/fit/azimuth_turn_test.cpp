@@ -1,5 +1,5 @@
-// By how much the azimuths read stand turned against a mesh: a drawing that is off at random is not
-// turned. Expectations: the turns that the tests make.
+// Finding the turn between the azimuths that were read and the mesh. A drawing with random errors
+// counts as not turned. Expectations: the turns that the tests make.
 
 #include "fit/model/azimuth_turn.h"
 
@@ -22,7 +22,8 @@ struct Azimuths {
     }
 };
 
-// 64 facets all round, whose drawn azimuths are off by `scatter_deg` each, and all by `turn_deg`.
+// 64 facets all round. Each drawn azimuth is off by its own error of `scatter_deg` and by a common
+// `turn_deg`.
 Azimuths azimuths(double scatter_deg, double turn_deg, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0, radians(scatter_deg));

@@ -1,4 +1,5 @@
-// Which way facets look, told by the edges read round them. Expected is how the stones were made.
+// Which way facets face, deduced from the edges read around them. Expectations: how the stones were
+// made.
 #include "fit/starts/closing_sides.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ std::vector<WrittenReading> with_azimuths(const Truth& truth, unsigned seed) {
 struct Found {
     int right = 0, wrong = 0, unknown = 0;
 };
-// From a mesh that says nothing of any facet but where it puts the corners.
+// From a mesh of which only the corners' positions are used.
 Found sides_found(const Truth& truth, const Stone& mesh, double noise,
                   const std::vector<WrittenReading>& written) {
     const std::vector<Reading> readings = bind_readings(written, mesh);
@@ -67,7 +68,7 @@ TEST(ClosingSides, AreLeftAloneWhereTheMeshKnowsThem) {
     const Stone mesh = aimed_at_zero(truth.stone);
     const std::vector<Reading> readings = bind_readings(with_azimuths(truth, 1), mesh);
     const FitModel model(mesh, readings, {});
-    // Even wrong ones: it is not asked again.
+    // Known sides stay fixed, even wrong ones.
     const std::vector<int> known(mesh.solid.facets.size(), 1);
     EXPECT_EQ(closing_sides(model, known, 0.01), known);
 }
@@ -80,8 +81,8 @@ TEST(ClosingSides, AreNotToldWithoutAzimuths) {
     EXPECT_EQ(closing_sides(model, none, 0.01), none);
 }
 
-// Neighbours along the girdle that all lean the wrong way hold each other: turned over one by one,
-// each makes chi-square larger.
+// Neighbours along the girdle that all lean the wrong way stabilise each other: flipping any one of
+// them alone makes chi-square larger.
 TEST(ClosingSides, LetAStoneOfManyGirdleFacetsBeFoundFromAShakenMesh) {
     const Truth truth = make_tiered(200, 4);
     const auto readings = with_azimuths(truth, 5);

@@ -1,5 +1,5 @@
-// Rows that were copied, and rows that were read again. Expectations: the chance that readings with
-// a standard deviation fall into one step of the scale (copied_rows.h).
+// Distinguishes rows that were copied from rows that were read again. Expectations: the chance that
+// readings with a given sigma fall into one step of the scale (copied_rows.h).
 
 #include "fit/readings/copied_rows.h"
 
@@ -24,14 +24,14 @@ WrittenReading width_row(const std::string& azimuth, double value, double sigma)
     return w;
 }
 
-// A hundredth read twice with a sigma of two: alike in one case of five at most.
+// Two readings to 0.01 with a sigma of two steps agree in at most one case of five.
 TEST(CopiedRows, AreNotThoseThatWereReadAgain) {
     const std::vector<WrittenReading> rows{width_row("0", 6.52, 0.02), width_row("0", 6.52, 0.02),
                                            width_row("0", 6.53, 0.02), width_row("45", 6.5, 0.02)};
     EXPECT_THAT(copied_rows(rows), testing::Each(false));
 }
 
-// Four decimals and a sigma of a hundredth: alike in four cases of a thousand, twice in 16 of a
+// With four decimals and a sigma of 0.01 one pair agrees in 4 cases of 1000, two pairs in 16 of a
 // million.
 TEST(CopiedRows, RepeatEveryDigit) {
     std::vector<WrittenReading> rows{width_row("0", 6.5204, 0.01), width_row("45", 6.4987, 0.01)};
@@ -42,7 +42,7 @@ TEST(CopiedRows, RepeatEveryDigit) {
     EXPECT_THAT(copied_rows(rows), testing::Each(false)) << "one alike of two, by chance";
 }
 
-// Nothing is known of the scale of whole numbers but that its step is not much more than sigma.
+// Whole numbers say nothing of their scale, except that its step is not much larger than sigma.
 TEST(CopiedRows, OfWholeNumbersTakeManyCopies) {
     const std::vector<WrittenReading> few(3, width_row("0", 6, 0.01)), many(100, few[0]);
     EXPECT_THAT(copied_rows(few), testing::Each(false));

@@ -1,4 +1,4 @@
-// The covariance of a fit: each algorithm against another one.
+// The covariance of a fit: each algorithm is checked against another one.
 #include "fit/uncertainty/covariance.h"
 
 #include <gtest/gtest.h>
@@ -32,11 +32,12 @@ Sparse random_rows(int rows, int columns, int entries, unsigned seed) {
     return result;
 }
 
-// Rank by a dense QR; the basis by the definition rows * Z = 0 and full column rank.
+// The rank comes from a dense QR. The basis must satisfy its definition: rows * Z = 0 and full
+// column rank.
 TEST(FreeDirections, SpanTheNullSpace) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         Sparse rows = random_rows(30, 50, 4, seed);
-        // Ten equations that repeat sums of others.
+        // Ten equations repeat sums of others.
         Eigen::MatrixXd dense = rows;
         for (int i = 0; i < 10; ++i) dense.row(20 + i) = dense.row(i) - 3 * dense.row(i + 5);
         const Sparse repeated = dense.sparseView();
@@ -49,7 +50,8 @@ TEST(FreeDirections, SpanTheNullSpace) {
     }
 }
 
-// f' A^-1 f by dense algebra; functions inside and outside the pattern, short rows and long ones.
+// f' A^-1 f by dense algebra, for functions inside and outside the sparsity pattern, with short
+// rows and long ones.
 TEST(NormalInverse, MatchesTheInverse) {
     const int size = 150;
     for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -79,7 +81,7 @@ TEST(NormalInverse, MatchesTheInverse) {
     }
 }
 
-// Sylvester's law against eigenvalues.
+// Sylvester's law of inertia, checked with eigenvalues.
 TEST(NormalInverse, CountsNegativeEigenvalues) {
     const int size = 60;
     for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -116,7 +118,7 @@ std::vector<Case> cases() {
     return all;
 }
 
-// The sparse algorithm against the dense one: they share only the equations.
+// Compares the sparse algorithm with the dense one. They share only the equations.
 TEST(Covariance, BothAlgorithmsAgree) {
     const Stone stone = stone_of(brilliant());
     for (const Case& c : cases()) {
@@ -133,7 +135,7 @@ TEST(Covariance, BothAlgorithmsAgree) {
             for (int k = 0; k < 3; ++k) {
                 FunctionRow row(linear.layout.size());
                 row.coeffRef(linear.layout.tilt(f) + k) = 1;
-                // Where readings say as much as the mesh, the sparse one weighs both.
+                // Where readings weigh as much as the mesh, the sparse algorithm includes both.
                 const double open = std::sqrt(dense.open_variance(row));
                 EXPECT_NEAR(std::sqrt(sparse.open_variance(row)), open, 0.25 * open + 5e-3)
                     << c.name << " facet " << f << " " << k;
@@ -146,17 +148,19 @@ TEST(Covariance, BothAlgorithmsAgree) {
     }
 }
 
-// By the definition: the variance that directions leave of an unknown, over the mesh's, is the sum
-// of the squares of their share in it over what the readings say of them.
+// By definition, the variance of an unknown along the open directions, relative to the mesh's
+// variance, is the sum over directions of (share in the unknown)^2 / (information from the
+// readings).
 TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
-    // Each moves one unknown: 1/4.1 is below a quarter, 1/3.9 is not.
+    // Each direction moves one unknown: 1/4.1 is below a quarter, 1/3.9 is not.
     const Eigen::MatrixXd alone = Eigen::MatrixXd::Identity(100, 100);
     Eigen::VectorXd information = Eigen::VectorXd::Constant(100, 4.1);
     const Eigen::VectorXd even = Eigen::VectorXd::Ones(100);
     EXPECT_EQ(count_unobservable(alone, information, even), 0);
     information.head(2) << 0, 3.9;
+    // Each direction moves all of 64 unknowns equally (Sylvester's Hadamard matrix), each with a
+    // share of 1/64.
     EXPECT_EQ(count_unobservable(alone, information, even), 2);
-    // Each moves all of 64 unknowns alike (Sylvester's Hadamard matrix), none by more than 1/64.
     Eigen::MatrixXd hadamard = Eigen::MatrixXd::Ones(1, 1);
     while (hadamard.rows() < 64) {
         const Eigen::MatrixXd half = hadamard;
@@ -165,26 +169,27 @@ TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
     }
     const Eigen::VectorXd unknowns = Eigen::VectorXd::Ones(64);
     Eigen::VectorXd told = Eigen::VectorXd::Constant(64, 1e6);
+    // With the same small information about every direction, 15 of them leave a variance of 15/64.
     told(0) = 0.1;  // 1 / 64 / 0.1 = 0.16: a smooth motion that no unknown feels
     EXPECT_EQ(count_unobservable(hadamard / 8, told, unknowns), 0);
-    // As little of every direction is too little of the unknowns: 15 of them leave 15 / 64.
     told.setOnes();
     EXPECT_EQ(count_unobservable(hadamard / 8, told, unknowns), 64 - 15);
 }
 
-// Parameters by Steinitz: edges + 6, less what is held by the frame and by independent readings.
+// The number of parameters is edges + 6 (Steinitz), less those fixed by the frame and by
+// independent readings.
 TEST(Covariance, CountsWhatIsOpen) {
     const Stone stone = stone_of(brilliant());
     const FitModel model(stone, {}, {});
     const Linearised linear = linearise(model, model.mesh_shape(), model.mesh_outline());
     for (const auto algorithm : {Covariance::Algorithm::dense, Covariance::Algorithm::sparse}) {
-        // 128 edges + 6, less shifts (3), the table's tilts (2) and the turn about up.
+        // 128 edges + 6, less 3 shifts, the table's 2 tilts and the turn about the vertical.
         EXPECT_EQ(Covariance(linear, algorithm).rank_defect(), 128);
     }
 }
 
-// A sum of squares of weights from 1e-12 to 1e12: an orthogonal-triangular factor in long double is
-// the reference.
+// Sums of squares with weights from 1e-12 to 1e12. The expectation is an orthogonal-triangular
+// factorisation in long double.
 TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
     const Solid truth = brilliant();
     const Stone stone = stone_of(truth);
@@ -201,12 +206,12 @@ TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
         row.coeffRef(linear.layout.tilt(f)) = 1;
         return std::sqrt(covariance.variance(row));
     };
-    // A facet far away hardly feels it.
+    // A distant facet is hardly affected.
     const int far = find_facet(truth, "P5");
     EXPECT_NEAR(sigma_of(mixed, far), sigma_of(plain, far), 0.05 * sigma_of(plain, far));
     const Linearised linear = linearise(mixed, mixed.mesh_shape(), mixed.mesh_outline());
     const Covariance covariance(linear);
-    // Tight readings are checked by nothing that is as tight; the loose one by everything.
+    // Nothing as precise checks the tight readings; every other reading checks the loose one.
     const Eigen::Index first = [&] {
         for (std::size_t i = 0; i < linear.soft.size(); ++i) {
             if (linear.soft[i].reading == 0) return Eigen::Index(i);

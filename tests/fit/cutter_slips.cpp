@@ -21,7 +21,8 @@ std::string other_digit(char digit, Random& random) {
     return other == digit ? other_digit(digit, random) : std::string(1, other);
 }
 
-// The value as the slip leaves it; empty where this value cannot suffer it, or hardly changes.
+// Returns the value after the slip; empty where the slip cannot happen to this value or hardly
+// changes it.
 std::string slipped(const CutterRow& row, Slipped slip, const std::vector<CutterRow>& rows,
                     Random& random) {
     std::string text = row.value;
@@ -43,7 +44,7 @@ std::string slipped(const CutterRow& row, Slipped slip, const std::vector<Cutter
             text.erase(0, 1);
             break;
         case Slipped::digit_doubled:
-            if (is_angle) return {};  // more than 90: no reading at all
+            if (is_angle) return {};  // over 90 is not a valid reading
             text.insert(0, 1, text[0]);
             break;
         case Slipped::other_side:
@@ -79,7 +80,7 @@ std::string slipped(const CutterRow& row, Slipped slip, const std::vector<Cutter
     return text;
 }
 
-// A slip that one could see: an angle off by two degrees or more, a length by a tenth.
+// A slip that one could notice: an angle off by two degrees or more, a length by a tenth.
 bool is_gross(const CutterRow& row, const std::string& value) {
     if (value.empty()) return false;
     const double was = std::stod(row.value), is = std::stod(value);
@@ -87,19 +88,19 @@ bool is_gross(const CutterRow& row, const std::string& value) {
     return row.kind == "inclination" ? std::abs(is - was) > 2 : std::abs(std::log(is / was)) > 0.1;
 }
 
-// Pattern rows are no single reading of a cutter's.
+// Rows of patterns are not single readings.
 bool is_single(const CutterRow& row) {
     return row.of.empty() || row.of[0].find('*') == std::string::npos;
 }
 
-// C of C5, and C1 of C1N, a side of a step.
+// C for C5, C1 for C1N (a side of a step).
 std::string tier_of(const std::string& facet) {
     if (std::isdigit(static_cast<unsigned char>(facet.back())) == 0)
         return facet.substr(0, facet.size() - 1);
     return facet.substr(0, facet.find_last_not_of("0123456789") + 1);
 }
 
-// The rows of a tier that are read one by one, with the values of another's.
+// Gives the individually read rows of one tier the values of another tier.
 std::vector<std::size_t> mix_up_tiers(std::vector<CutterRow>& rows, Random& random) {
     std::map<std::string, std::vector<std::size_t>> tiers;
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// Slips of a simulated cutter's pen.
+// Writing slips of a simulated cutter.
 
 #include <random>
 #include <string>
@@ -12,7 +12,7 @@ namespace culet::bench {
 using Random = std::mt19937_64;
 std::size_t one_of(Random& random, std::size_t count);
 
-/// A row as it was written.
+/// A row as it was written down.
 struct CutterRow {
     std::string kind;
     std::vector<std::string> of;
@@ -20,7 +20,7 @@ struct CutterRow {
     double sigma = 0;
 };
 
-/// Makes one slip, of at least two degrees or a tenth, and returns the rows that it is in.
+/// Makes one slip of at least two degrees or a tenth. Returns the rows that it affects.
 std::vector<std::size_t> make_slip(std::vector<CutterRow>& rows, Slipped slip, Random& random);
 
 }  // namespace culet::bench

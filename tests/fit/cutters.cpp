@@ -29,7 +29,7 @@ bool is_step(const std::string& cut) {
     return cut == "step";
 }
 
-// Those named by this letter and a number.
+// The facets named with this letter and a number.
 std::vector<std::string> numbered(const Solid& design, const std::string& letter) {
     std::vector<std::string> names;
     for (int i = 1; find_facet(design, letter + std::to_string(i)) >= 0; ++i) {
@@ -38,7 +38,7 @@ std::vector<std::string> numbered(const Solid& design, const std::string& letter
     return names;
 }
 
-// The mains of which two are steep, and which are read one by one.
+// The tiers of mains that are read one by one. Two of their facets are made steeper.
 std::vector<std::vector<std::string>> main_tiers(const std::string& cut, const Solid& design) {
     std::vector<std::vector<std::string>> tiers;
     if (is_step(cut)) {
@@ -57,7 +57,7 @@ std::vector<std::vector<std::string>> main_tiers(const std::string& cut, const S
     return tiers;
 }
 
-// Tilted about its own middle, as a facet that was polished a little too steep.
+// Tilts a facet about its own centre, as if it were polished a little too steep.
 void tilt(Solid& solid, int f, double steeper, double turned, double shift) {
     Facet& facet = solid.facets[std::size_t(f)];
     const Vec3 middle = corner_mean(solid, facet);
@@ -70,7 +70,7 @@ void tilt(Solid& solid, int f, double steeper, double turned, double shift) {
     facet.plane.offset = glm::dot(facet.plane.normal, middle) + shift;
 }
 
-// The stone as it was cut; nothing where some facet was cut away.
+// The stone as it was cut; nothing if some facet was cut away.
 bool cut_stone(const Solid& design, const Population& population,
                const std::vector<std::string>& steep, Random& random, Solid& stone) {
     stone = design;
@@ -157,7 +157,7 @@ std::vector<CutterRow> read_rows(const std::string& cut, Evening& evening, Rando
         }
     }
     if (cut == "round-brilliant") {
-        // One facet of each small tier, taken for all of them.
+        // One facet of each small tier is read and taken for all of them.
         for (const char* tier : {"S", "U", "L", "G"}) {
             rows.push_back(
                 bench.angle(tier + std::string("1"), tier + std::string("*"), k_small_facet));
@@ -205,7 +205,8 @@ Evening cutters_evening(const std::string& cut, const Population& population, Sl
     const std::size_t first = one_of(random, tier.size());
     evening.steep = {tier[first]};
     if (is_step(cut)) {
-        // Two of a step's four sides would leave nothing to be steeper than.
+        // With only two of a step's four sides there would be nothing to compare their steepness
+        // with.
         const auto& other = tiers[(std::size_t(&tier - tiers.data()) + 1) % tiers.size()];
         evening.steep.push_back(other[first]);
     } else {

@@ -1,6 +1,6 @@
 #pragma once
-// A cutter at the bench: an off-standard stone cut after a catalogue's design, and the 26 to 40
-// rows that calipers, one goniometer and a scale read on it in an evening, with a slip of the pen.
+// A simulated cutter's evening: an off-standard stone cut after a catalogue design, and the 26 to
+// 40 rows read on it with calipers, one goniometer and a scale, one of them with a writing slip.
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ enum class Slipped {
     none,
     digits_swapped,
     decimal_point,  ///< ten times too much or too little
-    first_digit,    ///< another one
+    first_digit,    ///< a wrong first digit
     digit_lost,
     digit_doubled,
     other_side,  ///< 90 degrees less the angle
@@ -24,32 +24,33 @@ enum class Slipped {
     other_tier,      ///< the value of a facet of another tier
     rows_exchanged,  ///< a crown main's value and a pavilion main's
     turned_digit,    ///< 6 for 9, 1 for 7, 3 for 8 in the first two places
-    copied_row,      ///< a length's value written once more in an angle's or length's row
-    whole_tier       ///< all facets of a tier, with the values of another's
+    copied_row,      ///< a length's value written again in the row of an angle or length
+    whole_tier       ///< a whole tier with the values of another tier
 };
-inline constexpr int k_slips = 12;  ///< but the last, which is in more than a row or two
+inline constexpr int k_slips = 12;  ///< without the last, which affects more than two rows
 const char* name_of(Slipped slip);
 
-/// How the stones differ from the design; standard deviations.
+/// How the stones differ from the design (standard deviations).
 struct Population {
-    double facet_deg = 0.3;  ///< each facet's inclination and azimuth about its tier's
-    double tier_deg = 0;     ///< each tier's inclination about the design's
-    double offset = 0.002;   ///< each plane's distance, of the width
-    double two_deg = 0.6;    ///< two mains are off by this, up or down
-    bool meets = false;      ///< brought to exact meets by least changes, which lessens the tilts
+    double facet_deg = 0.3;  ///< each facet's inclination and azimuth about those of its tier
+    double tier_deg = 0;     ///< each tier's inclination about that of the design
+    double offset = 0.002;   ///< each plane's distance, relative to the width
+    double two_deg = 0.6;    ///< two mains are steeper or flatter by this
+    bool meets = false;      ///< moved to exact meets by the smallest changes, which reduces the
+                             ///< tilts
 };
 
 struct Evening {
     Stone design;  ///< the mesh that the cutter starts from
     Solid truth;
     std::vector<WrittenReading> rows;
-    std::vector<long> wrong_lines;   ///< of the rows with the slip
+    std::vector<long> wrong_lines;   ///< lines of the rows with the slip
     std::vector<std::string> steep;  ///< the two mains
-    std::vector<bool> was_read;      ///< of each facet: its inclination was, by itself
+    std::vector<bool> was_read;      ///< per facet: its inclination was read individually
 };
 
 /// `cut`: step, or a cut whose mains are C1, C2 .. and P1, P2 .., such as an oval. The same seed
-/// makes the same evening.
+/// gives the same evening.
 Evening cutters_evening(const std::string& cut, const Population& population, Slipped slip,
                         std::uint64_t seed);
 

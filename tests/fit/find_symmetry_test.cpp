@@ -1,4 +1,4 @@
-// Symmetry that is found in readings: which group, how sure, and how far the stone is from it.
+// Symmetry detected from readings: which group, how sure, and how far the stone is from it.
 #include "fit/fit.h"
 
 #include <gmock/gmock.h>
@@ -25,8 +25,8 @@ const GroupTest& group(const SymmetryReport& report, const std::string& name) {
     throw std::runtime_error("no group " + name);
 }
 
-/// A cut of any fold: table, n bezels, 2n halves, 2n girdle facets, 2n lower halves, n mains that
-/// meet in the culet. `off` is added to the angles of each facet, by tier and number.
+/// A cut of n-fold symmetry: table, n bezels, 2n upper halves, 2n girdle facets, 2n lower halves, n
+/// mains that meet in the culet. `off` is added to each facet's angles, by tier and number.
 Solid fold(int n, const std::function<Vec3(char, int)>& off = {}) {
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.55}}};
     const auto tier = [&](char letter, int count, double first_deg, double inclination_deg,
@@ -40,7 +40,7 @@ Solid fold(int n, const std::function<Vec3(char, int)>& off = {}) {
         }
     };
     const double half = 90.0 / n;
-    // Halves cut the ridge between two bezels (mains) off at 0.8 of the radius.
+    // Halves cut off the ridge between two bezels (mains) at 0.8 of the radius.
     const auto through_ridge = [&](double main_deg, double main_offset, double half_deg) {
         const double ridge = radians(180.0 / n), m = radians(main_deg), h = radians(half_deg);
         const double z = (main_offset - 0.8 * std::sin(m) * std::cos(ridge)) / std::cos(m);
@@ -54,7 +54,7 @@ Solid fold(int n, const std::function<Vec3(char, int)>& off = {}) {
     return enclosed(planes);
 }
 
-// By construction: n bezels and n mains about one axis, with mirrors through them.
+// By construction: n bezels and n mains about one axis, with mirror planes through them.
 TEST(FindSymmetry, OfStonesOfAnyFold) {
     for (const int n : {3, 5, 6, 8}) {
         const Solid truth = fold(n);
@@ -66,18 +66,18 @@ TEST(FindSymmetry, OfStonesOfAnyFold) {
         const GroupTest& g = report.groups.front();
         EXPECT_EQ(g.tested, g.conditions);
         EXPECT_GT(g.p, 0.001);
-        // Every facet's angles were read to 0.1 degrees: how far the stone may be from symmetric
-        // follows from that.
+        // Every facet's angles were read to 0.1 degrees, which bounds how far the stone may be from
+        // symmetric.
         EXPECT_LT(degrees(report.sigma), 0.05);
         EXPECT_THAT(report.readings.front(),
                     ::testing::HasSubstr(fmt::format("of = [\"{}\"], exact = true", n)));
     }
 }
 
-// Facets turned by N(0, 0.3 degrees) each way and read to 0.05: no exact symmetry. The estimate is
-// held against the root mean square of the very numbers drawn (of inclinations about their tier's
-// mean), which it must find again to 12 %: readings add 0.05 in square, offsets that did not turn
-// along with their planes and the choice of axis the rest.
+// Facets are turned by N(0, 0.3 degrees) in both directions and read to 0.05: no exact symmetry.
+// The estimate must agree to 12 % with the root mean square of the numbers drawn (inclinations
+// about their tier's mean). The readings' 0.05 add in square; the rest comes from offsets that did
+// not turn with their planes and from the choice of the axis.
 TEST(FindSymmetry, OfAnApproximatelySymmetricStone) {
     for (const int n : {3, 8}) {
         std::mt19937_64 random(40u + unsigned(n));
@@ -117,8 +117,8 @@ TEST(FindSymmetry, OfAnApproximatelySymmetricStone) {
     }
 }
 
-// With known variances v_i the estimate is right on average and its limit is kept in 95 of 100:
-// 400 draws of 40 contrasts.
+// With known variances v_i the estimate is unbiased, and its limit holds in 95 of 100 cases: 400
+// draws of 40 contrasts.
 TEST(VarianceComponent, IsHonest) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
@@ -137,21 +137,23 @@ TEST(VarianceComponent, IsHonest) {
             sigma += found.sigma_sigma / draws;
             kept += (found.at_most >= truth ? 1.0 : 0.0) / draws;
         }
-        // The mean variance: its standard error is sigma^2 sqrt(2 / 40) / sqrt(400), and estimates
-        // below zero are cut off.
+        // The mean variance has a standard error of sigma^2 sqrt(2 / 40) / sqrt(400). Negative
+        // estimates are set to zero.
         EXPECT_NEAR(squares, truth * truth, truth == 0 ? 0.2 : 0.08 + 0.02 * truth * truth);
         EXPECT_GT(kept, 0.93);
         if (truth > 1) {
             EXPECT_LT(kept, 0.98);
-            // For large sigma its error is sigma / sqrt(2 n).
+            // For large sigma its standard error is sigma / sqrt(2 n).
             EXPECT_NEAR(sigma, truth / std::sqrt(80.0), 0.1);
         }
     }
 }
 
-// A stone whose table alone is askew: its group is denied, and what is said of tiers shows why.
+// A stone whose table alone is tilted: the group is rejected, and the findings about tiers show
+// why.
 TEST(FindSymmetry, ATiltedTableIsFoundOut) {
-    // The table as a plane of its own: with the meets at its corners let go, nothing else follows.
+    // The table becomes an independent plane: with the meets at its corners released, nothing else
+    // moves.
     Solid design = fold(8);
     std::vector<NamedPlane> planes;
     for (const Facet& f : design.facets) {
@@ -181,11 +183,12 @@ TEST(FindSymmetry, ATiltedTableIsFoundOut) {
     }
 }
 
-// All pavilion facets of a symmetric stone turned together by 0.75 degrees: each tier is as
-// symmetric as before about an axis of its own, the stone is not. A turn by d about a level axis
-// changes inclination and azimuth (times the sine) of a tier of n facets at inclination i by d^2 n
-// (1 + cos^2 i) / 2 in square; the best common axis stands between crown (sum a) and pavilion (sum
-// b), which leaves d^2 a b / (a + b) over so many contrasts: the scatter to find.
+// All pavilion facets of a symmetric stone are turned together by d = 0.75 degrees. Each tier is as
+// symmetric as before about an axis of its own, but the stone is not. A turn by d about a
+// horizontal axis changes inclination and azimuth (times the sine) of a tier of n facets at
+// inclination i by a sum of squares of d^2 n (1 + cos^2 i) / 2. The best common axis lies between
+// crown (sum a) and pavilion (sum b) and leaves d^2 a b / (a + b), spread over all contrasts: the
+// scatter expected here.
 TEST(FindSymmetry, APavilionAskewIsFarFromSymmetric) {
     const double d = radians(0.75);
     const auto turned = [&](double inclination_deg, double azimuth_deg) {
@@ -206,7 +209,7 @@ TEST(FindSymmetry, APavilionAskewIsFarFromSymmetric) {
     };
     const double a = square(1, 0) + square(8, 35) + square(16, 43) + square(16, 90),
                  b = square(16, 44) + square(8, 41);
-    // Two directions a facet, less a mean inclination for each tier, two tilts and a turn.
+    // Two directions per facet, less a mean inclination per tier, two tilts and a turn.
     const double contrasts = 2 * 65 - 5 - 3;
     FitOptions options;
     options.meets = MeetTreatment::released;
@@ -218,7 +221,7 @@ TEST(FindSymmetry, APavilionAskewIsFarFromSymmetric) {
     EXPECT_NEAR(report.sigma / (d * std::sqrt(a * b / (a + b) / contrasts)), 1, 0.12);
 }
 
-// Readings that tell nothing of symmetry leave it open, and that is said.
+// Readings without information on symmetry leave it open, and the report says so.
 TEST(FindSymmetry, IsLeftOpenWhereNothingWasRead) {
     const Solid truth = fold(6);
     const SymmetryReport report = find_symmetry(
@@ -229,7 +232,7 @@ TEST(FindSymmetry, IsLeftOpenWhereNothingWasRead) {
     EXPECT_LT(report.groups.front().tested, 6);
 }
 
-// A form without any symmetry.
+// A shape without any symmetry.
 TEST(FindSymmetry, OfAStoneWithoutAny) {
     std::mt19937_64 random(4);
     std::normal_distribution<double> normal;
@@ -244,9 +247,10 @@ TEST(FindSymmetry, OfAStoneWithoutAny) {
     EXPECT_EQ(report.proposed, "C1");
 }
 
-// The linear test agrees with what it stands for: chi-square of a fit with exact turns and mirrors
-// less that of the free fit, and the freedoms between them. Turns and mirrors of readings are about
-// the table's normal, as the test is for a stone whose table is its datum.
+// The linear test must agree with its definition: chi-square of a fit with exact rotations and
+// mirrors less that of the free fit, over the difference in degrees of freedom. Rotations and
+// mirrors in readings are about the table's normal, as in the test for a stone whose table is its
+// datum.
 TEST(FindSymmetry, AgreesWithASymmetricFit) {
     const Solid truth = fold(6);
     const std::vector<Reading> readings = noisy(plane_readings(truth, truth, 0.05, 0.003), 8);
@@ -272,7 +276,7 @@ TEST(FindSymmetry, OfAStepCut) {
     EXPECT_EQ(report.proposed, "C2v") << report.message;
 }
 
-// Under true symmetry p is uniform: the mean of 16 has a spread of 0.29 / 4.
+// Under true symmetry p is uniform: the mean of 16 has a standard deviation of 0.29 / 4.
 TEST(FindSymmetry, PValuesAreUniform) {
     const Solid truth = fold(5);
     double mean = 0;

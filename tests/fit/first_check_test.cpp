@@ -1,4 +1,4 @@
-// Readings held against their tier and the mesh before any fit. Expectations: the sizes of the
+// Checks readings against their tier and the mesh before any fit. Expectations: the sizes of the
 // slips that the tests make.
 
 #include "fit/findings/first_check.h"
@@ -102,13 +102,13 @@ TEST_F(FirstCheck, LengthsAreHeldAgainstEachOtherAndTheMesh) {
 }
 
 TEST_F(FirstCheck, ARowForAWholeTierDoesNotVouchForItself) {
-    // Eight equal values from one row: wrong all together.
+    // Eight equal values from one row are wrong together.
     const auto readings = bind_readings({row("inclination", {"C*"}, 43.3, 0.1, 2)}, stone_);
     EXPECT_EQ(first_check(stone_, readings, true).size(), 8u);
 }
 
-// One row or value for each of five tiers: as drawn, but for what each test makes of the pavilion
-// mains.
+// One row or value for each of five tiers, all as drawn except the pavilion mains, which each test
+// changes.
 std::vector<Reading> tiers_as_drawn(const Stone& stone, double mains, double others) {
     std::vector<WrittenReading> rows;
     long line = 2;
@@ -129,8 +129,8 @@ std::vector<Reading> tiers_as_drawn(const Stone& stone, double mains, double oth
 }
 
 TEST_F(FirstCheck, ATierTypedWithTheValueOfAnotherIsNamedAsAWhole) {
-    // The crown mains' angle by design; they were read 0.3 degrees flatter. Seven degrees off,
-    // where the others are within 0.3.
+    // The crown mains get the design angle, but were read 0.3 degrees flatter. They are seven
+    // degrees off, the others at most 0.3.
     const std::vector<Doubt> doubts = first_check(stone_, tiers_as_drawn(stone_, 33.8, 0.3), true);
     ASSERT_EQ(doubts.size(), 8u);
     EXPECT_THAT(doubts[0].what, says("pavilion mains", "than the mesh", "within 0.3",
@@ -141,9 +141,9 @@ TEST_F(FirstCheck, ATierThatIsOffAsOthersAreIsNoSlip) {
     const double drawn = degrees(inclination(
         stone_.solid.facets[std::size_t(find_facet(stone_.solid, "P1"))].plane.normal, {0, 0, 1}));
     EXPECT_TRUE(first_check(stone_, tiers_as_drawn(stone_, drawn + 1, 0.3), true).empty());
-    // Where the others are off by two degrees, three are no wonder.
+    // Where the others are off by two degrees, three are unsurprising.
     EXPECT_TRUE(first_check(stone_, tiers_as_drawn(stone_, drawn + 3.1, 2), true).empty());
-    // Five degrees where the others are within 0.1, by no other tier's value.
+    // Five degrees off where the others are within 0.1, and not another tier's value.
     EXPECT_EQ(first_check(stone_, tiers_as_drawn(stone_, drawn + 5, 0.1), true).size(), 8u);
 }
 
@@ -165,8 +165,8 @@ std::vector<WrittenReading> rows_as_drawn(const Stone& stone, const std::string&
     return rows;
 }
 
-// An oval's crown mains are three tiers of their own angles. All of them with the value of the
-// stars: each would hide the others, were they held against one another.
+// An oval's crown mains are three tiers with angles of their own. All of them get the value of the
+// stars: compared with one another, each would hide the others' slip.
 TEST_F(FirstCheck, SeveralTiersWithTheValueOfAnotherAreNamed) {
     const Stone oval = an_oval();
     std::vector<WrittenReading> rows = rows_as_drawn(oval, "CPS");
@@ -187,8 +187,8 @@ TEST_F(FirstCheck, ATierWhoseFacetsDifferByDesignIsNoSlip) {
     EXPECT_TRUE(first_check(oval, bind_readings(rows_as_drawn(oval, "C"), oval), true).empty());
 }
 
-// An oval's mains at its two ends are a tier of two facets, C1 and C5, of one angle by symmetry: a
-// lost digit in the second row is no slip in the first.
+// C1 and C5, the mains at an oval's two ends, form a tier of two facets with equal angles by
+// symmetry. A lost digit in the second row is not a slip in the first.
 TEST_F(FirstCheck, ASlipInOneOfTwoFacetsIsNotOneOfTheirTier) {
     const Stone oval = an_oval();
     std::vector<WrittenReading> rows = rows_as_drawn(oval, "CPS");
@@ -217,7 +217,7 @@ TEST_F(FirstCheck, AFitGoesOnWithoutTheDoubtedReadingAndListsItFirst) {
         return r.line == evening.wrong_lines[0];
     });
     EXPECT_EQ(result.findings.suspects[0], wrong->id);
-    // By the same measure, and both figures are said.
+    // The same measure applies before and after, and both figures are reported.
     ASSERT_EQ(result.log.changed.size(), 1u);
     EXPECT_EQ(result.log.changed[0].what, "readings left out");
     EXPECT_GT(result.log.changed[0].before, result.log.changed[0].after + 10.8);  // chi2, 1 in 1000
@@ -234,11 +234,12 @@ TEST_F(FirstCheck, IsHeededOnlyWhereTheFitIsBetterWithoutTheReading) {
     const auto changed = without_doubted(given, first);
     ASSERT_TRUE(changed);
     EXPECT_EQ(changed->readings.size(), 7u);
-    // One reading brings more than 10.8 by chance once in a thousand times (chi-square of one).
+    // A single reading lowers chi-square by more than 10.8 by chance once in a thousand times (one
+    // degree of freedom).
     const struct {
         FitStatus with;
         double chi2_with, chi2_without;
-        double baarda;  // of the doubted reading in the first fit: 3.29 squared is 10.8
+        double baarda;  // of the doubted reading in the first fit; 3.29 squared is 10.8
         bool is_left_out;
     } cases[] = {
         {FitStatus::converged, 15, 15, 0, false},   {FitStatus::converged, 15, 4.5, 0, false},
@@ -275,7 +276,7 @@ TEST_F(FirstCheck, TwoSteepMainsAreToldInOneSentence) {
     EXPECT_EQ(tiers[0].name, "C*");
     ASSERT_EQ(tiers[0].odd.size(), 1u);
     EXPECT_THAT(tiers[0].odd[0].facets, testing::ElementsAre("C3", "C4"));
-    // Weighted means: 0.55 steeper by these values, sigma 0.1 sqrt(1/2 + 1/6).
+    // Weighted means: these values are 0.55 steeper, with sigma 0.1 sqrt(1/2 + 1/6).
     EXPECT_NEAR(degrees(tiers[0].odd[0].sigma), 0.0816, 1e-4);
     EXPECT_THAT(tiers[0].what[0], says("C3", "C4", "0.6 degrees (+- 0.1)", "steeper"));
 }
@@ -284,7 +285,7 @@ TEST_F(FirstCheck, MainsThatAreAlikeGiveNoSentence) {
     EXPECT_TRUE(tier_findings(stone_, mains(33.8), {}, true)[0].odd.empty());
 }
 
-// An oval whose facets an exporter numbered, read as it was drawn: angles of many sizes, and none
+// An oval whose facets an exporter numbered, read as drawn: its angles take many values, and none
 // of them stands out.
 TEST(FirstCheckOfNumberedFacets, FindsNothingInAStoneReadAsDrawn) {
     Stone stone;
@@ -304,7 +305,7 @@ TEST(FirstCheckOfNumberedFacets, FindsNothingInAStoneReadAsDrawn) {
     }
 }
 
-// What the drawing has itself is no news of the stone.
+// A difference that the drawing has too is not reported.
 TEST_F(FirstCheck, AMainThatIsDrawnSteeperIsNotSaidToStandOut) {
     std::vector<Reading> readings = mains(33.8);
     readings[2].value += radians(1.0);

@@ -34,7 +34,7 @@ TEST(TestStones, BrilliantHasTheKnownCounts) {
     EXPECT_TRUE(is_convex(solid));
 }
 
-// Without noise the truth is the optimum, whatever the start.
+// Without noise the truth is the optimum from any start.
 TEST(Fit, RecoversAShakenBrilliant) {
     const Solid truth = brilliant();
     std::vector<Reading> readings = all_angles(truth, radians(0.1), "T");
@@ -61,7 +61,7 @@ std::vector<Reading> every_reading(const Solid& truth) {
     return readings;
 }
 
-// Chi-square has mean dof and variance 2 dof: over 6 fits the mean of chi2/dof has a standard
+// Chi-square has mean dof and variance 2 dof, so the mean of chi2/dof over 6 fits has a standard
 // deviation of sqrt(2 / (6 dof)).
 TEST(Fit, ChiSquareIsRightOnAverage) {
     const Solid truth = brilliant();
@@ -74,13 +74,13 @@ TEST(Fit, ChiSquareIsRightOnAverage) {
         ratio += result.statistics.chi2 / result.statistics.dof / fits;
         dof = result.statistics.dof;
     }
-    // Edges, angles and one depth; 128 + 6 freedoms (Steinitz: edges + 6) less 3 shifts and the
-    // table's two tilts, which are the frame.
+    // Edges, angles and one depth. Unknowns: 128 + 6 (Steinitz: edges + 6), less 3 shifts and the
+    // table's two tilts, which fix the frame.
     EXPECT_NEAR(dof, double(readings.size()) - (128 + 6 - 3 - 2), 1e-6);
     EXPECT_NEAR(ratio, 1, 4 * std::sqrt(2 / (fits * dof)));
 }
 
-// Errors of fitted planes in units of their own reported uncertainty have unit spread.
+// Errors of fitted planes, divided by their reported uncertainty, have unit standard deviation.
 TEST(Fit, ReportedUncertaintiesAreHonest) {
     const Solid truth = brilliant();
     const std::vector<Reading> readings = every_reading(truth);
@@ -95,7 +95,7 @@ TEST(Fit, ReportedUncertaintiesAreHonest) {
                              result.facets[f].sigma_inclination;
             const double a = (result.facets[f].area - area(truth, truth.facets[f])) /
                              result.facets[f].sigma_area;
-            // At 90 degrees the folded angle has no sign: leave the girdle out.
+            // At 90 degrees the inclination has a sign ambiguity: leave the girdle out.
             if (truth.facets[f].name[0] == 'G') continue;
             squares += z * z;
             area_squares += a * a;
@@ -106,8 +106,8 @@ TEST(Fit, ReportedUncertaintiesAreHonest) {
     EXPECT_NEAR(std::sqrt(area_squares / count), 1, 0.2);
 }
 
-// What every facet's sigmas say one by one, together: a covariance matrix has their squares on its
-// diagonal, and no two of its variables are more than equal.
+// The joint covariance must agree with each facet's sigmas: their squares are on its diagonal, and
+// no correlation exceeds 1.
 TEST(Fit, FacetCovarianceHasTheSigmasOnItsDiagonal) {
     const Solid truth = brilliant();
     const FitResult result = fit_stone(stone_of(truth), noisy(every_reading(truth), 5));
@@ -146,10 +146,10 @@ TEST(Fit, FindsABlunderAndNamesIt) {
     EXPECT_LE(result.findings.suspects.size(), 3u);
 }
 
-// Planes of a brilliant turned by N(0, 0.3 degrees) about their facets' middles: no stone with
-// those angles has exact meets. How far they miss is computed here meet by meet (least squares,
-// root of squares over redundancy), and by the fit from angles and widths alone, which leave it the
-// offsets to make the misses smaller with.
+// Planes of a brilliant are turned by N(0, 0.3 degrees) about their facets' centres, so no stone
+// with those angles has exact meets. The test computes the misses meet by meet (least squares, sum
+// of squares over redundancy); the fit has angles and widths alone, and may choose the offsets that
+// make the misses smaller.
 TEST(Fit, EstimatesHowSoftMeetsMiss) {
     const Solid design = brilliant();
     std::vector<NamedPlane> planes;
@@ -203,7 +203,8 @@ TEST(Fit, EstimatesHowSoftMeetsMiss) {
     }
 }
 
-// A box has 6 lengths and angles by hand: each kind of reading alone must move it to its value.
+// A box's lengths and angles are known by hand: each kind of reading alone must move it to its
+// value.
 class BoxReadings : public ::testing::Test {
 protected:
     int facet(const char* name) const { return find_facet(box_, name); }
@@ -296,7 +297,7 @@ TEST_F(BoxReadings, ExactMirrorMakesPairsAlike) {
 TEST_F(BoxReadings, NoReadingsAtAllLeaveTheMeshAndSaySo) {
     const FitResult result = fit({});
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
-    // 12 edges + 6, less 3 shifts, the table's two tilts and the turn about up.
+    // 12 edges + 6, less 3 shifts, the table's two tilts and the turn about the vertical.
     EXPECT_EQ(result.statistics.rank_defect, 12 + 6 - 6);
     EXPECT_NEAR(volume(result.solid), 8, 1e-6);
 }
@@ -333,7 +334,7 @@ TEST_F(BoxReadings, ScaleDoesNotMatter) {
 }
 
 TEST(Fit, AFacetThatWantsToVanishIsNamed) {
-    // A bevel between T and X+ that depth readings push outside the stone when meets are released.
+    // A bevel between T and X+. Depth readings push it outside the stone when meets are released.
     const double s = std::sqrt(0.5);
     const Solid solid = enclosed({{"T", {{0, 0, 1}, 1}},
                                   {"bevel", {{s, 0, s}, 1.9 * s}},
@@ -390,8 +391,8 @@ TEST(FitReport, HasTheKeysThatOutsidersRelyOn) {
 }
 
 }  // namespace
-// Stones beyond the size of dense algebra are analysed too. Expectation: two depths 8 sigma apart
-// meet in their mean, 4 sigma from each, and check each other by half.
+// Stones too large for dense algebra are analysed too. Expectation: two depths 8 sigma apart fit at
+// their mean, 4 sigma from each, with a redundancy of one half each.
 TEST(Fit, ALargeStoneHasUncertaintiesToo) {
     const Solid solid = make_cut("round-brilliant", {{"mains", 20}, {"girdle-segments", 6}});
     std::vector<Reading> readings{test::reading(ReadingKind::depth, {}, 4.02, 0.01),
@@ -404,7 +405,7 @@ TEST(Fit, ALargeStoneHasUncertaintiesToo) {
     EXPECT_NEAR(result.readings[1].residual, -0.04, 1e-4);
     EXPECT_NEAR(result.readings[0].redundancy, 0.5, 1e-3);
     EXPECT_NEAR(result.statistics.dof, 1, 2e-3);
-    // Edges + 6, less shifts, the table's tilts, the turn about up, and the depth.
+    // Edges + 6, less 3 shifts, the table's tilts, the turn about the vertical, and the depth.
     EXPECT_EQ(result.statistics.rank_defect, edge_count(solid) - 1);
     for (const FittedFacet& f : result.facets) EXPECT_GT(f.sigma_offset, 0) << f.name;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// One fit from one mesh, judged against the fit that starts from the truth.
+// A fit from one mesh, compared with the fit that starts at the truth.
 
 #include <optional>
 #include <string>
@@ -11,16 +11,16 @@ namespace culet::bench {
 
 struct Trial {
     FitResult result;
-    std::string refusal;  ///< an InputError's words
+    std::string refusal;  ///< the message of an InputError
     double cpu = 0;       ///< seconds
 };
 Trial fit_mesh(const Stone& mesh, const std::vector<WrittenReading>& readings,
                const FitOptions& options = {});
 
-/// All declared facets, closed, strictly convex by exact predicates, planar to 1e-12.
+/// Has all declared facets, is closed, strictly convex by exact predicates, and planar to 1e-12.
 bool is_valid(const Stone& declared, const FitResult& result);
-/// Valid, and the same statistical optimum: chi-square within max(4, 5 %) of the reference's, or
-/// better.
+/// Valid, and at the same statistical optimum: chi-square is at most max(4, 5 %) above the
+/// reference's.
 bool succeeds(const Stone& declared, const Trial& trial, const Trial& reference);
 
 }  // namespace culet::bench

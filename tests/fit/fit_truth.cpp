@@ -168,7 +168,7 @@ Truth make_truth(TruthKind kind, bool symmetric, unsigned seed) {
         if (!symmetric) tilt_and_shift(solid, random, radians(0.3), 0.015);
         if (!bring_to_meet(solid)) continue;
         if (!symmetric) {
-            // The table is level: that is what the frame means.
+            // The frame is defined by a level table.
             const Vec3 n = solid.facets[find_facet(solid, "T")].plane.normal;
             const Vec3 axis = glm::cross(n, Vec3{0, 0, 1});
             const auto level = [&](const Vec3& v) {
@@ -207,7 +207,7 @@ Truth make_tiered(int facets, unsigned seed) {
             const double a = phase + 2 * k_pi * (k + uniform(random, -0.12, 0.12)) / each;
             const double i = tilt + radians(uniform(random, -1.5, 1.5));
             const Vec3 n{std::sin(i) * std::cos(a), std::sin(i) * std::sin(a), std::cos(i)};
-            // The ellipsoid's support.
+            // The ellipsoid's support function.
             const double reach = std::sqrt(n.x * n.x + wide * wide * n.y * n.y + 0.49 * n.z * n.z) *
                                  uniform(random, 0.999, 1.001);
             planes.push_back({fmt::format("F{}x{}", t, k), {n, reach}});
@@ -258,7 +258,7 @@ std::vector<WrittenReading> read_perfectly(const Truth& truth, int edges) {
     readings.push_back(written("depth", {}, width_along(solid, {0, 0, 1}), truth.length_sigma));
     std::vector<Edge> of = half_edges(solid).edges;
     if (symmetric && edges < 0) {
-        // With symmetry some are enough: about those that fit on a page.
+        // With symmetry some edges are enough: about as many as fit on a page.
         edges = std::min<int>(static_cast<int>(of.size()), 50);
     }
     const int count =
@@ -279,7 +279,7 @@ std::vector<WrittenReading> read_by_instruments(const Truth& truth, unsigned see
     for (WrittenReading& r : readings) {
         if (!r.value) continue;
         *r.value += *r.sigma * normal(random);
-        // Instruments do not say more than 90 degrees.
+        // Instruments do not show more than 90 degrees.
         if (r.kind == "inclination") r.value = 90 - std::abs(90 - std::abs(*r.value));
         if (r.kind == "edge") r.value = std::max(1e-4, *r.value);
     }

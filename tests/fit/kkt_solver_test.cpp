@@ -1,4 +1,4 @@
-// The sparse saddle solver against dense algebra on the same numbers.
+// The sparse saddle-point solver against dense algebra on the same numbers.
 
 #include "fit/solve/kkt_solver.h"
 
@@ -36,10 +36,10 @@ struct Problem {
     }
 };
 
-// Of right-hand sides of the size of one to a hundred.
+// For right-hand sides of sizes between one and a hundred.
 constexpr double k_left = 1e-9;
 
-// Rows of neighbours, of anyone and of all; exact, sharp and soft.
+// Rows that couple neighbours, random unknowns, or all unknowns; exact, tight and soft.
 Problem random_problem(std::mt19937_64& random) {
     const auto below = [&](int count) {
         return std::uniform_int_distribution<int>(0, count - 1)(random);
@@ -77,7 +77,7 @@ TEST(KktSolver, SolvesWhatDenseAlgebraSolves) {
         KktSolver solver;
         ASSERT_TRUE(solver.factor(p.rows, p.stiffness, p.curvature)) << round;
         const Eigen::Index n = p.stiffness.size(), m = p.rows.count();
-        // Exact equations may repeat each other: only such right-hand sides as have a solution.
+        // Exact equations may be dependent: only right-hand sides that have a solution.
         Eigen::MatrixXd solution(n + m, 11);
         for (double& value : solution.reshaped()) value = normal(random);
         const Eigen::MatrixXd right = k * solution;
@@ -97,7 +97,7 @@ TEST(KktSolver, KeepsToNewNumbersRowsAndCurvature) {
     std::mt19937_64 random(7);
     KktSolver solver;
     for (int round = 0; round < 60; ++round) {
-        // The same rows again with other numbers, or others altogether.
+        // The same rows with new values, or a new pattern altogether.
         static Problem p = random_problem(random);
         if (round % 4 == 0) p = random_problem(random);
         if (round % 4 == 2) p.curvature.clear();
@@ -146,7 +146,7 @@ TEST(KktSolver, TellsCurvatureThatLeavesADirectionUnheld) {
     rows.close(0, 0);
     const Eigen::VectorXd stiffness = Eigen::VectorXd::Ones(2);
     KktSolver solver;
-    // Along (1, -1), all that the equation leaves, P is 1 - c.
+    // Along (1, -1), the only direction that the equation leaves, P is 1 - c.
     EXPECT_TRUE(solver.factor(rows, stiffness, {{1, 0, 0.9}}));
     EXPECT_FALSE(solver.factor(rows, stiffness, {{1, 0, 1.1}}));
 }
@@ -168,7 +168,7 @@ TEST(KktSolver, HasTheDeterminantOfTheWholeMatrix) {
     std::mt19937_64 random(11);
     for (int round = 0; round < 20; ++round) {
         Problem p = random_problem(random);
-        // Exact equations are factored with a variance of their own.
+        // Exact equations are factorised with a variance of their own.
         for (double& v : p.rows.variance) v = std::max(v, 1e-6);
         KktSolver solver;
         ASSERT_TRUE(solver.factor(p.rows, p.stiffness, p.curvature));

@@ -1,4 +1,4 @@
-// What is known of planes from elsewhere (a photograph) in the fit of a stone.
+// Planes known from elsewhere (a photograph) in the fit of a stone.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double k_sigma = 1e-4;
 
-// Of a cube with edges of 2: how far the normal of X+ leans up, and how far X- lies out.
+// Of a cube with edges of 2: how far the normal of X+ leans up, and how far X- lies outwards.
 Reading photograph(const Solid& solid, double lean, double out) {
     auto known = std::make_shared<PlaneObservations>();
     for (const Facet& facet : solid.facets) known->planes.push_back(facet.plane);
@@ -30,7 +30,7 @@ Reading photograph(const Solid& solid, double lean, double out) {
         return one;
     };
     known->rows.push_back(row("X+", {0, 0, 1}, 0, lean));
-    // Blind to shifts along x, as what is known from pictures is.
+    // Shifts along x are unobservable, as they are from pictures.
     known->rows.push_back(row("X-", {0, 0, 0}, 1, out));
     known->rows.back().offset[std::size_t(find_facet(solid, "X+"))] = 1 / k_sigma;
     Reading reading;
@@ -51,10 +51,10 @@ Reading caliper(ReadingKind kind, const Vec3& direction, double value) {
     return reading;
 }
 
-// Least squares of readings that know a hundredth as much: the planes are where the rows say, and
-// everything else where the mesh has it.
+// Least squares with readings that carry a hundredth of the information: the planes end where the
+// rows say, everything else where the mesh has it.
 TEST(KnownPlanes, MoveTheFit) {
-    // Wider along y: what X+ leans says nothing of Y+.
+    // Wider along y: the lean of X+ says nothing of Y+.
     Solid block = test::cube();
     for (Vec3& v : block.vertices) v.y *= 1.5;
     for (Facet& facet : block.facets)

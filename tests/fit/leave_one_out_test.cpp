@@ -1,5 +1,6 @@
-// Readings so wrong that the stone breaks or bends: the reading is named, not the stone. The step
-// cut is that of the benchmark; what each reading should have been is known by construction.
+// Readings so wrong that the stone breaks or bends: the report must name the reading, not the
+// stone. The step cut is that of the benchmark; the right value of each reading is known by
+// construction.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ protected:
         });
     }
     FitResult fitted() const {
-        // As the program does.
+        // The program's settings.
         FitOptions options;
         options.first_check = true;
         const Trial trial = fit_mesh(noisy_mesh(truth_.stone, 0.01, 4), readings_, options);
@@ -43,7 +44,7 @@ protected:
     std::vector<WrittenReading> readings_;
 };
 
-// 1 ct = 0.2 g. With it the girdle has no room, which is no news of the girdle.
+// 1 ct = 0.2 g. With this weight the girdle has no room, but the girdle is not at fault.
 TEST_F(GrossReadings, AWeightInGramsIsNamedAndNotTheGirdle) {
     const double mm3 = volume(truth_.stone.solid);
     const double carats = carat(mm3, *truth_.stone.material.density_g_cm3);
@@ -68,7 +69,8 @@ TEST_F(GrossReadings, AWeightInGramsIsNamedAndNotTheGirdle) {
     EXPECT_FALSE(result.readings.back().left_out.empty());
 }
 
-// Such a reading bends the stone so that its neighbour is accused too, and it is estimated wrong.
+// Such a reading bends the stone so much that its neighbour looks wrong too, and its own error is
+// misestimated.
 TEST_F(GrossReadings, OneInclinationWithSwappedDigitsIsAccusedAlone) {
     WrittenReading& wrong = inclination_of("C1E");
     const double meant = std::round(*wrong.value);
@@ -99,8 +101,8 @@ TEST_F(GrossReadings, AzimuthsThatCountFromElsewhereThanTheMeshAreSaidToBe) {
     EXPECT_THAT(result.log.notes, ::testing::Contains(HasSubstr("turned by -90 degrees")));
 }
 
-// Azimuths counted the other way round, which no step cut drawn as it is has: the mirror image is
-// taken since it suits the readings better, and both figures are said.
+// Azimuths counted in the opposite sense, which contradict the drawing of a step cut: the fit takes
+// the mirror image because it suits the readings better, and reports both chi-squares.
 TEST_F(GrossReadings, AzimuthsOfTheMirrorImageAreSaidToBe) {
     truth_.stone.azimuth_from_mesh = true;
     for (const Facet& f : truth_.stone.solid.facets) {

@@ -1,4 +1,4 @@
-// Azimuths of facets that lie level.
+// Azimuths of level facets.
 #include "fit/readings/level_facets.h"
 
 #include <gmock/gmock.h>
@@ -37,20 +37,20 @@ TEST(LevelFacets, TheAzimuthOfANearlyLevelOneIsLeftOutAndSaid) {
     EXPECT_FALSE(result.readings[3].left_out.empty());
     EXPECT_EQ(result.readings[3].id, azimuth.id);
     EXPECT_THAT(result.message, HasSubstr("a level facet has no azimuth"));
-    // Everything else as if it had never been read.
+    // Everything else is as if the azimuth had not been read.
     EXPECT_EQ(result.status, without.status);
     EXPECT_DOUBLE_EQ(result.statistics.chi2, without.statistics.chi2);
 }
 
 TEST(LevelFacets, AnAzimuthThatMeansSomethingCounts) {
-    // A tilt of five sigmas is a direction.
+    // A tilt of five sigmas defines a direction.
     std::vector<Reading> readings{
         reading(ReadingKind::inclination, {5}, radians(0.5), radians(0.1)),
         reading(ReadingKind::azimuth, {5}, radians(40), radians(0.1))};
     EXPECT_TRUE(meaningless_azimuths(readings).empty());
     readings[0].value = radians(0.2);
     EXPECT_THAT(meaningless_azimuths(readings), testing::ElementsAre(1u));
-    // However uncertain: a facet that leans by 34 degrees is not level.
+    // A facet that leans by 34 degrees is not level, however uncertain its angle is.
     readings[0].value = radians(34);
     readings[0].sigma = 1e12;
     EXPECT_TRUE(meaningless_azimuths(readings).empty());

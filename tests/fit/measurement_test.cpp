@@ -40,8 +40,8 @@ protected:
     Stone stone_ = stone_of(brilliant());
 };
 
-// Over upright by as little as an instrument is off, a girdle facet looks down whichever way a
-// rough mesh draws it; by more, the mesh must show that side.
+// Up to the instrument's error over 90 degrees, a girdle facet is taken to look down whichever way
+// a rough mesh draws it. Beyond that the mesh must show that side.
 TEST_F(ReadingFiles, ALittleOverUprightIsNoReadingOfThePavilion) {
     for (Facet& facet : stone_.solid.facets) {
         if (facet.name == "G1") facet.plane.normal = {0.6, 0, 0.8};
@@ -133,7 +133,7 @@ TEST_F(ReadingFiles, TomlTables) {
     EXPECT_THROW(read_fit_options(file, {"fit.meets=loose"}), InputError);
 }
 
-// Each complaint names the file, the line, what was found and what to do.
+// Each error names the file, the line, what was found and what to do.
 TEST_F(ReadingFiles, ComplaintsNameTheLine) {
     EXPECT_THAT(complaint("depth,,3.5,0.01\nincl,C1,34,0.1\n"),
                 ::testing::AllOf(HasSubstr("r.csv:3: unknown kind of reading 'incl'"),
@@ -145,8 +145,8 @@ TEST_F(ReadingFiles, ComplaintsNameTheLine) {
     EXPECT_THAT(complaint("inclination,C1,34,0\n"), HasSubstr("must be positive"));
     EXPECT_THAT(complaint("inclination,C1,34,-1\n"), HasSubstr("must be positive"));
     EXPECT_THAT(complaint("inclination,C1,34,\n"), HasSubstr("sigma is missing"));
-    // An empty row of a form is no slip; a form of empty rows is one, and so is an exact
-    // value that is not there.
+    // An empty row of a form is fine. A form without any value is an error, and so is a missing
+    // exact value.
     EXPECT_THAT(complaint("inclination,C1,,0.1\n"), HasSubstr("no row has a value yet"));
     EXPECT_THAT(complaint("inclination,C1,,,true\n"), HasSubstr("value is missing"));
     EXPECT_THAT(complaint("inclination,C1,nan,0.1\n"), HasSubstr("finite number"));
@@ -184,7 +184,7 @@ TEST_F(ReadingFiles, ComplaintsNameTheLine) {
     EXPECT_THAT(complaint(std::string("inclination,\0C1,34,0.1\n", 24)), HasSubstr("zero byte"));
 }
 
-// 6 mm written in another unit: the factor says which.
+// 6 mm written in another unit: the factor tells which.
 TEST_F(ReadingFiles, LengthsInAnotherUnitAreNamed) {
     EXPECT_THAT(complaint("width,0,0.006,0.00001\n"),
                 ::testing::AllOf(HasSubstr("1000 times"), HasSubstr("in m?")));
@@ -195,7 +195,7 @@ TEST_F(ReadingFiles, LengthsInAnotherUnitAreNamed) {
     EXPECT_EQ(complaint("width,0,6.3,0.001\n"), "no complaint");
 }
 
-// One kind in mm, the other in inches: neither is the mesh's fault. A volume in another unit.
+// One kind in mm, the other in inches, so the mesh is not at fault; and a volume in another unit.
 TEST_F(ReadingFiles, LengthsOfTwoUnitsAreNamed) {
     std::string edges, widths;
     for (int k = 1; k <= 8; ++k) edges += "edge,T/S" + std::to_string(k) + ",1.4,0.01\n";

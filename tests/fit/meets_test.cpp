@@ -1,4 +1,4 @@
-// Meets that the readings contradict, and how they come apart.
+// Meets that contradict the readings, and how releasing them splits them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// A brilliant whose lower halves' tips stand off by `up[k]`: all meets are exact but the culet,
+/// A brilliant with the tip of lower half k raised by `up[k]`: all meets are exact but the culet,
 /// which the mains through the moved tips miss.
 Solid with_loose_culet(const std::array<double, 8>& up) {
     const BrilliantSize size;
@@ -64,7 +64,8 @@ const MeetFinding& meet_of(const FitResult& result, const std::vector<std::strin
 
 const std::vector<std::string> k_culet{"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8"};
 
-// Without any misses none is claimed: each of 20 stones is tested at the 0.1 % level as a whole.
+// None is reported where there are no misses: each of 20 stones is tested at the 0.1 % level as a
+// whole.
 TEST(Meets, OfASoundStoneAreNotAccused) {
     const Solid truth = brilliant();
     const std::vector<Reading> readings = plane_readings(truth, truth, 0.05, 0.005);
@@ -81,12 +82,13 @@ TEST(Meets, OfASoundStoneAreNotAccused) {
         }
     }
     EXPECT_EQ(accused, 0);
-    // p is uniform: mean 1/2, spread 1/sqrt(12 n) were the tests independent.
+    // p is uniform: its mean is 1/2, with a standard error of 1/sqrt(12 n) if the tests are
+    // independent.
     EXPECT_NEAR(p_sum / count, 0.5, 6 / std::sqrt(12.0 * count));
 }
 
-// Mains that miss the culet by tens of micrometres, read to 5 um and 0.05 degrees: that meet is
-// named, with how much it misses by, and no other.
+// Mains miss the culet by tens of micrometres and were read to 5 um and 0.05 degrees: the report
+// names that meet alone, with its miss.
 TEST(Meets, ACuletThatMissesIsNamed) {
     const Solid design = brilliant(),
                 truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
@@ -100,9 +102,9 @@ TEST(Meets, ACuletThatMissesIsNamed) {
     EXPECT_LT(culet.p, 1e-6);
 }
 
-// Let go, it comes apart into the corners and small edges that the planes enclose (computed here by
-// exact half-space intersection of the true planes: 5 corners more), all names stay, and nothing is
-// left of the contradiction.
+// A released culet splits into the corners and small edges that the planes enclose (exact
+// half-space intersection of the true planes: 5 more corners). All names stay, and no contradiction
+// remains.
 TEST(Meets, AReleasedCuletComesApart) {
     const Solid design = brilliant(),
                 truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
@@ -125,8 +127,8 @@ TEST(Meets, AReleasedCuletComesApart) {
     EXPECT_GT(culet.miss, 0.002);
 }
 
-// The same without being told which: allowed to, the fit lets go what the readings contradict, says
-// so, and ends where every reading agrees.
+// The same without naming the meet: if allowed to, the fit releases what the readings contradict,
+// reports it, and ends where all readings agree.
 TEST(Meets, AContradictedCuletComesApartWhereThatIsAllowed) {
     const Solid design = brilliant(),
                 truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});

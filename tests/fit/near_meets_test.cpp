@@ -1,4 +1,4 @@
-// Stones whose meets nearly meet: many-valent points of cut drops, off by 1e-9 to 1e-3 of the
+// Stones whose facets nearly meet: high-valence points of drop cuts, off by 1e-9 to 1e-3 of the
 // width.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 using namespace test;
 
-/// A briolette by rule: `rows` staggered rows of `n` facets that touch a drop, so that n of them
-/// meet in a point above and below. Every plane is off by N(0, `miss`), half widths.
+/// A regular briolette: `rows` staggered rows of `n` facets that touch a drop, so that n of them
+/// meet in a point at the top and at the bottom. Every plane is off by N(0, `miss`) half widths.
 Solid drop(int n, int rows, double miss) {
     std::mt19937_64 random(3);
     std::normal_distribution<double> normal;
@@ -49,8 +49,8 @@ const MeetFinding& point_of(const FitResult& result, const std::string& facet) {
     throw std::runtime_error("no such point");
 }
 
-// Half-space intersection of the perfect planes (with the meets joined) has 16 facets in each
-// point; misses far below what is read are no contradiction, whatever their size.
+// The half-space intersection of the perfect planes (with the meets joined) has 16 facets at each
+// point. Misses far below the readings' sigmas are no contradiction, whatever their size.
 TEST(NearMeets, ASixteenValentPointThatMissesByLittleIsNotAccused) {
     const Solid mesh = contract_near_meets(drop(16, 5, 0), 1e-9).solid;
     for (const double miss : {1e-9, 1e-6, 1e-5}) {
@@ -69,18 +69,18 @@ TEST(NearMeets, ASixteenValentPointThatMissesByLittleIsNotAccused) {
     }
 }
 
-// Planes that miss by 1e-3 of the half width and are read ten times better: the point is named.
+// Planes miss by 1e-3 of the half width and are read ten times better: the report names the point.
 TEST(NearMeets, ASixteenValentPointThatMissesByMuchIsNamed) {
     const Solid mesh = contract_near_meets(drop(16, 5, 0), 1e-9).solid;
     const Solid truth = drop(16, 5, 1e-3);
     ASSERT_EQ(truth.facets.size(), mesh.facets.size());
-    // The planes themselves: angles, and how far each lies from the point below.
+    // Plane observations: angles, and the distance of each plane from the lowest point.
     std::vector<Reading> readings;
     for (const Reading& r : plane_readings(mesh, truth, 0.01, 1e-4)) {
         if (r.kind != ReadingKind::edge) readings.push_back(r);
     }
     for (const Reading& r : all_edges(mesh, 1e-4)) {
-        // Lengths of edges that end in neither point.
+        // Lengths of edges that end at neither point.
         const bool top = mesh.facets[std::size_t(r.facets[0])].name[1] == '1' &&
                          mesh.facets[std::size_t(r.facets[1])].name[1] == '1';
         const bool bottom = mesh.facets[std::size_t(r.facets[0])].name[1] == '5' &&
@@ -115,7 +115,7 @@ TEST(NearMeets, ADropHasTheSymmetryOfItsRows) {
     EXPECT_EQ(report.proposed, "C16v") << report.message;
 }
 
-// 304 facets: what is found out stays possible, and true. By construction the drop stands upright.
+// 304 facets: the analysis must stay feasible and true. By construction the drop stands upright.
 TEST(NearMeets, ABrioletteOf304Facets) {
     const Solid mesh = contract_near_meets(drop(16, 19, 0), 1e-9).solid;
     ASSERT_EQ(mesh.facets.size(), 304u);

@@ -1,5 +1,5 @@
-// Planes from outlines. These tests run under the sanitizers in each check of a change, so the
-// program links what outlines need and no more.
+// Planes from outlines. These tests run under the sanitizers at every change, so the program links
+// only what outlines need.
 
 #include <gtest/gtest.h>
 
@@ -32,9 +32,9 @@ TEST(ProjectedOutline, OfACubeAlongADiagonalIsARectangle) {
     EXPECT_NEAR(outline.nearest(2, 0.5).distance, 2 - std::numbers::sqrt2, 1e-12);
 }
 
-// Analytic gradient of half the cost against central differences of it: quadratic error, so that
-// a step of 1e-6 leaves 1e-6 of it, times a curvature of the order of one. At kinks, where a corner
-// leaves the outline within the step, there is no derivative: few of the unknowns meet one.
+// The analytic gradient of half the cost against central differences: with a step of 1e-6 the
+// quadratic error is about 1e-6 times a curvature of order one. There is no derivative at kinks,
+// where a corner leaves the outline within the step; few of the unknowns hit one.
 TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
     const Solid truth = off_standard(test::brilliant(), 0.3, 0.01, 3);
     SilhouetteSet set = turntable_outlines(truth, {.views = 6, .points = 60, .sigma = 0.002});
@@ -52,7 +52,7 @@ TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
     const std::vector<double> sigmas{0.01};
     const PlaneSolver::Weights weights = solver.weights(state, {1});
     const auto equations = solver.equations(state, weights, sigmas, true);
-    // Every fifth: of each plane another coordinate, and of the motion some.
+    // Every fifth unknown: a different coordinate of each plane, and some of the motion.
     constexpr Eigen::Index k_stride = 5;
     int seen = 0, alike = 0, other = 0;
     for (Eigen::Index i = 0; i < equations.gradient.size(); i += k_stride) {
@@ -74,9 +74,9 @@ TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
     EXPECT_LT(other, 0.05 * alike);
 }
 
-// A step cut whose facets are far off the design, in few and rough outlines: facets that were added
-// become too narrow until the end. Everything is numbered by the planes that are left, each of
-// which has a facet. (This seed drops planes in its last round.)
+// A step cut with facets far off the design, and few and rough outlines: added facets become too
+// narrow at the end. All numbering must refer to the remaining planes, each of which has a facet.
+// (This seed drops planes in its last round.)
 TEST(FindPlanes, WhatIsNumberedByPlanesIsOfThoseThatAreLeft) {
     const Solid design = make_cut("step");
     constexpr unsigned seed = 8;

@@ -1,4 +1,4 @@
-// The stone's own axis: free of what its angles are counted from.
+// The stone's own axis, independent of the datum of its angles.
 #include "fit/findings/own_axis.h"
 
 #include <gmock/gmock.h>
@@ -16,15 +16,15 @@ namespace {
 
 using namespace test;
 
-/// A brilliant whose table (and with it the stars, which pass through the table's corners) stands
-/// off the axis of all the rest by `tilt_deg` towards azimuth 30.
+/// A brilliant whose table is tilted by `tilt_deg` towards azimuth 30 against the axis of the rest.
+/// The stars pass through the table's corners and follow.
 Solid with_tilted_table(double tilt_deg) {
     Solid solid = brilliant();
     const Vec3 normal = direction(tilt_deg, 30);
     const Facet table = solid.facets[std::size_t(find_facet(solid, "T"))];
     std::vector<NamedPlane> planes{through("T", normal, corner_mean(solid, table))};
-    // Table corners move along the edges between bezel and star planes that end there: the bezel's
-    // line down from it; stars are put through two moved corners and their old tip.
+    // Table corners move along the edges between bezel and star planes that end there, down along
+    // the bezel. Each star passes through two moved corners and its old tip.
     const auto plane = [&](const std::string& name) {
         return solid.facets[std::size_t(find_facet(solid, name))].plane;
     };
@@ -75,8 +75,8 @@ const Tier& tier(const FitResult& result, const std::string& name) {
     throw std::runtime_error("no tier " + name);
 }
 
-// The stone of the issue: its table is 0.8 degrees askew, so that pavilion angles counted from it
-// run over twice that; about the stone's own axis they are as equal as they were made.
+// The stone of the issue: its table is tilted by 0.8 degrees, so pavilion angles measured from it
+// spread over twice that. About the stone's own axis they are equal, as they were made.
 TEST(OwnAxis, ATiltedTableDoesNotSpreadThePavilion) {
     const Solid truth = levelled(with_tilted_table(0.8));
     ASSERT_EQ(truth.facets.size(), 73u);
@@ -85,11 +85,11 @@ TEST(OwnAxis, ATiltedTableDoesNotSpreadThePavilion) {
     ASSERT_TRUE(result.findings.own_axis.known);
     EXPECT_EQ(result.findings.own_axis.basis, "tiers");
     const Tier& pavilion = tier(result, "P*");
-    // Facets at steps of 45 degrees from the lean: 2 * 0.8 * cos(15) of the largest spread.
+    // Facets lie at steps of 45 degrees from the lean: 2 * 0.8 * cos(15) is the largest spread.
     EXPECT_NEAR(degrees(pavilion.spread), 2 * 0.8 * std::cos(radians(15)), 0.1);
     EXPECT_LT(degrees(pavilion.spread_own_axis), 0.1);
     EXPECT_NEAR(degrees(pavilion.mean_own_axis), 40.8, 0.02);
-    // Within four of its own standard uncertainties, which are small.
+    // Within four of its standard uncertainties, which are small.
     EXPECT_LT(degrees(result.findings.own_axis.sigma), 0.02);
     EXPECT_NEAR(degrees(result.findings.own_axis.tilt), 0.8,
                 4 * degrees(result.findings.own_axis.sigma));
@@ -97,7 +97,7 @@ TEST(OwnAxis, ATiltedTableDoesNotSpreadThePavilion) {
     EXPECT_NEAR(degrees(result.facets[std::size_t(p1)].inclination_own_axis), 40.8, 0.08);
 }
 
-// A stone that is perfect has its own axis where its table says, however the mesh stands.
+// The axis of a perfect stone is the table's normal, however the mesh is oriented.
 TEST(OwnAxis, OfAPerfectStoneIsUp) {
     const Solid truth = brilliant();
     const FitResult result = fit_stone(stone_of(truth), readings_of(truth, 0.1, 0.01));
@@ -108,8 +108,8 @@ TEST(OwnAxis, OfAPerfectStoneIsUp) {
     EXPECT_NEAR(degrees(tier(result, "C*").mean_own_axis), 34.5, 1e-6);
 }
 
-// Honest: errors of the axis in units of its own sigma have unit spread (12 stones, two components
-// each: the spread of the estimate is 1/sqrt(48) = 0.14).
+// Errors of the axis, in units of its sigma, have unit standard deviation (12 stones, two
+// components each: the estimate's standard error is 1/sqrt(48) = 0.14).
 TEST(OwnAxis, SigmaIsHonest) {
     const Solid truth = brilliant();
     double squares = 0;
@@ -124,7 +124,7 @@ TEST(OwnAxis, SigmaIsHonest) {
     EXPECT_NEAR(std::sqrt(squares), 1, 4 * 0.14);
 }
 
-// Two sides alike are enough: a step cut's tiers come in pairs across its length and its width.
+// Pairs of equal sides are enough: a step cut's tiers are pairs across its length and its width.
 TEST(OwnAxis, OfAStepCut) {
     const Solid truth = make_cut("step");
     Stone stone = stone_of(truth);
@@ -133,14 +133,14 @@ TEST(OwnAxis, OfAStepCut) {
     EXPECT_LT(result.findings.own_axis.tilt, 1e-6);
 }
 
-// A stone without like facets and without a girdle has none, and that is said.
+// A stone without equal facets and without a girdle has no axis, and the report says so.
 TEST(OwnAxis, OfAnIrregularStoneIsNotKnown) {
     std::mt19937_64 random(4);
     std::normal_distribution<double> normal;
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.5}}};
     for (int i = 0; i < 14; ++i) {
         const Vec3 n = glm::normalize(Vec3{normal(random), normal(random), normal(random)});
-        // None that stands upright.
+        // None of them is upright.
         planes.push_back({fmt::format("f{}", i),
                           {glm::normalize(Vec3{n.x, n.y, n.z + (n.z < 0 ? -0.5 : 0.5)}), 1}});
     }

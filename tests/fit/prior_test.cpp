@@ -1,4 +1,4 @@
-// The prior of the facets: fills what readings leave open, and is as sure as it says.
+// The prior of the facets: it determines what readings leave open, and its sigmas are honest.
 
 #include "fit/model/prior.h"
 #include "fit/fit.h"
@@ -39,13 +39,13 @@ TEST_P(PriorOfCut, AnEveningOfReadingsGivesAWholeStone) {
                     result.checks.missing_facets.empty());
         EXPECT_EQ(result.statistics.prior.source, Prior::Source::catalogue);
         EXPECT_EQ(result.statistics.rank_defect, 0);
-        // The sigmas of an evening are those of its errors.
+        // The sigmas of the simulated readings are those of their errors.
         EXPECT_THAT(result.message, testing::Not(testing::HasSubstr("than their sigmas")));
     }
 }
 
-// A chi-square of squared errors over sigmas squared of some 70 facets that hang together: twice
-// the expected value would be a sigma that is 1.4 times too small.
+// Chi-square of squared errors over sigmas squared of some 70 correlated facets: twice the expected
+// value would mean sigmas that are too small by 1.4.
 TEST_P(PriorOfCut, SigmasHoldForFacetsThatNobodyRead) {
     double squares = 0;
     int count = 0;
@@ -67,9 +67,9 @@ TEST_P(PriorOfCut, SigmasHoldForFacetsThatNobodyRead) {
     EXPECT_GT(squares / count, 0.3);
 }
 
-// Stones whose planes meet, and stones whose planes miss each other by some 0.02 mm. What was read
-// is itself the standard: the fit must not lead away from it, and must not be surer than it is. Of
-// 100 facets that hang together a ratio of 1.2 is two standard errors over 1.
+// Stones whose planes meet, and stones whose planes miss each other by some 0.02 mm. The readings
+// are the standard: the fit must not move away from them, and must not claim to be better than it
+// is. With 100 correlated facets a ratio of 1.2 is two standard errors above 1.
 TEST_P(PriorOfCut, FacetsThatWereReadAreNoFurtherOffThanTheirReadings) {
     for (const bool meets : {true, false}) {
         double errors = 0, own = 0, over_sigma = 0;
@@ -144,7 +144,7 @@ TEST(Prior, AReadingDrawsItsFacetAndIsToldFromThePrior) {
     }
 }
 
-// Three planes always meet: there is nothing to weigh, and the fit is that of exact meets.
+// Three planes always meet: there is nothing to weigh, and the fit equals that with exact meets.
 TEST(Prior, MeetsOfThreePlanesAreExact) {
     for (const unsigned seed : {1U, 2U, 3U}) {
         const bench::Truth truth = bench::make_tiered(24, seed);
@@ -167,7 +167,7 @@ TEST(Prior, MeetsOfThreePlanesAreExact) {
 }
 
 TEST(Prior, SoftSymmetryOfFewReadingsEnds) {
-    // The users' second job: 80 readings of 128 freedoms and a rotation within a sigma.
+    // The users' second job: 80 readings for 128 unknowns, and a rotation to within a sigma.
     for (const double sigma : {0.3, 0.5}) {
         Evening evening = cutters_evening("round-brilliant", {}, Slipped::none, 2);
         WrittenReading w;

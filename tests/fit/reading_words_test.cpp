@@ -1,4 +1,5 @@
-// Readings as people and spreadsheets write them: empty rows, separators, units, the trade's words.
+// Readings as people and spreadsheets write them: empty rows, separators, units, words of the
+// trade.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -67,7 +68,7 @@ TEST_F(Words, RowsWithoutAValueAreSkippedAndCounted) {
         "inclination,C1,,0.1\ninclination,C2,34.5,0.1\ndepth,,,0.01\nrotation,8,,0.2\n,,,\n"
         "weight,,,\n");
     ASSERT_EQ(readings.size(), 2u);
-    // Ids go by the place in the file, so that they stay when a row is filled in later.
+    // Ids count places in the file, so that they stay the same when a row is filled in later.
     EXPECT_EQ(readings[0].id, "r1");
     EXPECT_EQ(readings[1].kind, ReadingKind::rotation);
     EXPECT_THAT(notes_, Contains(HasSubstr("3 rows")));
@@ -75,12 +76,12 @@ TEST_F(Words, RowsWithoutAValueAreSkippedAndCounted) {
     EXPECT_THAT(notes_, Contains(HasSubstr("1 row ")));
     rows("depth,,3.5,0.01\n");
     EXPECT_THAT(notes_, IsEmpty());
-    // Of a misspelt kind nobody can say whether it needs a value.
+    // Whether a misspelt kind needs a value is unknown.
     EXPECT_THAT(complaint("depht,,,0.01\n"), HasSubstr("r.csv:2"));
     EXPECT_THAT(complaint("depth,,?,0.01\n"), AllOf(HasSubstr("r.csv:2"), HasSubstr("'?'")));
 }
 
-// The same two readings in every dress.
+// The same two readings in every format.
 TEST_F(Words, SpreadsheetsOfAllCountriesAreRead) {
     for (const char* text : {
              "kind,of,value,sigma\ninclination,C1,33.8,0.1\nwidth,45,6.02,0.015\n",
@@ -103,7 +104,7 @@ TEST_F(Words, SpreadsheetsOfAllCountriesAreRead) {
         EXPECT_NEAR(readings[1].value, 6.02, 1e-15) << text;
         EXPECT_NEAR(readings[1].sigma, 0.015, 1e-15) << text;
     }
-    // Between commas, 1,234 may be a thousand and more.
+    // Between commas, 1,234 could also mean a thousand and more.
     EXPECT_THAT(complaint("volume,,\"1,234\",1\n"), HasSubstr("one decimal mark"));
     EXPECT_THAT(complaint("width,0,\"1.234,5\",1\n"), HasSubstr("one decimal mark"));
     EXPECT_THAT(complaint("inclination,C1,33,8,0.1\n"), HasSubstr("decimal point"));
@@ -124,16 +125,16 @@ TEST_F(Words, UnitsAreReadWhereTheyAgree) {
     EXPECT_NEAR(readings[5].value, 0.95, 1e-15);
     EXPECT_NEAR(readings[6].value, 0.95, 1e-14);  // 1 ct = 0.2 g
     EXPECT_NEAR(readings[6].sigma, 0.005, 1e-15);
-    EXPECT_NEAR(readings[8].value, radians(33.8), 1e-15);  // Windows' own sign for degrees
-    // In a stone of another unit a written one still means itself.
+    EXPECT_NEAR(readings[8].value, radians(33.8), 1e-15);  // the degree sign of Windows' code page
+    // A written unit keeps its meaning in a stone of another unit.
     stone_.unit = LengthUnit::cm;
     for (Vec3& v : stone_.solid.vertices) v *= 0.1;
     for (Facet& f : stone_.solid.facets) f.plane.offset *= 0.1;
     EXPECT_NEAR(rows("width,0,6.02mm,0.015mm\n")[0].value, 0.602, 1e-15);
 }
 
-// From up all the way: 139 degrees is a pavilion facet of 41, and 90.2 on a girdle facet one that
-// leans down by 0.2, however small its sigma.
+// Inclinations measured from straight up: 139 degrees is a pavilion facet of 41, and 90.2 is a
+// girdle facet that leans down by 0.2, however small its sigma.
 TEST_F(Words, InclinationsOverNinetyAreOfThePavilion) {
     for (const char* sigma : {"0.3", "0.01"}) {
         const Reading g = rows(std::string("inclination,G1,90.2,") + sigma + "\n")[0];
@@ -144,7 +145,7 @@ TEST_F(Words, InclinationsOverNinetyAreOfThePavilion) {
     EXPECT_NEAR(p.value, radians(41), 1e-14);
     EXPECT_EQ(p.side, -1);
     EXPECT_EQ(rows("inclination,P1,41,0.1\n")[0].side, 0);
-    // Crown facets are not: a slip.
+    // A crown facet over 90 degrees is a slip.
     EXPECT_THAT(complaint("inclination,C1,139,0.1\n"), HasSubstr("outside 0..90"));
     EXPECT_THAT(complaint("inclination,P1,181,0.1\n"), HasSubstr("outside 0..90"));
 }
@@ -212,7 +213,7 @@ TEST_F(Words, TableIsTheMeanOverOppositeCorners) {
     ASSERT_EQ(readings.size(), 4u);
     EXPECT_NEAR(readings[2].azimuth, radians(90), 1e-9);
     EXPECT_NEAR(readings[2].sigma, 0.04, 1e-15);
-    // Which way the table lies is open where azimuths count from where they will.
+    // Without a datum for azimuths the table's orientation is open.
     EXPECT_THAT(complaint("azimuth,C1,12,0.1\ntable,,3.42,0.02\n"), HasSubstr("table_width"));
     stone_.azimuth_from_mesh = true;
     EXPECT_EQ(rows("azimuth,C1,0,0.1\ntable,,3.42,0.02\n").size(), 5u);
@@ -232,7 +233,7 @@ TEST_F(Words, CrownAngleIsTheMeanOfTheMains) {
     EXPECT_EQ(readings[2].facets.size(), 1u);
 }
 
-// A reading of every facet's own tooth is that facet's azimuth: the rule is the design's.
+// A reading of a facet's own tooth is its azimuth, because the wheel is the design's.
 TEST_F(Words, IndexIsTheToothOfTheWheel) {
     stone_ = stone_of(parse_gemcad_asc("GemCad 5.0\ng 96 0.0\ny 1 n\nI 1.54\n"
                                        "a -90 1.0 2 n G 26 50 74\na 40 0.9 2 n A 26 50 74\n"
@@ -279,7 +280,7 @@ TEST_F(Words, CapitalsAreForgivenWhereNothingElseIsMeant) {
     EXPECT_THAT(complaint("inclination,ab,20,0.1\n"), HasSubstr("no facet 'ab'"));
 }
 
-// A tier 1 beside a tier 11: the star alone takes both.
+// A tier 1 beside a tier 11: only the asterisk covers both.
 TEST_F(Words, TiersOfADesignAreMeantByTheirNames) {
     stone_ = stone_of(parse_gemcad_asc("GemCad 5.0\ng 96 0.0\ny 1 n\nI 1.54\n"
                                        "a -90 1.0 96 n G 24 48 72\na -41 0.9 96 n 1 24 48 72\n"

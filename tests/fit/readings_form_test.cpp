@@ -1,4 +1,5 @@
-// The form for the bench: its rows are readings, and their expected values are those of the mesh.
+// The form to fill in at the bench: its rows are readings whose expected values are those of the
+// mesh.
 
 #include "fit/readings/readings_template.h"
 
@@ -34,7 +35,7 @@ Stone stone_of_cut(const Solid& solid) {
     return stone;
 }
 
-// The form with each value filled in as its note expects it; of a range, the middle.
+// The form with the expected value from each note filled in; the middle of a range.
 std::string filled_in(const std::string& form) {
     const std::regex row(
         "^([a-z_]+,(?:\"[^\"]*\"|[^,]*),)(,.*expected ([0-9.]+)(?: to ([0-9.]+))?.*)$");
@@ -75,7 +76,7 @@ TEST_F(Form, OfABrilliantHasARowForEveryMain) {
     EXPECT_EQ(form.up_facet, "T");
     std::map<std::string, int> rows;
     for (const WrittenReading& w : written) ++rows[w.kind];
-    // 8 + 8 mains, then stars, upper halves, girdle and lower halves as patterns.
+    // 8 + 8 mains; then stars, upper halves, girdle and lower halves as patterns.
     EXPECT_EQ(rows["inclination"], 16 + 4);
     EXPECT_EQ(rows["width"], 4);
     EXPECT_EQ(rows["table_width"], 2);
@@ -87,8 +88,8 @@ TEST_F(Form, OfABrilliantHasARowForEveryMain) {
     EXPECT_TRUE(form.csv.starts_with("# "));
 }
 
-// Filled in with what it expects, every form is a set of readings that binds, of an evening's
-// length, and reads each facet but the table.
+// Filled in as expected, every form binds, is short enough for an evening, and reads each facet but
+// the table.
 TEST_F(Form, OfEveryCutReadsEveryFacet) {
     for (const CutKind& kind : cut_kinds()) {
         if (!kind.convex) continue;
@@ -107,7 +108,8 @@ TEST_F(Form, OfEveryCutReadsEveryFacet) {
     }
 }
 
-// Notes have two digits of a degree and four of a length: off by 0.005 where sigmas are 0.1.
+// Notes have two digits of a degree and four of a length: off by at most 0.005 where sigmas are
+// 0.1.
 TEST_F(Form, FilledInAsExpectedIsExplainedByTheMesh) {
     Stone stone = stone_of_cut(make_cut("round-brilliant"));
     stone.up_facet = "T";
@@ -135,8 +137,8 @@ Solid design(bool named) {
     return parse_gemcad_asc("GemCad 5.0\ng 96 0.0\ny 8 y\nI 1.54\n" + text).solid;
 }
 
-// GemCad's tiers: the mains one by one, the others by the names that the design has; without names,
-// as lists, by tier and index.
+// GemCad's tiers: the mains one by one, the others by the design's names or, without names, as
+// lists by tier and index.
 TEST_F(Form, OfADesignMeansItsTiers) {
     const Solid solid = design(true);
     const auto written = read(readings_form(stone_of_cut(solid), true).csv);
@@ -149,11 +151,11 @@ TEST_F(Form, OfADesignMeansItsTiers) {
     const ReadingsForm form = readings_form(unnamed, true);
     unnamed.up_facet = form.up_facet;
     EXPECT_THAT(form.csv, testing::ContainsRegex("each\\([PC][0-9]@"));
-    // All 72 facets but the table, and 8 of lengths and weight.
+    // All 72 facets but the table, and 8 rows of lengths and weight.
     EXPECT_EQ(bind_readings(read(filled_in(form.csv)), unnamed).size(), 72u + 8);
 }
 
-// 12, 24, .. of 96 are the eighths of a turn that the design's lines give the tier B.
+// 12, 24, .. of 96 are the eighths of a turn that the design's lines give tier B.
 TEST_F(Form, FacetsOfADesignAreCalledByTierAndIndex) {
     const Stone stone = stone_of_cut(design(true));
     const std::vector<std::string> names = index_names(stone.solid, 96);
@@ -171,7 +173,7 @@ TEST_F(Form, FacetsOfADesignAreCalledByTierAndIndex) {
     const std::vector<Reading> bound = bind_readings({w}, stone);
     EXPECT_EQ(stone.solid.facets[std::size_t(bound.at(0).facets[0])].name, "B.3");
     EXPECT_EQ(bound[0].of, w.of);
-    // Another wheel, and the name of a facet that a standard cut has: C1 looks along x, a quarter
+    // Another wheel, and the name of a facet that a standard cut has: C1 faces along x, a quarter
     // of a turn from where indices begin.
     EXPECT_THAT(
         facets_at_index(stone.solid,
@@ -186,7 +188,7 @@ TEST_F(Form, FacetsOfADesignAreCalledByTierAndIndex) {
     EXPECT_TRUE(facets_at_index(brilliant, "C1@36").empty());
 }
 
-// What a spreadsheet does to 1.10 and 1-2.
+// What a spreadsheet makes of 1.10 and 1-2.
 TEST_F(Form, LostZerosAndDatesAreToldWithTheirLine) {
     Stone stone = stone_of_cut(make_cut("round-brilliant"));
     for (int i = 1; i <= 16; ++i) {
@@ -204,7 +206,7 @@ TEST_F(Form, LostZerosAndDatesAreToldWithTheirLine) {
     const std::string lost =
         refusal("inclination,1.1,40,0.1\ninclination,1.2,40,0.1\ninclination,1.1,41,0.1\n");
     EXPECT_THAT(lost, test::says("form.csv:4", "line 2", "1.10"));
-    // Read twice, and so is 1.10: no slip.
+    // 1.1 was read twice and 1.10 is there too: not a slip.
     EXPECT_EQ(refusal("inclination,1.1,40,0.1\ninclination,1.1,40,0.1\ninclination,1.10,40,0.1\n"),
               "");
     EXPECT_THAT(refusal("inclination,1-Feb,40,0.1\n"), test::says("form.csv:2", "date", "text"));
@@ -235,7 +237,7 @@ TEST_F(Form, StoneFileIsReadyForTheFit) {
     EXPECT_EQ(back.stone.name, "An \"oval\"");
     EXPECT_EQ(back.stone.up_facet, "T");
     EXPECT_TRUE(back.stone.azimuth_from_mesh);
-    EXPECT_TRUE(back.stone.facets_are_whole);  // culet wrote the mesh
+    EXPECT_TRUE(back.stone.facets_are_whole);  // because culet wrote the mesh
     EXPECT_EQ(read_readings(file).size(), form.rows.size());
     EXPECT_EQ(skipped_readings(read_readings(file)), 0u);
 }

@@ -1,7 +1,7 @@
-// The main proof: a real polished diamond. Its readings (to 0.1 degree and 0.01 mm) are fitted from
-// the catalogue's round brilliant; what was measured on the same stone and did not enter the fit,
-// the areas of its facets (real_brilliant_areas.csv), judges the result. bench_outside holds it to
-// the unrounded planes of the scan.
+// The main evidence: a real polished diamond. Its readings (to 0.1 degree and 0.01 mm) are fitted
+// from the catalogue's round brilliant. The facet areas measured on the same stone
+// (real_brilliant_areas.csv) do not enter the fit and judge the result. bench_outside compares it
+// with the unrounded planes of the scan.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ void expect_is_a_stone_that_could_be_cut(const FitResult& result, std::size_t fa
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
 }
 
-// Angles and lengths of the solid that is written, not of the fit's own account of it.
+// Checks angles and lengths of the written solid itself, not the fit's statistics.
 void expect_holds_the_readings(const FitResult& result, const std::vector<Reading>& readings) {
     int angles = 0, lengths = 0;
     for (const Reading& r : readings) {
@@ -66,7 +66,7 @@ void expect_holds_the_readings(const FitResult& result, const std::vector<Readin
             ++lengths;
         } else if (r.facets.size() == 1) {
             const auto& facet = result.solid.facets.at(static_cast<std::size_t>(r.facets[0]));
-            if (facet.name[0] == 'G') continue;  // supposed upright, not read
+            if (facet.name[0] == 'G') continue;  // assumed upright, not read
             const Vec3 n = facet.plane.normal;
             const double there = r.kind == ReadingKind::azimuth ? azimuth(n) - result.azimuth_zero
                                                                 : inclination(n, {0, 0, 1});
@@ -78,11 +78,10 @@ void expect_holds_the_readings(const FitResult& result, const std::vector<Readin
     EXPECT_EQ(lengths, 13);
 }
 
-// What the readings can say of areas is limited by how facets miss their meets, not by the
-// instrument: with the scan's unrounded angles the same errors remain. Each facet is allowed three
-// and a half of the standard uncertainties that the report gives it, and together they must be as
-// large as reported and no larger. Measured: 49 of 57 within 10 %, the worst (a pavilion main of
-// 0.52 mm2, whose area is reported with 22 %) off by 25 %.
+// What limits areas is how facets miss their meets, not the instrument: the scan's unrounded angles
+// give the same errors. Each facet may be off by three and a half of its reported standard
+// uncertainties, and together the errors must be as large as reported. Measured: 49 of 57 within 10
+// %; the worst (a pavilion main of 0.52 mm2, reported with 22 %) is off by 25 %.
 void expect_areas_are_as_good_as_the_report_says(const FitResult& result) {
     const std::map<std::string, double> measured = measured_areas();
     double squares = 0;
@@ -106,7 +105,7 @@ void expect_areas_are_as_good_as_the_report_says(const FitResult& result) {
 }
 
 // The scan's own planes miss the common points of table corners by 4.0 um, of star tips by 2.3, of
-// the culet by 1.2 and of the lower halves' tips by 1.3 (root of squares over redundancy).
+// the culet by 1.2 and of the lower halves' tips by 1.3 (square root of squares over redundancy).
 void expect_estimates_how_meets_miss(const FitResult& result) {
     EXPECT_TRUE(result.statistics.meets.estimated);
     EXPECT_GT(result.statistics.meets.sigma, 0.0012);
@@ -123,7 +122,7 @@ TEST_F(RealBrilliant, ContradictsExactMeets) {
     EXPECT_LT(result.checks.planarity_max, 1e-12 * diameter(result.solid));
 }
 
-// One test, because the fit behind it takes seconds.
+// One test, because its fit takes seconds.
 TEST_F(RealBrilliant, IsTheMeasuredStone) {
     const FitResult result = fit_stone(stone_.stone, readings_, read_fit_options(k_sample));
     expect_is_a_stone_that_could_be_cut(result, stone_.stone.solid.facets.size());

@@ -1,4 +1,4 @@
-// From an earlier result with one reading edited.
+// Refitting from an earlier result after one reading was edited.
 
 #include "fit/starts/refit.h"
 
@@ -41,9 +41,10 @@ FitResult refitted(const Fitted& f, const std::vector<WrittenReading>& readings)
     return fit_mesh(f.truth.stone, readings, options).result;
 }
 
-// A result is told as its mesh lies. However it is turned by a little, jaws find the same place.
+// A result file keeps the mesh's orientation. However that is turned a little, the jaws find the
+// same place.
 TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
-    // Of stones whose best place is not at the end of what is looked through.
+    // Stones whose best orientation is not at the end of the searched range.
     for (const unsigned seed : {1u, 3u, 4u}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Fitted f = fitted_step_cut(seed);
@@ -56,7 +57,7 @@ TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
             const Shape again = turned_to_calipers(relaxation, turned_about_z(told, by));
             double worst = 0;
             for (std::size_t p = 0; p < laid.points.size(); ++p) {
-                // A minimum that is no kink is found to the root of rounding.
+                // A smooth minimum is found to the square root of rounding error.
                 worst = std::max(worst, glm::length(again.points[p] - laid.points[p]));
             }
             EXPECT_LT(worst, 1e-6) << by;
@@ -65,7 +66,7 @@ TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
 }
 
 // Sides of a step cut lie flush between the jaws: corners that a fit left level share their jaws
-// from the start, and the last stage has hardly more to do than to look.
+// from the start, so the last stage has little more to do than check.
 TEST(Refit, JawsRestWhereTheyRested) {
     int shared_contacts = 0, few = 0;
     constexpr int k_stones = 10;
@@ -87,17 +88,17 @@ TEST(Refit, JawsRestWhereTheyRested) {
         const FitResult again = refitted(f, f.readings);
         EXPECT_EQ(again.log.start, "earlier result");
         few += again.log.iterations <= 2;
-        // Facets that lean the other way and gain less are not looked for.
+        // The search for facets that lean the other way and gain less is skipped.
         EXPECT_LT(
             again.statistics.chi2,
             fit_mesh(f.truth.stone, f.readings, without_findings()).result.statistics.chi2 + 2);
     }
     EXPECT_GT(shared_contacts, k_stones);
-    // Where the edited reading takes a jaw off one of two corners, it takes a step more.
+    // Where the edited reading takes a jaw off one of two corners, one more step is needed.
     EXPECT_GT(few, k_stones / 2);
 }
 
-// A width read larger than the stone is pulls corners out: no jaw rests on two of them.
+// A width read larger than the stone pulls corners outwards: no jaw touches two of them.
 TEST(Refit, AJawThatIsPulledAwayLetsGo) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -106,7 +107,7 @@ TEST(Refit, AJawThatIsPulledAwayLetsGo) {
             if (r.kind == "width") *r.value += 4 * *r.sigma;
         }
         const FitResult again = refitted(f, f.readings);
-        // The last stage from the same shape, where no jaw rests on two corners at first.
+        // The last stage from the same shape, at first without any jaw on two corners.
         const FitModel model(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
         const Parameters parameters = model.parameters();
         const Shape laid =

@@ -1,5 +1,5 @@
-// Readings of one quantity share an equation. What they say together and of each of them must be
-// what they say with an equation each: the sums of squares differ by a constant.
+// Readings of one quantity share an equation. The results must be those of separate equations: the
+// sums of squares differ by a constant.
 
 #include "fit/readings/replicates.h"
 #include "fit/model/equations.h"
@@ -29,8 +29,8 @@ Reading inclination(double value, double sigma, int facet = 3) {
     return r;
 }
 
-// 10 with sigma 1 and 13 with sigma 2: weights 1 and 1/4, mean 10.6, variance 0.8, and
-// 0.36 + 2.4^2 / 4 = 1.8 left over.
+// 10 with sigma 1 and 13 with sigma 2: weights 1 and 1/4, mean 10.6, variance 0.8, and a remaining
+// sum of squares of 0.36 + 2.4^2 / 4 = 1.8.
 TEST(Replicates, AreWeightedByTheirSigmas) {
     const std::vector<Reading> readings{inclination(10, 1), inclination(13, 2)};
     const Replicates both = merged(readings, {0, 1}, 1);
@@ -94,7 +94,8 @@ protected:
                 if (r.value && r.sigma) {
                     r.sigma = *r.sigma * std::exp2(double(random() % 201) / 100 - 1);
                     r.value = *r.value + *r.sigma * std::normal_distribution<>()(random);
-                    // As the protractor shows what leans a little the other way.
+                    // A protractor shows the supplement for a facet that leans a little the other
+                    // way.
                     if (r.kind == "inclination" && *r.value > 90) r.value = 180 - *r.value;
                     if (r.kind == "azimuth" && *r.value > 360) r.value = *r.value - 360;
                     if (random() % 4 == 0) r.rounding = 0.5 * *r.sigma;
@@ -166,11 +167,11 @@ TEST_P(RepeatedReadings, SayTheSameTogetherAndApart) {
                   1e-5)
             << f;
     }
-    // At one and the same shape, to rounding.
+    // At the same shape, to rounding.
     const Diagnosis of_one = diagnose(together, one.finished.shape, one.finished.outline);
     expect_same(of_one, diagnose(apart, one.finished.shape, one.finished.outline));
     EXPECT_EQ(of_one.suspects.empty(), !is_wrong);
-    // As many count, for the test of chi-square by counting.
+    // The same number of readings counts in the chi-square test.
     const Parameters parameters = together.parameters();
     EXPECT_EQ(Relaxation(together, parameters).counts().soft,
               Relaxation(apart, parameters).counts().soft);

@@ -1,5 +1,5 @@
-// Every formula: a closed-form value on a solid whose answer is known, and its slopes against
-// central differences (error of order step^2 = 1e-10 for smooth formulas of size one).
+// Checks every formula against a closed-form value on a known solid, and its slopes against central
+// differences (error of order step^2 = 1e-10 for smooth formulas of size one).
 #include "fit/model/residuals.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ Shape retracted(const Shape& shape, const std::vector<double>& step) {
     return RowWriter(shape).parameters().retracted(shape, step);
 }
 
-// A brilliant in general position: no symmetry hides a wrong sign.
+// A brilliant in general position: no symmetry can hide a wrong sign.
 Shape odd_shape() {
     Shape shape = shape_of(brilliant());
     const Layout layout = layout_of(shape);
@@ -181,14 +181,15 @@ TEST_F(CubeReadings, Lengths) {
     EXPECT_NEAR(value(extent(ppp, mmm, {0, 0, 1})), 2, 1e-15);
     EXPECT_NEAR(value(corner_distance(ppp, mmm)), 2 * std::sqrt(3.0), 1e-15);
     EXPECT_NEAR(value(corner_distance(ppp, pmp)), 2, 1e-15);
-    // Along z x x = y; inside out the other way, and through zero between.
+    // The edge along z x x = y. With the facets exchanged its length is negative, and it passes
+    // through zero between.
     EXPECT_NEAR(value(edge_length(facet("T"), facet("X+"), pmp, ppp)), 2, 1e-15);
     EXPECT_NEAR(value(edge_length(facet("T"), facet("X+"), ppp, pmp)), -2, 1e-15);
     EXPECT_EQ(value(edge_length(facet("T"), facet("X+"), ppp, ppp)), 0);
     EXPECT_NEAR(value(height(facet("B"), ppp)), -2, 1e-15);
     EXPECT_NEAR(value(corner_to_facet(facet("B"), ppp)), 2, 1e-15);
     EXPECT_NEAR(value(corner_to_line(mmm, ppp, pmp)), 2 * std::sqrt(2.0), 1e-15);
-    // The edge T|X+ and the edge B|Y-: skew, 2 apart along z.
+    // The edges T|X+ and B|Y- are skew lines, 2 apart along z.
     EXPECT_NEAR(value(line_to_line(ppp, pmp, vertex(1, -1, -1), mmm)), 2, 1e-15);
     // Parallel edges across a face diagonal.
     EXPECT_NEAR(value(line_to_line(ppp, pmp, vertex(-1, 1, -1), mmm)), 2 * std::sqrt(2.0), 1e-15);
@@ -213,10 +214,10 @@ TEST_F(CubeReadings, Symmetry) {
     EXPECT_NEAR(value(turned_height(edge, facet("Y+"), k_pi / 2, 0)), 0, 1e-15);
     EXPECT_EQ(value(mirrored_height(edge, facet("X-"), {-1, 0, 0})), 0);
     EXPECT_EQ(value(across_mirror(facet("Y+"), {-1, 0, 0})), 0);
-    // An axis through (0.25, 0): X+ lies 0.75 from it and Y+ 1.
+    // An axis through (0.25, 0): X+ is 0.75 from it, Y+ 1.
     shape_.extras = {0.25, 0, 0};
     EXPECT_NEAR(value(turned_height(edge, facet("Y+"), k_pi / 2, 0)), -0.25, 1e-15);
-    // A mirror at x = 0.25 sends X+ (x = 1) to x = -0.5, which X- misses by half.
+    // The mirror at x = 0.25 maps X+ (x = 1) to x = -0.5, which X- misses by half.
     EXPECT_NEAR(value(mirrored_height(edge, facet("X-"), {-1, 0, 0})), -0.5, 1e-15);
 }
 

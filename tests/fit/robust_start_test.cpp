@@ -1,5 +1,5 @@
-// How far the fit may begin from the stone, in a quick form; bench/fit_bench.cpp has the long
-// one. Expected is what the fit finds when it begins from the truth itself.
+// How far from the stone a fit may start: a quick form of bench/fit_bench.cpp. Expectation: the fit
+// that starts at the truth.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(RobustStart, FromWrongProportions) {
     expect_found(truth, wrongly_drawn(truth.stone, 0.2, 9), "wrongly drawn");
 }
 
-// A mesh from which the first starts end with chi-squares of a million.
+// From this mesh the first starts end with chi-squares of a million.
 TEST(RobustStart, WhereTheFirstStartsLeadToNoStoneALaterOneDoes) {
     const Truth truth = make_truth(TruthKind::step, false, 186);
     const auto readings = read_by_instruments(truth, 1186);
@@ -55,8 +55,9 @@ TEST(RobustStart, WhereTheFirstStartsLeadToNoStoneALaterOneDoes) {
     EXPECT_TRUE(succeeds(truth.stone, trial, reference)) << trial.result.message;
 }
 
-// Where no azimuth was read, only the widths say how a nearly round stone stands about up, and
-// chi-square has an end at each turn by a corner of the girdle. These meshes lead to lesser ones.
+// Without azimuth readings only widths determine the turn of a nearly round stone about the
+// vertical, and chi-square has a local minimum at each turn by one girdle corner. These meshes lead
+// to the wrong minima.
 TEST(RobustStart, OfTurnsThatOnlyCalipersFeelTheBestIsFound) {
     struct Case {
         unsigned seed;
@@ -72,21 +73,21 @@ TEST(RobustStart, OfTurnsThatOnlyCalipersFeelTheBestIsFound) {
     }
 }
 
-// A girdle's facets stand within half a degree of upright, and which of them lean in and which out
-// is told by their neighbours: here several have to be turned over together. One or two at a time
-// lead to a chi-square that is 3.7 larger.
+// Girdle facets are within half a degree of upright, and only their neighbours tell which lean in
+// and which out. Here several must be flipped together; flipping one or two at a time ends at a
+// chi-square that is 3.7 larger.
 TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
     const Truth truth = make_truth(TruthKind::round, false, 81);
     const auto readings = read_by_instruments(truth, 1081);
     const Trial reference = fit_mesh(truth.stone, readings);
     const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 77 * 81 + 5), readings);
     EXPECT_TRUE(is_valid(truth.stone, trial.result));
-    // Jaws on other corners may make less than 1 of a difference.
+    // Jaws on other corners change chi-square by less than 1.
     EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + 1);
 }
 
-// Ends that searches have missed, from meshes drawn wrong by 20 %: starts that are all alike, and a
-// start that was told what an earlier one had seen. The reference starts at the truth.
+// Optima that earlier searches missed, from meshes drawn wrong by 20 %: their starts were all
+// alike, or built on what an earlier start had found. The reference starts at the truth.
 TEST(RobustStart, LesserEndsAreLeft) {
     struct Case {
         TruthKind kind;
@@ -105,8 +106,7 @@ TEST(RobustStart, LesserEndsAreLeft) {
 }
 
 // The sides of a plate lean by ten degrees and are as high as a twentieth of its half width:
-// corners off by a third of that tilt them by more than they lean. How long they are says nothing
-// of it.
+// corners off by a third of that tilt them by more than they lean. Their length does not help.
 TEST(RobustStart, SlenderFacetsDoNotSayWhichWayTheyLean) {
     Stone plate;
     plate.solid = test::enclosed({{"T", {{0, 0, 1}, 0.05}},
@@ -146,7 +146,7 @@ TEST(RobustStart, KicksBreakNothing) {
     }
 }
 
-// Symmetry that is exact holds to rounding: every facet has its image among the others.
+// An exact symmetry holds to rounding: every facet has its image among the others.
 TEST(RobustStart, ExactSymmetryHoldsToRounding) {
     const Truth truth = make_truth(TruthKind::round, true, 5);
     const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 5), read_by_instruments(truth, 8));
@@ -169,8 +169,8 @@ TEST(RobustStart, ExactSymmetryHoldsToRounding) {
     }
 }
 
-// The definition: planes pass their points, edges touch the unit sphere, and the touching points
-// have their mean in the middle (Springborn 2005).
+// By definition, planes pass through their points, edges touch the unit sphere, and the mean of the
+// touching points is the centre (Springborn 2005).
 TEST(Canonical, EdgesTouchTheSphere) {
     for (const TruthKind kind : {TruthKind::round, TruthKind::pear}) {
         const Solid solid = make_truth(kind, false, 2).stone.solid;
@@ -195,7 +195,7 @@ TEST(Canonical, EdgesTouchTheSphere) {
     }
 }
 
-// Every facet with corners of its own, each a little off.
+// Every facet has corners of its own, each a little off.
 TEST(Mending, WeldsPrivateCorners) {
     const Truth truth = make_truth(TruthKind::round, false, 6);
     const Stone jittered = noisy_mesh(truth.stone, 0, 1);
@@ -217,7 +217,7 @@ TEST(Mending, WeldsPrivateCorners) {
     expect_found(truth, split, "private corners");
 }
 
-// Who fits need not repair the mesh first, and reads in the result what was done to it.
+// Users need not repair the mesh first; the result says what was repaired.
 TEST(Mending, IsDoneByTheFit) {
     const Truth truth = make_truth(TruthKind::round, false, 7);
     Stone inside_out = truth.stone;
@@ -239,8 +239,8 @@ TEST(Mending, TurnsASurfaceRound) {
     expect_found(truth, inside_out, "inside out");
 }
 
-// Facets with four corners and more drawn as a fan of triangles that bear the facet's name, as an
-// OBJ file tells repeated names apart.
+// Facets with four or more corners are drawn as fans of triangles that bear the facet's name, with
+// the suffixes an OBJ file gives repeated names.
 TEST(Mending, JoinsPiecesOfAFacet) {
     const Truth truth = make_truth(TruthKind::step, false, 8);
     Stone pieces = truth.stone;
@@ -265,7 +265,8 @@ TEST(Mending, LeavesASoundMeshAsItIs) {
     EXPECT_EQ(result.stone.solid.vertices, truth.stone.solid.vertices);
 }
 
-// Only shape counts: a mesh in inches for lengths in millimetres is scaled, and that is said.
+// Only the shape counts: a mesh in inches is scaled for lengths in millimetres, and the report says
+// so.
 TEST(RobustStart, FromAnotherUnit) {
     const Truth truth = make_truth(TruthKind::round, false, 9);
     for (const double factor : {1 / 25.4, 10.0, 1000.0}) {
@@ -280,8 +281,8 @@ TEST(RobustStart, FromAnotherUnit) {
 }
 
 TEST(RobustStart, FromAnEarlierResultUnderExactSymmetry) {
-    // The mesh is off, and with it the pose of the result: the symmetry's axis and mirrors are not
-    // where the readings count from.
+    // The mesh is off, and so is the pose of the result: the symmetry's axis and mirrors are not
+    // those of the readings' frame.
     for (const TruthKind kind : {TruthKind::round, TruthKind::step}) {
         const Truth truth = make_truth(kind, true, 2);
         auto readings = read_by_instruments(truth, 11);
@@ -294,7 +295,7 @@ TEST(RobustStart, FromAnEarlierResultUnderExactSymmetry) {
         *edited->value += 0.01;
         const Trial again = fit_mesh(mesh, readings, options);
         EXPECT_EQ(again.result.log.start, "earlier result");
-        // The same end as without the earlier result.
+        // The same optimum as without the earlier result.
         EXPECT_TRUE(succeeds(truth.stone, again, fit_mesh(mesh, readings))) << again.result.message;
     }
 }

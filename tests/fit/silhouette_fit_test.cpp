@@ -1,4 +1,4 @@
-// Stones from their outlines: against stones that are known.
+// Stones from their outlines, compared with known stones.
 
 #include "fit/silhouettes/silhouette_fit.h"
 
@@ -19,7 +19,7 @@ using test::stone_of;
 using test::Turntable;
 using test::turntable_outlines;
 
-// The design as a catalogue has it: of another size, and standing elsewhere.
+// The catalogue's design in another size and pose.
 Stone catalogue(double scale, double turn_deg, const Vec3& shift) {
     Solid solid = brilliant();
     const double a = radians(turn_deg);
@@ -50,14 +50,15 @@ FitInput input_of(const Stone& mesh, SilhouetteSet set, std::vector<WrittenReadi
     return fit_input(mesh, others);
 }
 
-// Angles between the normals of facets of one name, and inclinations in their sigmas.
+// Angles between normals of facets of the same name, and errors of inclinations in units of their
+// sigmas.
 struct Errors {
     double rms_deg = 0, worst_deg = 0, within_sigma = 0;
     int facets = 0;
 };
 
-// Facets are held against the truth as it stands turned by `turn` about up: nothing tells which of
-// eight ways round a brilliant of the catalogue is.
+// Compares facets with the truth turned by `turn` about the vertical: nothing tells which of eight
+// ways round a catalogue brilliant is.
 Errors errors_at(const FitResult& result, const Solid& truth, double least_area, double turn) {
     Errors errors;
     double squares = 0;
@@ -94,7 +95,7 @@ Errors errors_of(const FitResult& result, const Solid& truth, double least_area,
     return best;
 }
 
-// Without noise nothing but the outlines' finite number of points is between the fit and the truth.
+// Without noise only the finite number of outline points separates the fit from the truth.
 TEST(SilhouetteFit, FindsSizeTurnAndEveryFacetOfAStoneThatIsNoStandard) {
     const Solid truth = off_standard(brilliant(), 0.4, 0.01, 7);
     SilhouetteSet set = turntable_outlines(truth, {.views = 120, .points = 500, .sigma = 1e-4});
@@ -109,7 +110,7 @@ TEST(SilhouetteFit, FindsSizeTurnAndEveryFacetOfAStoneThatIsNoStandard) {
     EXPECT_LT(result.readings.back().silhouette->misfit.rms, 1.2e-4);
 }
 
-// Sigmas that say 68 %: of some 600 inclinations, most of which hang together in tens, the share
+// Sigmas claim 68 %. Most of the 600 inclinations are correlated in groups of ten, so the share
 // within one sigma scatters by sqrt(0.68 * 0.32 / 60) = 6 %.
 TEST(SilhouetteFit, SigmasHoldAndAreFoundFromTheResiduals) {
     double within = 0;
@@ -128,13 +129,14 @@ TEST(SilhouetteFit, SigmasHoldAndAreFoundFromTheResiduals) {
         ASSERT_TRUE(result.readings.back().silhouette);
         const SilhouetteFinding& finding = *result.readings.back().silhouette;
         EXPECT_TRUE(finding.estimated);
-        // Of 28 800 points: 1 / sqrt(2 n) = 0.4 %; five times that.
+        // The sigma from 28 800 points has a relative error of 1 / sqrt(2 n) = 0.4 %; allowed are
+        // five times that.
         EXPECT_NEAR(finding.sigma, 0.001, 0.00002);
     }
     EXPECT_NEAR(within / count, 0.683, 0.18);
 }
 
-// Dust stands out over the outline, the holder hides the culet and stands out far.
+// Dust sticks out of the outline; the holder hides the culet and sticks out far.
 TEST(SilhouetteFit, DustAndTheHolderDoNotCount) {
     const Solid truth = off_standard(brilliant(), 0.3, 0.008, 5);
     SilhouetteSet set = turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.001});
@@ -153,7 +155,7 @@ TEST(SilhouetteFit, DustAndTheHolderDoNotCount) {
 }
 
 // Two independent values of one quantity are weighted by 1/sigma^2 (Gauss): an inclination read as
-// sure as the outlines know it, but two of its sigmas off, moves the facet by one.
+// precisely as the outlines give it, but two of its sigmas off, moves the facet by one.
 TEST(SilhouetteFit, ReadingsAndOutlinesAreOneLeastSquares) {
     const Solid truth = off_standard(brilliant(), 0.3, 0.008, 9);
     const SilhouetteSet set =
@@ -172,7 +174,7 @@ TEST(SilhouetteFit, ReadingsAndOutlinesAreOneLeastSquares) {
     w.sigma = degrees(before.sigma_inclination);
     const FitResult both = fit_stone(input_of(mesh, set, {w}), without_findings());
     const FittedFacet after = facet(both, "P3");
-    // One more reading than there are unknowns; off by one sigma, as the outlines are.
+    // One more reading than unknowns, off by one sigma, as precise as the outlines.
     EXPECT_NEAR(both.statistics.dof, 1, 0.01);
     EXPECT_NEAR(both.statistics.chi2, 2, 0.02);
     EXPECT_NEAR(after.inclination, before.inclination - before.sigma_inclination,

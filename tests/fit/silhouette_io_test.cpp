@@ -1,4 +1,4 @@
-// Files of outlines: what they mean, and what is refused.
+// Files of outlines: their meaning, and what is refused.
 
 #include "fit/readings/silhouette_tables.h"
 
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-// A triangle has three sides, and each is held by two points of Gauss's rule: 0.2113 and 0.7887 of
+// A triangle has three sides, each sampled at the two points of Gauss's rule: 0.2113 and 0.7887 of
 // the way.
 TEST_F(SilhouetteFiles, APolygonOfFewCornersIsOneOfSides) {
     const auto contours =
@@ -76,7 +76,8 @@ TEST_F(SilhouetteFiles, AScannersSidesOfNoConfidenceAreLeftOut) {
     ASSERT_EQ(read.contours.size(), 1u);
     EXPECT_EQ(read.sides_left_out, 1);
     ASSERT_EQ(read.contours[0].points.size(), 4u);
-    // Weights go with the root of the length, and their mean is one: 1 and 10 to the power 1/4.
+    // Weights are proportional to the square root of the length, with mean one: 1 and 10 to the
+    // power 1/4.
     EXPECT_NEAR(read.contours[0].weights[2] / read.contours[0].weights[0], std::pow(10, 0.25),
                 1e-12);
     EXPECT_NEAR(read.contours[0].weights[0] + read.contours[0].weights[2], 2, 1e-12);

@@ -29,7 +29,7 @@ TEST(Chi2Quantile, MatchesTheTable) {
     EXPECT_NEAR(chi2_quantile(0.05, 1), 3.8415, 1e-4);
 }
 
-// Closed form, also where it is next to nothing.
+// Closed form, also where the probability is tiny.
 TEST(Chi2LowerTail, TwoDegreesOfFreedomIsExponential) {
     for (const double x : {1e-12, 0.1, 1.0, 5.0}) {
         EXPECT_NEAR(chi2_lower_tail(x, 2) / -std::expm1(-0.5 * x), 1, 1e-11) << x;

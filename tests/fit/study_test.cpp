@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Thirteen facets: table, four crown, four girdle, four pavilion facets that meet in one point or
-// in a keel. Not square to each other, so that nothing holds by symmetry.
+// Thirteen facets: table, four crown, four girdle, and four pavilion facets that meet in a point or
+// a keel. They are not at right angles, so that nothing holds by symmetry.
 Solid small_stone(bool keel) {
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1}}};
     for (int k = 0; k < 4; ++k) {
@@ -90,14 +90,14 @@ TEST(Study, HasARowForEachWayOfFitting) {
     EXPECT_GE(sweeps["start"], 3);
     EXPECT_GE(sweeps["iterations"], 3);
     for (const auto& [sweep, count] : asked) EXPECT_EQ(count, 1) << sweep;
-    // The way that was asked for is sound, and by definition its own best.
+    // The requested setting is valid, and by definition its own best.
     for (const Json& row : json["settings"]) {
         if (!row["as_asked"] || row["sweep"] == "starts") continue;
         EXPECT_EQ(row["sound"], 2);
         if (row["sweep"] != "meets") {
             EXPECT_EQ(row["best"], 2);
         }
-        // The error is of the size of the readings' own (0.1 degrees).
+        // The error has the size of the readings' own (0.1 degrees).
         EXPECT_GT(row["angle_error"], 0.02);
         EXPECT_LT(row["angle_error"], 0.2);
     }
@@ -110,9 +110,9 @@ TEST(Study, HasARowForEachWayOfFitting) {
     EXPECT_EQ(lines, json["settings"].size() + 1);
 }
 
-// Information is a sum over readings (Fisher): taking some away can only raise the limit. A convex
-// polyhedron of E edges has E + 6 freedoms (Steinitz), six of them its place in space; readings see
-// E and where azimuths begin, and no fewer than E + 1 readings hold them.
+// Information is a sum over readings (Fisher): removing some can only raise the limit. A convex
+// polyhedron of E edges has E + 6 parameters (Steinitz), six of them its pose. Readings see E and
+// where azimuths begin, so at least E + 1 readings are needed.
 TEST(Study, RaisesTheLimitAsReadingsGoUntilEachIsNeeded) {
     const Case c;
     StudyOptions options = without_limit(1);
@@ -152,8 +152,8 @@ TEST(Study, ComesToTheCramerRaoLimit) {
     EXPECT_LT(study.limits.front().ratio, 1.05);
 }
 
-// A prior lies at the truth in every draw: errors would be below a limit that counts it. The limit
-// is that of the readings alone, whatever is supposed.
+// The prior's mean is the truth in every draw, so errors would be below a limit that counts the
+// prior. The limit must count readings alone.
 TEST(Study, LimitCountsReadingsAlone) {
     const Case c;
     StudyOptions options = without_limit(1);
@@ -163,7 +163,7 @@ TEST(Study, LimitCountsReadingsAlone) {
     const Study beside_prior = study_fit(c.stone, c.readings, options);
     ASSERT_EQ(beside_prior.limits.size(), alone.limits.size());
     for (std::size_t i = 0; i < alone.limits.size(); ++i) {
-        // Two fits that end at the same stone, each to its own last digits.
+        // The two fits end at the same stone, each to its own last digits.
         const auto &one = alone.limits[i], &other = beside_prior.limits[i];
         EXPECT_NEAR(other.angle_limit, one.angle_limit, 1e-9 * one.angle_limit) << i;
         EXPECT_NEAR(other.offset_limit, one.offset_limit, 1e-9 * one.offset_limit) << i;
@@ -177,7 +177,7 @@ TEST(Study, IsTheSameEachTimeApartFromTheTimes) {
     EXPECT_NE(first, without_times(study_fit(c.stone, c.readings, without_limit(1, 10))));
 }
 
-// A budget cuts draws off; what is left is what a longer study begins with.
+// A time budget cuts draws off; the remaining ones equal the first of a longer study.
 TEST(Study, EndsWhenItsBudgetIsSpent) {
     const Case c;
     StudyOptions options = without_limit(3);

@@ -90,14 +90,15 @@ TEST(Summary, TellsWhatWasFoundOut) {
     r.findings.symmetry.emplace();
     r.findings.symmetry->message = "C8v is supported";
     const auto lines = fit_summary(r);
-    // Findings as they are worded where they are found; a sentence begins with a capital.
+    // Findings keep their wording; a sentence begins with a capital letter.
     for (const char* words : {"azimuth of star S3", "edges gone: A|B",
                               "P1..P8: planes miss by 20 um: release it", "C8v is supported"}) {
         EXPECT_THAT(lines, Contains(HasSubstr(words)));
     }
     EXPECT_THAT(lines, Contains(HasSubstr("0.8 +- 0.04")));
     EXPECT_THAT(lines, Contains(says("azimuth", "S4")));
-    // A tilt that its uncertainty explains is none; a reading that brings little is not asked for.
+    // A tilt within its uncertainty is not reported, and a reading that gains little is not
+    // requested.
     r.findings.own_axis.sigma = radians(0.4);
     r.findings.help[0].closes = false;
     for (const std::string& line : fit_summary(r)) {

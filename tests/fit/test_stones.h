@@ -28,7 +28,7 @@ inline NamedPlane through(const std::string& name, const Vec3& normal, const Vec
     return {name, {n, glm::dot(n, point)}};
 }
 
-/// A cube with edges of 2 about the origin: T above, B below, X+, Y+, X-, Y- around.
+/// A cube with edges of 2 about the origin: T at the top, B at the bottom, X+, Y+, X-, Y- around.
 inline Solid cube() {
     return enclosed({{"T", {{0, 0, 1}, 1}},
                      {"X+", {{1, 0, 0}, 1}},
@@ -38,12 +38,12 @@ inline Solid cube() {
                      {"B", {{0, 0, -1}, 1}}});
 }
 
-/// A round brilliant with exact meets, all lengths in mm: T, C1.., S1.., U1.., G1.., L1.., P1..
-/// Facets of a tier are numbered by azimuth. Made from its meets: star tips, half tips, girdle.
+/// A round brilliant with exact meets, in mm: T, C1.., S1.., U1.., G1.., L1.., P1... Facets of a
+/// tier are numbered by azimuth. Computed from its meets: star tips, half tips, girdle.
 struct BrilliantSize {
     double radius = 3, table = 0.57, crown_deg = 34.5, pavilion_deg = 40.8, star = 0.5,
            lower = 0.77, girdle = 0.1;
-    int girdle_facets = 16;  ///< a multiple of 16, so that the girdle's corners stand at the tips
+    int girdle_facets = 16;  ///< a multiple of 16, so that the girdle has corners at the tips
 };
 
 inline Solid brilliant(const BrilliantSize& size = {}) {
@@ -56,20 +56,21 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
     const double tan_c = std::tan(radians(size.crown_deg)),
                  tan_p = std::tan(radians(size.pavilion_deg));
     std::vector<NamedPlane> planes;
-    // Bezel k at azimuth k * step through the girdle at its middle; the table cuts it at its tip.
+    // Bezel k at azimuth k * step passes through the middle of the girdle; the table cuts off its
+    // tip.
     const double table_z = (r - t) * tan_c;
     planes.push_back({"T", {{0, 0, 1}, table_z}});
     const double low = -2 * size.girdle;
     std::vector<NamedPlane> c, s, u, g, l, p;
     const double apothem = t * std::cos(step / 2);  // of the table's edge, at the stars' azimuth
-    // Star tip between bezels k and k+1: on both, at a part of the way down.
+    // The star tip lies on both bezels k and k+1, part of the way down.
     const double tip_r = apothem + size.star * (r * std::cos(step / 2) - apothem) * 1.05;
     for (int k = 0; k < 8; ++k) {
         const double a = k * step, between = a + step / 2;
         c.push_back(
             {fmt::format("C{}", k + 1),
              {direction(size.crown_deg, 360 * k / 8.0), std::sin(radians(size.crown_deg)) * r}});
-        // On bezel k: z = (r - x) tan_c with x the reach along its azimuth.
+        // On bezel k: z = (r - x) tan_c, with x along its azimuth.
         const Vec3 tip = at(tip_r, between, (r - tip_r * std::cos(step / 2)) * tan_c);
         const Vec3 left = at(t, a, table_z), right = at(t, a + step, table_z);
         s.push_back(through(fmt::format("S{}", k + 1), glm::cross(right - left, tip - left), tip));
@@ -96,7 +97,8 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
         };
         u.push_back(half("U", 2 * k + 1, girdle_left, girdle_middle, tip));
         u.push_back(half("U", 2 * k + 2, girdle_middle, girdle_right, tip));
-        // Pavilion mains at the bezels' azimuths, lower halves up to a point on the mains' edge.
+        // Pavilion mains at the bezels' azimuths; lower halves up to a point on the edge between
+        // mains.
         p.push_back({fmt::format("P{}", k + 1),
                      {direction(size.pavilion_deg, 360 * k / 8.0, true),
                       glm::dot(direction(size.pavilion_deg, 360 * k / 8.0, true), at(r, a, low))}});
@@ -117,7 +119,7 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
     return enclosed(planes);
 }
 
-/// Every plane tilted and moved by itself: meets come apart. The table stays level.
+/// Tilts and moves every plane independently, so that meets split. The table stays level.
 inline Solid off_standard(const Solid& design, double tilt_deg, double shift, unsigned seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -140,7 +142,8 @@ inline Stone stone_of(Solid solid, const std::string& up = "T") {
     return stone;
 }
 
-/// A stone of the same facets and meets whose corners are off by `sigma`: facets no longer planar.
+/// A stone of the same facets and meets with corner errors of `sigma`: its facets are no longer
+/// planar.
 inline Solid shaken(Solid solid, double sigma, unsigned seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal(0, sigma);
@@ -164,7 +167,7 @@ inline Reading reading(ReadingKind kind, std::vector<int> facets, double value, 
     return r;
 }
 
-/// Inclination and azimuth of every facet, as they are.
+/// The exact inclination and azimuth of every facet.
 inline std::vector<Reading> all_angles(const Solid& solid, double sigma, const std::string& up) {
     std::vector<Reading> readings;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -192,7 +195,7 @@ inline Reading depth(const Solid& solid, double sigma) {
     return reading(ReadingKind::depth, {}, width_along(solid, {0, 0, 1}), sigma);
 }
 
-/// Every edge between two facets, as long as it is.
+/// The exact length of every edge between two facets.
 inline std::vector<Reading> all_edges(const Solid& solid, double sigma) {
     std::vector<Reading> readings;
     for (const Edge& e : half_edges(solid).edges) {
@@ -210,7 +213,7 @@ inline std::vector<Reading> noisy(std::vector<Reading> readings, unsigned seed) 
     for (Reading& r : readings) {
         const double e = normal(random);
         if (!r.exact && !is_relation(r.kind)) r.value += r.sigma * e;
-        // Instruments do not say more than 90 degrees.
+        // Instruments do not show more than 90 degrees.
         if (r.kind == ReadingKind::inclination) {
             const double right = std::numbers::pi / 2;
             r.value = right - std::abs(right - std::abs(r.value));
@@ -219,8 +222,8 @@ inline std::vector<Reading> noisy(std::vector<Reading> readings, unsigned seed) 
     return readings;
 }
 
-/// What an instrument says of the true planes, without lengths that belong to other corners: angles
-/// and distances of each plane from the table's middle, as a scan gives them.
+/// An instrument's readings of the true planes, without lengths, which belong to other corners:
+/// angles of each plane and its distance from the table's middle, as a scan gives them.
 inline std::vector<Reading> plane_readings(const Solid& design, const Solid& truth,
                                            double sigma_deg, double sigma) {
     const std::vector<Edge> design_edges = half_edges(design).edges;
@@ -233,7 +236,7 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
             readings.push_back(reading(ReadingKind::inclination, {int(f)},
                                        inclination(n, Vec3{0, 0, 1}), radians(sigma_deg)));
         } else {
-            // Of facets near upright an inclination does not say to which side they lean; the
+            // The inclination of a nearly upright facet does not say to which side it leans; the
             // angle to a neighbour does.
             for (const Edge& e : design_edges) {
                 if (e.left != int(f) && e.right != int(f)) continue;
@@ -253,7 +256,7 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
     }
     readings.push_back(depth(truth, sigma));
     for (int k = 0; k < 16; ++k) readings.push_back(width(truth, 11.25 * k, sigma));
-    // Edges that both have, by name.
+    // Edges that both solids have, by name.
     std::map<std::pair<int, int>, double> lengths;
     for (const Edge& t : half_edges(truth).edges) {
         const int a = find_facet(design, truth.facets[std::size_t(t.left)].name),
@@ -269,7 +272,7 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
     return readings;
 }
 
-/// Every facet's angles and every edge, as they are, and the depth.
+/// Exact readings of every facet's angles, every edge and the depth.
 inline std::vector<Reading> readings_of(const Solid& truth, double sigma_deg, double sigma) {
     std::vector<Reading> readings = all_angles(truth, radians(sigma_deg), "T");
     for (const Reading& r : all_edges(truth, sigma)) readings.push_back(r);

@@ -1,4 +1,4 @@
-// Edges and facets that the readings deny or leave open, by name.
+// Edges and facets that the readings contradict or leave open, by name.
 #include "fit/hypotheses/topology.h"
 
 #include <gmock/gmock.h>
@@ -15,11 +15,11 @@ namespace {
 
 using namespace test;
 
-/// A hip roof over a box: the ridge lies between N and S when `along` > `across`, between E and W
-/// when it is less, and where all four planes meet when they are equal.
+/// A hip roof over a box: the ridge joins N and S when `along` > `across`, E and W when it is less;
+/// all four planes meet when they are equal.
 Solid roof(double along, double across) {
     const double s = std::sqrt(0.5);
-    // Slopes of 45 degrees whose eaves stand at +-along and +-across at z = 0.
+    // Slopes of 45 degrees with eaves at +-along and +-across at z = 0.
     return enclosed({{"E", {{s, 0, s}, s * along}},
                      {"W", {{-s, 0, s}, s * along}},
                      {"N", {{0, s, s}, s * across}},
@@ -34,7 +34,7 @@ Stone standing(Solid solid) {
     return stone;
 }
 
-/// Angles and eaves: they place the four slopes and say nothing of the ridge itself.
+/// Angles and eaves: they fix the four slopes and contain no reading of the ridge itself.
 std::vector<Reading> roof_readings(const Solid& mesh, const Solid& truth, double sigma_deg,
                                    double sigma) {
     std::vector<Reading> readings;
@@ -79,8 +79,8 @@ TEST(Topology, ARidgeThatWantsToLieAcrossIsNamed) {
                 ::testing::AnyOf(::testing::HasSubstr("N|S"), ::testing::HasSubstr("S|N"),
                                  ::testing::HasSubstr("N/S"), ::testing::HasSubstr("S/N")));
     EXPECT_TRUE(result.checks.closed && result.checks.convex);
-    // The ridge of the mesh shrinks as the other grows: by simple geometry its length is
-    // 2 (along - across) of the truth.
+    // The mesh's ridge shrinks to nothing as the other one grows: its length is 2 (along - across)
+    // of the truth.
     EXPECT_NEAR(edge->value, -0.2, 0.05);
     EXPECT_TRUE(result.log.changes.empty());
 }
@@ -90,7 +90,7 @@ TEST(Topology, ARidgeIsTurnedWhereThatIsAllowed) {
     FitOptions options;
     options.allow_topology = true;
     // With hips and depth read as well no edge is driven to zero: the readings contradict each
-    // other on the mesh's own topology, and short edges are tried.
+    // other under the mesh's topology, and the fit tries removing short edges.
     for (const bool all : {false, true}) {
         const std::vector<Reading> readings = noisy(
             all ? plane_readings(mesh, truth, 0.1, 0.005) : roof_readings(mesh, truth, 0.1, 0.005),
@@ -110,7 +110,7 @@ TEST(Topology, ARidgeIsTurnedWhereThatIsAllowed) {
     }
 }
 
-/// A box with a bevel that the readings put outside of it.
+/// A box with a bevel that the readings place outside of it.
 Solid bevelled(double offset) {
     const double s = std::sqrt(0.5);
     return enclosed({{"T", {{0, 0, 1}, 1}},
@@ -136,7 +136,7 @@ std::vector<Reading> readings_without_bevel(const Solid& mesh) {
     return readings;
 }
 
-// Edges, angles and depth of a whole box: the bevel may or may not be there.
+// Edges, angles and depth of a whole box: the bevel may or may not exist.
 TEST(Topology, AFacetThatMayNotBeThereIsNamed) {
     const Solid mesh = bevelled(1.9);
     std::vector<Reading> readings = readings_without_bevel(mesh);
@@ -148,7 +148,7 @@ TEST(Topology, AFacetThatMayNotBeThereIsNamed) {
     EXPECT_THAT(facet->what, ::testing::HasSubstr("may not be there"));
 }
 
-// A reading that puts its plane 20 um outside the box: no room is left for it.
+// A reading places its plane 20 um outside the box, which leaves no room for the bevel.
 TEST(Topology, AFacetWithoutRoomIsNamedAndGoesWhereThatIsAllowed) {
     const Solid mesh = bevelled(1.9);
     std::vector<Reading> readings = readings_without_bevel(mesh);
@@ -187,7 +187,7 @@ TEST(Topology, AnEdgeShorterThanItsUncertaintyIsOpen) {
     EXPECT_THAT(edge->what, ::testing::HasSubstr("zero"));
 }
 
-// A sound stone has nothing of the kind.
+// A sound stone has no such findings.
 TEST(Topology, ASoundStoneHasNothingToSay) {
     const Solid truth = brilliant();
     const FitResult result =
@@ -195,7 +195,7 @@ TEST(Topology, ASoundStoneHasNothingToSay) {
     for (const ShapeFinding& f : result.findings.shapes) ADD_FAILURE() << f.what;
 }
 
-/// A prism of seven sides, two of which stand four degrees apart.
+/// A prism of seven sides, two of them four degrees apart.
 Solid prism() {
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.5}}, {"B", {{0, 0, -1}, 0.5}}};
     for (const double azimuth : {-2.0, 2.0, 60.0, 120.0, 180.0, 240.0, 300.0}) {
@@ -204,8 +204,8 @@ Solid prism() {
     return enclosed(planes);
 }
 
-// Widths and azimuths say where the sides are, but for how wide each of them is: what turns two
-// neighbours so that they would be concave then takes one of them away.
+// Widths and azimuths fix the sides' places but not how wide each one is. Azimuths that make two
+// neighbours concave therefore leave no room for one of them.
 TEST(Topology, FacetsThatComeDownToNothingAreNamedWhereTheStoneCannotBeBroughtToMeet) {
     const Solid mesh = prism();
     std::vector<Reading> readings = all_angles(mesh, radians(0.1), "T");
@@ -232,7 +232,7 @@ TEST(Topology, FacetsWithoutWidthAndEdgesBetweenFacetsOfOnePlaneAreFoundByName) 
     const std::vector<std::string> edges = degenerate_parts(flat).edges;
     ASSERT_EQ(edges.size(), 1u);
     EXPECT_THAT(edges[0], ::testing::AnyOf("S1|S2", "S2|S1"));
-    // A cube whose top is pressed down to a hair above its bottom: its four sides are the hair.
+    // A cube whose top is pressed down to just above its bottom: its four sides become slivers.
     Solid thin = cube();
     for (Vec3& v : thin.vertices) v.z *= 1e-6;
     EXPECT_THAT(degenerate_parts(thin).facets,

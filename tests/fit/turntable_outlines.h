@@ -1,5 +1,5 @@
 #pragma once
-// Outlines of a known stone as a turntable shows them, with errors of a known size.
+// Outlines of a known stone on a turntable, with errors of a known size.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,8 +15,8 @@ namespace culet::test {
 
 struct Turntable {
     int views = 72;    ///< over the whole turn
-    int points = 400;  ///< of each outline, evenly along it
-    double sigma = 0;  ///< across the outline
+    int points = 400;  ///< per outline, evenly spaced
+    double sigma = 0;  ///< perpendicular to the outline
     unsigned seed = 1;
     Vec3 axis{0, 0, 1};
 };

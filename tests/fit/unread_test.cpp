@@ -23,8 +23,8 @@ std::vector<WrittenReading> angles_of(const Truth& truth, unsigned seed) {
     return readings;
 }
 
-// Meets released, no angle of the girdle read: beside the prior its facets stay upright, as they
-// were drawn, though the mesh is of other proportions than the stone.
+// Meets are released and no girdle angle was read: with the prior, girdle facets stay upright as
+// drawn, though the mesh has other proportions than the stone.
 TEST(Unread, AGirdleStaysUpright) {
     const test::BrilliantSize drawn{.radius = 1, .crown_deg = 30, .pavilion_deg = 43};
     const Solid truth = test::brilliant();
@@ -54,7 +54,7 @@ TEST(Unread, AGirdleStaysUpright) {
     EXPECT_EQ(girdle, 16);
 }
 
-// Angles agree best with a stone of no size, all of whose planes meet in one point: chi-square 0.
+// Angles fit best to a stone of zero size, all of whose planes meet in one point: chi-square 0.
 TEST(Unread, AllLengthsOfAPearLeaveItsSizeAsInTheMesh) {
     const Truth truth = make_truth(TruthKind::pear, false, 1);
     const Stone mesh = noisy_mesh(truth.stone, 0.01, 2);
@@ -70,8 +70,8 @@ TEST(Unread, AllLengthsOfAPearLeaveItsSizeAsInTheMesh) {
     for (const FittedReading& r : result.readings) EXPECT_NE(r.kind, ReadingKind::depth);
 }
 
-// Numbers say nothing of tiers: all facets share their letter, and what is open is said of stars,
-// halves and mains by themselves, each by its side of the girdle.
+// Numbered names do not tell tiers: all facets share their letter. Open quantities are grouped into
+// stars, halves and mains, by their side of the girdle.
 TEST(Unread, NumberedFacetsAreGroupedByTheirForm) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");
@@ -94,7 +94,7 @@ TEST(Unread, NumberedFacetsAreGroupedByTheirForm) {
                          fmt::format("{}", fmt::join(mains, ", "))));
 }
 
-// A goniometer whose zero was put to the wrong mark: widths are not to blame.
+// The goniometer's zero was set to the wrong mark: widths are not to blame.
 TEST(Unread, ThatAzimuthsCountFromElsewhereIsSaidOnce) {
     const Truth truth = make_truth(TruthKind::step, false, 1);
     std::vector<WrittenReading> readings = read_by_instruments(truth, 3);
@@ -109,7 +109,7 @@ TEST(Unread, ThatAzimuthsCountFromElsewhereIsSaidOnce) {
     EXPECT_THAT(result.message, HasSubstr("all azimuths read count from 90 degrees beside"));
     EXPECT_THAT(result.findings.suspects, IsEmpty());
     EXPECT_LT(result.statistics.chi2, result.statistics.chi2_limit);
-    // As it was read, and fitted in the same count.
+    // Residuals refer to the azimuths as they were read.
     for (const FittedReading& r : result.readings) {
         if (r.kind != ReadingKind::azimuth) continue;
         EXPECT_LT(std::abs(std::remainder(r.fitted - r.value, 2 * std::numbers::pi)), 6 * r.sigma);
