@@ -36,7 +36,7 @@ Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion
             const double azimuth = 2 * std::numbers::pi * (i + (turned ? 0.5 : 0)) / ring.facets;
             const Vec3 n{std::cos(latitude) * std::cos(azimuth),
                          std::cos(latitude) * std::sin(azimuth), std::sin(latitude)};
-            // Of the tangent plane of x^2 + y^2 + (z / h)^2 = 1.
+            // The tangent plane of x^2 + y^2 + (z / h)^2 = 1.
             planes.push_back({"facet", {n, std::hypot(n.x, n.y, height * n.z)}});
         }
         turned = !turned;
@@ -100,7 +100,7 @@ Lights smooth_lights(double peak) {
 Lights near_lights(double diameter) {
     Lights lights;
     lights.constant = 0.05;
-    // Beyond the camera or far beside it, which sees no plane from behind.
+    // Beyond the camera or far to its side, so that no plane is seen from behind.
     const auto panel = [&](const Vec3& towards, double away, double half, double radiance) {
         const Vec3 way = glm::normalize(towards), u = half * diameter * perpendicular_to(way);
         lights.sources.push_back(

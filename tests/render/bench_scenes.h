@@ -1,9 +1,9 @@
 #pragma once
-// The scenes that the beams are measured on.
+// The scenes on which the beams are measured.
 //
-// The base case: a round brilliant of 57 + 16 facets, diamond, seen from 6 of its diameters away,
-// tilted by 20 degrees, so that its bounding sphere touches the picture's edges; a light of 0.1
-// from everywhere and three lobes, of radiance 5 at the brightest.
+// The base case is a diamond round brilliant of 57 + 16 facets, seen from 6 diameters away and
+// tilted by 20 degrees, so that its bounding sphere touches the picture's edges. Lights: 0.1 from
+// everywhere and three lobes with a peak radiance of 5.
 
 #include <random>
 #include <string>
@@ -22,28 +22,28 @@ struct BenchStone {
 std::vector<BenchStone> bench_stones();
 
 /// A table, and rings of planes tangent to two half ellipsoids with the semi-axes 1 and `crown` or
-/// `pavilion`; each ring is turned against the one before by half a facet. Every plane must hold a
-/// facet: else InternalError.
+/// `pavilion`. Each ring is turned by half a facet against the one before. Throws InternalError if
+/// a plane holds no facet.
 struct Ring {
     int facets;
-    double latitude_deg;  ///< of the normals: 90 up, -90 down
+    double latitude_deg;  ///< of the normals: 90 is up, -90 down
 };
 Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion);
 
-/// From `diameters` away, in direction `towards_eye` from the stone's middle.
+/// A camera `diameters` away, in direction `towards_eye` from the stone's middle.
 Camera bench_camera(const Solid& solid, double diameters, const Vec3& towards_eye, int pixels);
-/// Of the base case: 20 degrees from the table's normal.
+/// The base case's: 20 degrees from the table's normal.
 Vec3 bench_view();
 Vec3 random_view(std::mt19937_64& random);
 
-/// `peak`: radiance where the brightest lobe is. Lobes alone: nothing with an edge.
+/// Lobes without any edge. `peak`: radiance of the brightest lobe.
 Lights smooth_lights(double peak = 5);
 
-/// Three planes and two spheres about a stone of this size, as Voelker & Hamann light theirs for
-/// fig. 9; radiance 0.9 at most, which a PNG holds.
+/// Three planes and two spheres around a stone of this size, as in Voelker & Hamann's fig. 9.
+/// Radiance is at most 0.9, which a PNG can hold.
 Lights near_lights(double diameter);
 
-/// 800 x 800 without --pixels, depth 8, one wavelength, nothing cut.
+/// 800 x 800 without --pixels, depth 8, one wavelength, nothing pruned.
 Scene base_scene(int pixels);
 void set_polarised(Scene& scene, bool polarised);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Closed solids that are not convex, most with small whole numbers as coordinates, and plain ways
-// to tell where a point is.
+// Closed non-convex solids, most with small integer coordinates, and simple tests of where a point
+// is.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ inline Solid solid_of(std::vector<Vec3> vertices, const Loops& loops) {
     return solid;
 }
 
-// Facet 0 is the top, facet 1 the bottom, then a side from each corner to the next.
+// Facet 0 is the top, facet 1 the bottom, then one side from each corner to the next.
 inline Solid prism(const std::vector<std::pair<double, double>>& outline, double low, double high) {
     const int n = static_cast<int>(outline.size());
     std::vector<Vec3> vertices;
@@ -63,8 +63,8 @@ inline Solid star_prism() {
     return prism({{4, 0}, {1, 1}, {0, 4}, {-1, 1}, {-4, 0}, {-1, -1}, {0, -4}, {1, -1}}, -1, 2);
 }
 
-// A box with a pyramid carved into its top; the top facet has a hole, joined to its outline by an
-// edge that the outline runs along twice. Facet 0 is the top, facets 6 to 9 the notch.
+// A box with a pyramid carved into its top. The top facet has a hole, joined to its outline by an
+// edge that the outline traverses twice. Facet 0 is the top, facets 6 to 9 the notch.
 inline Solid notched_box() {
     return solid_of({{-2, -2, -2},
                      {2, -2, -2},
@@ -121,7 +121,7 @@ inline Solid ring() {
                      {4, 7, 15, 12}});
 }
 
-// Two unit cubes that have one edge in common, which four facets share.
+// Two unit cubes with one common edge, which four facets share.
 inline Solid cubes_on_one_edge() {
     return solid_of({{0, 0, 0},
                      {0, 0, 1},
@@ -151,7 +151,7 @@ inline Solid cubes_on_one_edge() {
                      {10, 0, 1, 13}});
 }
 
-// Triangles round the origin at random distances of 20 to 100, in whole numbers.
+// Triangles round the origin at random integer distances of 20 to 100.
 inline Solid crag(unsigned seed, int meridians = 9, int parallels = 6) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> radius(20, 100);
@@ -181,7 +181,7 @@ inline Solid crag(unsigned seed, int meridians = 9, int parallels = 6) {
     return solid_of(std::move(vertices), loops);
 }
 
-// Moved by x -> scale * turn * x + shift, planes with it.
+// Applies x -> scale * turn * x + shift to corners and planes.
 inline Solid moved(const Solid& solid, const glm::dmat3& turn, double scale, const Vec3& shift) {
     Solid result = solid;
     for (Vec3& vertex : result.vertices) vertex = scale * (turn * vertex) + shift;
@@ -262,7 +262,7 @@ inline double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return glm::length(p - a - part * edge);
 }
 
-// How far a point is from a facet: 0 within its outline.
+// The distance of a point from a facet: 0 within its outline.
 inline double distance_to_facet(const Solid& solid, int index, const Vec3& point) {
     const Facet& facet = solid.facets[static_cast<std::size_t>(index)];
     const double height = height_above(facet.plane, point);

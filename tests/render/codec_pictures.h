@@ -1,5 +1,5 @@
 #pragma once
-// Pictures for the codecs' tests: noise, what OpenCV makes of it, and TIFFs as libtiff writes them.
+// Pictures for the codecs' tests: noise, OpenCV's versions of it, and TIFFs written by libtiff.
 
 #include <tiffio.h>
 
@@ -24,7 +24,8 @@
 
 namespace culet::test {
 
-// Noise with even parts, so that packers meet runs too; OpenCV's order is blue, green, red.
+// Noise with constant stretches, so that compressors meet runs too. OpenCV's order is blue, green,
+// red.
 template <class Value>
 cv::Mat random_picture(int width, int height, int channels, unsigned seed) {
     cv::Mat image(height, width, CV_MAKETYPE(cv::DataType<Value>::depth, channels));
@@ -53,7 +54,7 @@ inline cv::Mat decoded_by_opencv(const std::string& bytes, int mode = cv::IMREAD
     return cv::imdecode(std::vector<unsigned char>(bytes.begin(), bytes.end()), mode);
 }
 
-// The largest difference of a sample; infinite where the pictures are of different kinds.
+// The largest difference of a sample; infinite if the pictures are of different kinds.
 inline double difference(const DecodedPixels& ours, const cv::Mat& theirs) {
     constexpr double k_different = std::numeric_limits<double>::infinity();
     if (ours.width != theirs.cols || ours.height != theirs.rows ||
@@ -90,9 +91,9 @@ struct TiffKind {
     int packing = COMPRESSION_NONE, predictor = 0;
 };
 
-// A file that libtiff writes, of noise.
+// A file of noise written by libtiff.
 inline std::string written_tiff(int width, int height, const TiffKind& kind, unsigned seed) {
-    const test::ScratchFolder scratch;  // tests run beside each other
+    const test::ScratchFolder scratch;  // tests run in parallel
     const std::string file = (scratch.path() / "a.tiff").string();
     TIFF* tiff = TIFFOpen(file.c_str(), "w");
     TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);

@@ -1,10 +1,10 @@
-// The codecs against OpenCV's, which read and write the same formats by themselves.
+// The codecs against those of OpenCV, an independent implementation.
 
 #include "render/image/codecs/codecs.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
-// jpeglib.h needs this before it.
+// jpeglib.h needs this include before it.
 #include <cstdio>
 // After it.
 #include <jpeglib.h>
@@ -78,7 +78,7 @@ TEST(Codecs, ReadJpegsAsOpenCvDoes) {
     }
 }
 
-// The directory of EXIF with one entry, orientation, in either order of bytes.
+// An EXIF directory with one entry, orientation, in either byte order.
 std::string with_orientation(std::string jpeg, char orientation, bool big_endian) {
     const std::string little("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0o\0\0\0\0\0\0\0", 26);
     const std::string big("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0o\0\0\0\0\0\0", 26);
@@ -137,8 +137,8 @@ TEST(Codecs, WriteRadianceAndFloatMapsThatOpenCvReads) {
     }
 }
 
-// What OpenCV reads and does not write: palettes with transparent colours, grey with alpha, rows in
-// seven passes, few bits.
+// What OpenCV reads but does not write: palettes with transparent colours, grey with alpha,
+// seven-pass interlacing, few bits.
 std::string png_of_libpng(int colour, int bits, int interlace) {
     const int width = 29, height = 13;
     std::string bytes;
@@ -225,7 +225,7 @@ std::string jpeg_of_inks(J_COLOR_SPACE stored) {
     return result;
 }
 
-// By OpenCV's own rule; the decoder gives the inks.
+// By OpenCV's rule; the decoder returns the inks.
 DecodedPixels rgb_of_inks(const DecodedPixels& inks) {
     const auto& from = std::get<std::vector<std::uint8_t>>(inks.samples);
     std::vector<std::uint8_t> rgb;

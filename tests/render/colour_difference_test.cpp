@@ -59,7 +59,7 @@ TEST(ColourDifference, The34PublishedPairsComeOut) {
         EXPECT_NEAR(ciede2000(pair.second, pair.first), pair.difference, 0.5e-4 + 1e-9);
         sum += pair.difference;
     }
-    // The table as it stands above: a changed digit shows here, whichever side it is on.
+    // Also checks the table above: a changed digit on either side shows here.
     EXPECT_EQ(std::size(k_sharma), 34u);
     EXPECT_NEAR(sum, 183.1864, 1e-4);
 }

@@ -1,4 +1,4 @@
-// Expectations: the search over all planes, which takes no guess, to the bit.
+// Expectation: the search over all planes, which uses no guess, to the bit.
 
 #include "render/geometry/convex_body.h"
 
@@ -17,7 +17,7 @@ void expect_same(const BodyHit& a, const BodyHit& b, const char* what) {
     EXPECT_EQ(a.distance, b.distance) << what;
 }
 
-// Every guess for rays from inside, and whatever the last ray left for rays from outside.
+// Tries every guess for rays from inside, and the last ray's facet for rays from outside.
 void expect_no_guess_matters(const Solid& solid, std::mt19937_64& random, const char* what) {
     const ConvexBody body(solid);
     const int facets = static_cast<int>(solid.facets.size());
@@ -25,7 +25,7 @@ void expect_no_guess_matters(const Solid& solid, std::mt19937_64& random, const 
     EntryGuess last;
     for (int i = 0; i < 200; ++i) {
         EyeRay ray = random_ray(random);
-        // Every third ray goes exactly to a corner, every other third to a point of an edge.
+        // Every third ray aims exactly at a corner, every other third at a point of an edge.
         const std::vector<int>& corners = solid.facets[i % facets].corners;
         if (i % 3 != 0) {
             const Vec3 &a = solid.vertices[corners[0]], &b = solid.vertices[corners[1]];

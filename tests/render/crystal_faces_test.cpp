@@ -1,8 +1,8 @@
 // Faces of crystals against the independent derivation in 100 digits of face_oracle.h, family by
-// family. Tolerance 1e-12 on amplitudes, powers, wave normals and rays, or the effect of the
+// family. Tolerance: 1e-12 on amplitudes, powers, wave normals and rays, or the effect of the
 // input's last digits (face_judge.h). Random cases have fixed seeds.
 //
-// Where exact input matters, next to singular directions, the face normal is (0, 0, 1) and K lies
+// Next to singular directions, where exact input matters, the face normal is (0, 0, 1) and K lies
 // along x: both are then exact, and |K| is the double given.
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ const std::vector<Gem> k_gems{
     {"calcite", {1.4864, 1.6584, 1.6584}}, {"topaz", {1.619, 1.622, 1.627}},
     {"peridot", {1.654, 1.671, 1.689}},    {"andalusite", {1.634, 1.639, 1.645}}};
 
-// The lengths |K| along x at which the number of waves towards n falls to 1 and to 0, last doubles
-// with the larger number, found with the oracle.
+// The lengths |K| along x at which the number of waves towards n falls to 1 and to 0, found with
+// the oracle: the last doubles with the larger number.
 std::array<double, 2> critical_lengths(Face face) {
     std::array<double, 2> found{};
     for (int left = 1; left >= 0; --left) {
@@ -117,7 +117,7 @@ TEST(CrystalFaces, GrazingFromOutside) {
 }
 
 TEST(CrystalFaces, CloseToNormalIncidence) {
-    // K as the difference of two long vectors: not quite in the face.
+    // K is the difference of two long vectors: not quite in the face.
     RandomAttitudes chance(19);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
@@ -298,15 +298,15 @@ TEST(CrystalFaces, WaveOnABiaxialOpticAxisToTheLastDigit) {
 }
 
 TEST(CrystalFaces, WaveExactlyOnABiaxialOpticAxis) {
-    // 1/49^2 + 1/31^2 = 2/41^2: with indices in the ratio of these the optic axes of N are exactly
-    // at 45 degrees, and so is a normal with two equal numbers.
+    // 1/49^2 + 1/31^2 = 2/41^2: with indices in this ratio the optic axes of N are exactly at 45
+    // degrees, as is a normal with two equal numbers.
     FaceJudge judge;
     const std::array<double, 3> n{1271.0 / 1024, 1519.0 / 1024, 2009.0 / 1024};
     const double half = std::sqrt(0.5);
     for (const double n_outside : {1.0, 1.33, 2.4})
         for (const double sign : {1.0, -1.0})
             judge.compare({k_plain, n, n_outside, {0, 0, 0}, {half, 0, sign * half}});
-    // A plane face at 45 degrees to the axis: normal (0, 0, 1), K = n2 / sqrt(2) to a rounding.
+    // A plane face at 45 degrees to the axis: normal (0, 0, 1), K = n2 / sqrt(2) to rounding.
     judge.compare({k_plain, n, 1, {n[1] * half, 0, 0}});
 }
 
@@ -323,7 +323,7 @@ TEST(CrystalFaces, OtherIndicesOutside) {
 }
 
 TEST(CrystalFaces, TotalReflectionFromOutside) {
-    // The outside is the denser: no wave enters, all is reflected, s and p mixed by the crystal.
+    // The outside is denser: no wave enters, all light is reflected, and the crystal mixes s and p.
     RandomAttitudes chance(17);
     FaceJudge judge;
     for (const Gem& gem : k_gems)

@@ -1,5 +1,5 @@
-// Laws that culet's crystal faces obey by themselves: Maxwell's equations, unitarity, reciprocity,
-// the limits of higher symmetry; and absorption against complex wave vectors in 100 digits.
+// Laws that culet's crystal faces must obey: Maxwell's equations, unitarity, reciprocity, the
+// limits of higher symmetry; and absorption against complex wave vectors in 100 digits.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 using oracle::Answer;
 using oracle::Face;
 
-// Uniaxial of both signs and biaxial, at any attitude, with any K that some wave or air has.
+// Uniaxial of both signs and biaxial, in any orientation, with any K that some wave or air has.
 Face random_face(RandomAttitudes& chance) {
     const double n = chance.between(1.2, 2.6), d = std::pow(10.0, chance.between(-6, -0.6));
     const std::array<double, 3> middle{n + d, n, n + chance.between(0, 1) * d};
@@ -30,7 +30,7 @@ Face random_face(RandomAttitudes& chance) {
 }
 
 TEST(CrystalModes, ObeyMaxwellsEquations) {
-    // Tolerance: some ten roundings of terms of the size n^2 |E|.
+    // Tolerance: some ten roundings of terms of size n^2 |E|.
     RandomAttitudes chance(101);
     double worst = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -53,7 +53,7 @@ TEST(CrystalModes, ObeyMaxwellsEquations) {
                     return error;
                 };
                 const double tolerance = 1e-14;
-                // N x H = -D, which is Fresnel's equation with its field; D.N = 0; H = N x E.
+                // N x H = -D (Fresnel's equation for its field); D.N = 0; H = N x E.
                 EXPECT_LE(off(cross(complex_of(N), mode.H) + D, n2), tolerance) << described(face);
                 EXPECT_LE(std::abs(dot(N, D)) / (n2 * face.n[2]), tolerance);
                 EXPECT_LE(off(mode.H + Complex(-1) * H, face.n[2]), tolerance);
@@ -72,8 +72,8 @@ TEST(CrystalModes, ObeyMaxwellsEquations) {
 }
 
 TEST(CrystalFaces, ScatteringMatrixIsUnitary) {
-    // Columns: the two waves from inside, s and p from outside; phases count. s and p turn round
-    // with the normal of the face.
+    // Columns: the two waves from inside, s and p from outside, with their phases. s and p change
+    // sign with the face's normal.
     RandomAttitudes chance(102);
     double worst = 0;
     int square = 0;
@@ -195,9 +195,9 @@ TEST(CrystalFaces, ThreeEqualIndicesAreFresnelsFace) {
 }
 
 TEST(CrystalModes, AbsorbAsTheImaginaryWaveVectorSays) {
-    // n_i + i kappa_i: K_i = 2 kappa_i per unit of 1/k0. Per length of ray the intensity falls by
-    // 2 Im N . ray, the same for a homogeneous wave (Im N along N) and for one that a face drives
-    // (Im N along n). The oracle's error is of the second order, 1e-35.
+    // n_i + i kappa_i: K_i = 2 kappa_i per unit of 1/k0. Per length of ray the intensity falls by 2
+    // Im N . ray, both for a homogeneous wave (Im N along N) and for one driven by a face (Im N
+    // along n). The oracle's error is of second order, 1e-35.
     RandomAttitudes chance(106);
     double worst = 0;
     for (int i = 0; i < 150; ++i) {

@@ -1,4 +1,4 @@
-// Expectations: conservation (leaves + remainder + absorbed + cut = 1) in every optical class, the
+// Expectations: energy balance (exits + remainder + absorbed + cut = 1) in every optical class, the
 // special case of light_paths.h, closed forms of plates between polarisers, and reciprocity.
 
 #include "render/reference/crystal_paths.h"
@@ -71,7 +71,7 @@ TEST(CrystalPaths, WhiteFurnaceBalancesInEveryOpticalClass) {
         const StoneBody body(random_stone(random, 20), true);
         Band band;
         const double n = index(random);
-        // Isotropic, uniaxial, biaxial, and so nearly isotropic that the waves are one.
+        // Isotropic, uniaxial, biaxial, and so nearly isotropic that the waves merge.
         const std::array<std::array<double, 3>, 4> classes{
             {{n, n, n},
              {n + split(random), n, n},
@@ -110,8 +110,8 @@ TEST(CrystalPaths, WhiteFurnaceBalancesInEveryOpticalClass) {
 }
 
 TEST(CrystalPaths, IsotropicStonesGiveWhatLightPathsGive) {
-    // Two tracers with nothing in common but Maxwell: Fresnel's formulas on fields in global
-    // coordinates, and the crystal's modes with their boundary system.
+    // Two independent tracers, which share only Maxwell's equations: Fresnel's formulas on fields
+    // in global coordinates, and the crystal's modes with their boundary system.
     const unsigned seed = 3;
     std::mt19937_64 random(seed);
     double worst = 0;
@@ -144,7 +144,8 @@ TEST(CrystalPaths, IsotropicStonesGiveWhatLightPathsGive) {
     EXPECT_LT(worst, 1e-12) << "seed " << seed;
 }
 
-// Radiance of the paths with `inner` segments, behind an analyser, of light polarised at an angle.
+// The radiance behind an analyser of the paths with `inner` segments, in light polarised at an
+// angle.
 double between_polarisers(const PathSums& sums, std::size_t inner, double polarizer,
                           double analyzer) {
     EyeOptics optics;
@@ -164,10 +165,9 @@ double between_polarisers(const PathSums& sums, std::size_t inner, double polari
 }
 
 TEST(CrystalPaths, PlateBetweenCrossedPolarisersFollowsTheClosedForm) {
-    // I = T_o T_e-weighted sin^2(2 a) sin^2(pi G / lambda): for a plate whose axis lies in it at
-    // angle a to the polariser, with amplitudes t_o, t_e through both faces,
-    // I = sin^2(2a)/4 |t_o e^{i d_o} - t_e e^{i d_e}|^2 (Born & Wolf 15.4.1 with the faces' own
-    // transmission). Light passes once: depth 2.
+    // For a plate whose axis lies in it at angle a to the polariser, with amplitudes t_o, t_e
+    // through both faces, crossed polarisers give I = sin^2(2a)/4 |t_o e^{i d_o} - t_e e^{i d_e}|^2
+    // (Born & Wolf 15.4.1, with the faces' transmission). Light passes once: depth 2.
     const double thickness = 0.031, n_o = 1.544, n_e = 1.553;
     const StoneBody body(slab(thickness), true);
     const EyeRay ray{{0.3, 0.2, 5}, {0, 0, -1}};
@@ -197,8 +197,8 @@ TEST(CrystalPaths, PlateBetweenCrossedPolarisersFollowsTheClosedForm) {
 }
 
 TEST(CrystalPaths, PartialCoherenceIsTheMeanOverTheBand) {
-    // The mean of the monochromatic result over a triangular band in 1/wavelength, which is what
-    // the factor sinc^2 stands for. 400 steps of the midpoint rule leave some 1e-5.
+    // The mean of the monochromatic result over a triangular band in 1/wavelength, which the factor
+    // sinc^2 stands for. 400 steps of the midpoint rule leave an error of some 1e-5.
     const double thickness = 0.4, n_o = 1.544, n_e = 1.553, wavelength = 550e-6;
     const double bandwidth = 40e-6;
     const StoneBody body(slab(thickness), true);
@@ -249,7 +249,7 @@ TEST(CrystalPaths, WavesFarApartAreFollowedApart) {
 }
 
 TEST(CrystalPaths, VanishingBirefringenceTendsToTheIsotropicStone) {
-    // Coherent: as n_e -> n_o every leaf becomes the isotropic one, to first order in n_e - n_o
+    // Coherent: as n_e -> n_o every exit becomes the isotropic one, to first order in n_e - n_o
     // times the path in wavelengths.
     const unsigned seed = 12;
     std::mt19937_64 random(seed);
@@ -269,7 +269,7 @@ TEST(CrystalPaths, VanishingBirefringenceTendsToTheIsotropicStone) {
             const PathSums weak = traced(body, band, limits, ray);
             const PathSums none = traced(body, isotropic, limits, ray);
             ASSERT_EQ(weak.exit_weights.size(), none.exit_weights.size());
-            // 8 segments of 3 units at a wavelength of 6e-4: 2.5e5 radians a unit of index.
+            // 8 segments of 3 units at a wavelength of 6e-4: 2.5e5 radians per unit of index.
             for (std::size_t l = 0; l < weak.exit_weights.size(); ++l)
                 EXPECT_NEAR(weak.exit_weights[l], none.exit_weights[l], 1e-12 + 1e6 * split)
                     << "seed " << seed;
@@ -277,7 +277,7 @@ TEST(CrystalPaths, VanishingBirefringenceTendsToTheIsotropicStone) {
     }
 }
 
-// The facets and modes of every leaf beside its weight.
+// The facets, modes and weight of every exit.
 struct Ways {
     struct Way {
         std::vector<int> facets;
@@ -302,8 +302,8 @@ struct Ways {
 };
 
 TEST(CrystalPaths, APathAndItsReverseWeighTheSame) {
-    // Lorentz reciprocity: every leaf, sent back the way it came, finds the same facets and modes
-    // in the reverse order with the same weight.
+    // Lorentz reciprocity: every exit, sent back along its path, meets the same facets and modes in
+    // reverse order with the same weight.
     const unsigned seed = 77;
     std::mt19937_64 random(seed);
     PathLimits limits;
@@ -347,9 +347,9 @@ TEST(CrystalPaths, APathAndItsReverseWeighTheSame) {
 }
 
 TEST(CrystalPaths, BiaxialPlateIsDarkAtItsMelatopesAndAlongTheIsogyres) {
-    // Optic axes lie in the plane of alpha and gamma at V from gamma, tan^2 V = (1/a^2 - 1/b^2) /
-    // (1/b^2 - 1/c^2) with a, b, c the indices (Born & Wolf 15.3.3); light along one stays as it
-    // was polarised. Entering the plate normal to gamma at sin = n_beta sin V.
+    // Optic axes lie in the plane of alpha and gamma at angle V from gamma, tan^2 V = (1/a^2 -
+    // 1/b^2) / (1/b^2 - 1/c^2) with the indices a, b, c (Born & Wolf 15.3.3). Light along an axis
+    // keeps its polarisation. It enters the plate normal to gamma at sin = n_beta sin V.
     const double a = 1.6, b = 1.605, c = 1.62, thickness = 0.6;
     const double V =
         std::atan(std::sqrt((1 / (a * a) - 1 / (b * b)) / (1 / (b * b) - 1 / (c * c))));
@@ -369,16 +369,17 @@ TEST(CrystalPaths, BiaxialPlateIsDarkAtItsMelatopesAndAlongTheIsogyres) {
             .trace(ray, x, y, *body.entry(ray.origin, ray.direction));
         return between_polarisers(sums, 1, polarizer, polarizer + std::numbers::pi / 2);
     };
-    // Axes at 45 degrees to the polariser: bright between, dark at the melatope; alpha along x.
+    // Axes at 45 degrees to the polariser: bright between the melatopes, dark at each; alpha along
+    // x.
     band.crystal = Crystal({Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {a, b, c});
     const double melatope = b * std::sin(V), at_45 = std::numbers::pi / 4;
-    // What the two faces themselves turn at this angle: the isotropic plate's crossed light.
+    // The faces' own rotation at this angle: the isotropic plate's crossed light.
     Band isotropic = band;
     isotropic.crystal = Crystal({Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {b, b, b});
     std::swap(band, isotropic);
     const double faces = crossed(melatope, at_45);
     std::swap(band, isotropic);
-    // The faces of the crystal differ from those of index b by the order of c - a.
+    // The crystal's faces differ from those of index b by the order of c - a.
     EXPECT_NEAR(crossed(melatope, at_45), faces, 0.1 * (c - a));
     double brightest = 0;
     for (double sine = 0; sine < melatope; sine += 0.002)
@@ -390,8 +391,8 @@ TEST(CrystalPaths, BiaxialPlateIsDarkAtItsMelatopesAndAlongTheIsogyres) {
 
 TEST(CrystalPaths, UniaxialRingsLieWhereTheRetardationIsAWholeNumberOfWaves) {
     // Plate normal to the axis: G = d (q_e - q_o), q_o^2 = n_o^2 - K^2, q_e^2 = n_o^2 (1 - K^2 /
-    // n_e^2) (Born & Wolf 15.3.2). Crossed polarisers at 45 degrees to the plane of incidence: dark
-    // (but for the faces' own part) where G is m waves.
+    // n_e^2) (Born & Wolf 15.3.2). Crossed polarisers at 45 degrees to the plane of incidence:
+    // dark, except for the faces' own part, where G is m waves.
     const double n_o = 1.658, n_e = 1.486, thickness = 0.9, wavelength = 589e-6;
     const StoneBody body(slab(thickness), true);
     Band band;
@@ -418,8 +419,8 @@ TEST(CrystalPaths, UniaxialRingsLieWhereTheRetardationIsAWholeNumberOfWaves) {
                        *body.entry(ray.origin, ray.direction));
             return between_polarisers(sums, 1, 0, std::numbers::pi / 2);
         };
-        // The two waves come through with T_s and T_p: what is left where they are in step is
-        // (sqrt T_s - sqrt T_p)^2 / 4, and halfway between rings they add.
+        // The two waves pass with T_s and T_p: where they are in phase (sqrt T_s - sqrt T_p)^2 / 4
+        // remains, and halfway between rings they add.
         const double q1 = std::sqrt(1 - low * low);
         const double qo = std::sqrt(n_o * n_o - low * low);
         const double t_s = 4 * q1 * qo / ((q1 + qo) * (q1 + qo));
@@ -430,10 +431,9 @@ TEST(CrystalPaths, UniaxialRingsLieWhereTheRetardationIsAWholeNumberOfWaves) {
 }
 
 TEST(CrystalPaths, ChoicesAtRandomAreUnbiasedAndKnowTheirError) {
-    // Against the whole tree: the estimate lies within its own standard error as often as a normal
-    // variable would; the sum over 400 rays of squared normalised errors is 400 +- 28 if the
-    // variances are right on average. Single variances are far from normal, so the bounds are wide:
-    // a factor 2 either way.
+    // Against the whole tree: the sum over 400 rays of squared errors over variances is 400 +- 28
+    // if the variances are right on average. Single variances are far from normal, so the bounds
+    // are wide: a factor 2 either way.
     const unsigned seed = 5;
     std::mt19937_64 random(seed);
     struct Seen : Ways {

@@ -16,7 +16,7 @@ namespace {
 using namespace culet;
 
 TEST(Crystal, UniaxialOfEqualIndicesSendsThePowerOfAnIsotropicFace) {
-    // n_o = n_e: at the first face the entering power is Fresnel's, whatever the axis.
+    // n_o = n_e: at the first face the entering power is Fresnel's for any axis.
     const double n = 1.76;
     for (const double angle : {0.0, 0.3, 1.0, 1.5}) {
         const Vec3 n_into{0, 0, -1};
@@ -45,7 +45,7 @@ TEST(Crystal, UniaxialFaceConservesPowerAndSnellInEveryOrientation) {
         if (i % 5 == 1) axis = n_out;                                    // axis along the normal
         if (i % 5 == 2) axis = glm::normalize(glm::cross(n_out, axis));  // axis in the face
         const Crystal crystal = uniaxial_crystal(axis, 1.658, i % 3 == 0 ? 1.658 - 1e-9 : 1.486);
-        // Any mode that runs towards the face: made by a face turned the same way.
+        // Any mode that runs towards the face, made by a face with the same orientation.
         const Vec3 tangent = glm::normalize(glm::cross(n_out, unit()));
         const Vec3 K = (i % 7 == 3 ? 0.0 : 1.4 * std::abs(normal(random)) / 2) * tangent;
         for (const CrystalMode& mode : modes_towards(crystal, K, n_out)) {
@@ -60,7 +60,7 @@ TEST(Crystal, UniaxialFaceConservesPowerAndSnellInEveryOrientation) {
             }
         }
     }
-    // Rounding over the incident normal flux, which reaches 1e-4 in these draws.
+    // Rounding error over the incident normal flux, which reaches 1e-4 in these draws.
     EXPECT_LT(worst, 1e-10) << "seed " << seed;
 }
 

@@ -1,4 +1,4 @@
-// Files that are cut off, or have a bit flipped.
+// Files that are truncated, or have a flipped bit.
 
 #include <gtest/gtest.h>
 #include <tiffio.h>
@@ -22,7 +22,7 @@ using namespace culet::test;
 
 using Decode = DecodedPixels (*)(const std::string&, const std::filesystem::path&);
 
-// Either the picture is whole, with as many samples as its size says, or the error is one line.
+// Either the picture is complete, with as many samples as its size says, or the error is one line.
 void expect_picture_or_error(Decode decode, const std::string& bytes, const std::string& what) {
     try {
         const DecodedPixels pixels = decode(bytes, "a");
@@ -61,7 +61,8 @@ TEST(DamagedPictures, AreRefusedWhereCutOffAndSurviveEveryFlippedBit) {
         testing::internal::CaptureStderr();
         const std::string tiff = "TIFF";
         for (std::size_t size = 0; size < bytes.size(); ++size) {
-            // A TIFF's directory may stand behind all pixels, with gaps in it: less cannot be said.
+            // A TIFF's directory may follow all pixels, with gaps in it: the loss of its last 8
+            // bytes may go unnoticed.
             if (std::string(format).ends_with(tiff) && size + 8 >= bytes.size())
                 expect_picture_or_error(decode, bytes.substr(0, size), format);
             else
@@ -73,7 +74,7 @@ TEST(DamagedPictures, AreRefusedWhereCutOffAndSurviveEveryFlippedBit) {
                 std::string flipped = bytes;
                 flipped[at] = static_cast<char>(flipped[at] ^ (1 << bit));
                 expect_picture_or_error(decode, flipped, format);
-                // Every bit of a PNG is under a checksum, or belongs to one.
+                // A checksum covers every bit of a PNG, or contains it.
                 if (decode == decode_png) {
                     EXPECT_THROW(decode(flipped, "a"), InputError) << at;
                 }

@@ -1,4 +1,4 @@
-// Engines, the settings that are kept for another picture, and what stands around the stone.
+// Engines, the settings stored for redrawing a picture, and the stone's surroundings.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Engines, CanBeNamedByScenes) {
     EXPECT_EQ(engine_names().front(), k_auto_engine);
 }
 
-// A model of the work, not a clock: more of anything never costs less.
+// The price is a model of the work, not a clock: more of anything never costs less.
 TEST(Engines, AskMoreForMoreWork) {
     DrawingWork work;
     work.pixels = 1000;
@@ -62,7 +62,7 @@ TEST(Engines, DrawWhatTheyDoNotRefuseAndSayWhyTheyDo) {
         Scene scene = small_scene();
         scene.settings.engine = engine->name();
         EXPECT_EQ(engine->refuses(scene, make_optical_setup(scene)), "");
-        // Without a driver it cannot draw anything; its own tests say so.
+        // It cannot draw without a driver; its own tests say so.
         if (engine->name() == k_gpu_engine && !missing_driver().empty()) continue;
         const RenderResult result = engine->draw(scene, {});
         EXPECT_EQ(result.stats.engine, engine->name());
@@ -113,7 +113,7 @@ TEST(Settings, ReadBackAsTheyWereWritten) {
     }
 }
 
-// Every direction shines alike.
+// Every direction is equally bright.
 class EvenGlow : public Surroundings {
 public:
     explicit EvenGlow(double radiance) : radiance_(radiance) {}
@@ -139,7 +139,7 @@ private:
 };
 
 // Conservation of energy: a clear stone in a furnace of radiance 2 shows 2, whatever it reflects
-// and refracts, but for what its paths were left.
+// and refracts, less the remainder of its paths.
 TEST(Surroundings, AreAskedByEveryPathThatLeavesTheStone) {
     const Scene scene = small_scene({"render.depth=60", "render.tolerance=0.001"});
     PreparedScene prepared(scene);
@@ -152,7 +152,7 @@ TEST(Surroundings, AreAskedByEveryPathThatLeavesTheStone) {
     for (int pixel = 0; pixel < 24 * 24; ++pixel) {
         const PixelSums sums = shader.shade(pixel % 24, pixel / 24, 1, 0, stokes.data(), memory);
         if (sums.hit > 0) ++hits;
-        // What is lost is told as the mean over wavelengths.
+        // Losses are reported as the mean over wavelengths.
         const double mean =
             std::accumulate(stokes.begin(), stokes.end(), 0.0) / static_cast<double>(stokes.size());
         EXPECT_NEAR(mean, 2 * (1 - sums.remainder - sums.cut - sums.absorbed), 1e-12);
@@ -160,7 +160,7 @@ TEST(Surroundings, AreAskedByEveryPathThatLeavesTheStone) {
     EXPECT_GT(hits, 100);
 }
 
-// Weights that fall below the smallest number are none, and no division by them.
+// Weights below the smallest number are dropped and must not be divided by.
 TEST(Gather, LeavesOutWhatIsAbsorbedToNothing) {
     const EvenGlow glow(2);
     Band band;
@@ -182,7 +182,7 @@ TEST(Turntable, KeepsTheStoneAndComesRound) {
     const Scene quarter = turned(scene, std::acos(0.0));
     EXPECT_NEAR(volume(quarter.stone.solid), volume(before), 1e-12 * volume(before));
     EXPECT_LT(glm::length(centroid(quarter.stone.solid) - centroid(before)), 1e-12 * size);
-    // The planes turned with the corners.
+    // The planes turn with the corners.
     EXPECT_LT(planarity(quarter.stone.solid), planarity(before) + 1e-12 * size);
     EXPECT_GT(glm::length(quarter.stone.solid.vertices[1] - before.vertices[1]), 0.01 * size);
     Scene round = scene;

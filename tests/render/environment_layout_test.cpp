@@ -1,4 +1,4 @@
-// Lat-long and cube maps. Expectations: solid angles of closed form, OpenEXR's own ImfEnvmap as an
+// Lat-long and cube maps. Expectations: solid angles in closed form, OpenEXR's ImfEnvmap as an
 // independent implementation of both layouts, conservation of energy.
 
 #include "render/scene/environment_layout.h"
@@ -74,8 +74,8 @@ TEST(EnvironmentLayout, PlacesAndDirectionsAreInverse) {
     }
 }
 
-// culet's x, y, z are OpenEXR's Z, X, Y: its lat-long maps have their middle at +Z and +X to the
-// left of it, its cube maps are squares in a column.
+// culet's x, y, z are OpenEXR's Z, X, Y: its lat-long maps are centred on +Z with +X to the left,
+// its cube maps are squares in a column.
 TEST(EnvironmentLayout, IsWhatOpenexrReads) {
     std::mt19937_64 random(6);
     std::normal_distribution<double> normal;
@@ -89,7 +89,7 @@ TEST(EnvironmentLayout, IsWhatOpenexrReads) {
         Imath::V2f in_face;
         Imf::CubeMap::faceAndPixelPosition(exr, cube_window, face, in_face);
         const Imath::V2f pixel = Imf::CubeMap::pixelPosition(face, cube_window, in_face);
-        // OpenEXR puts the edges of a square on the middles of its outer pixels, culet on their
+        // OpenEXR puts the edges of a square on the centres of its outer pixels, culet on their
         // outer edges: half a pixel at most.
         const MapPlace place = cube_place(d, size);
         EXPECT_EQ(static_cast<int>(place.row) / size, static_cast<int>(face));
@@ -123,7 +123,7 @@ TEST(EnvironmentLayout, EnergyIsKeptWithinAThousandth) {
     }
 }
 
-// A sun must also be where it was: the light's first moment.
+// A sun must also keep its place: the light's first moment.
 TEST(EnvironmentLayout, ASunStaysInItsPlace) {
     EnvironmentMap map = lat_long(256);
     map.rgb[3 * (40 * 256 + 100) + 1] = 1e5f;

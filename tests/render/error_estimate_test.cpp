@@ -1,5 +1,5 @@
-// Is an estimate's bound what it says where a picture is off in few pixels? Expectations: every
-// pixel of the stone, drawn by the reference, and the lights' own geometry.
+// Does the estimated bound hold where a picture is wrong in few pixels? Expectations: every pixel
+// of the stone, drawn by the reference, and the lights' own geometry.
 
 #include "render/planner/error_estimate.h"
 
@@ -31,7 +31,7 @@ namespace {
 
 const Vec3 k_middle{0, 0, 0};
 
-// Random pictures of two windows, with holes and numbers that are none.
+// Random pictures of two windows, with holes and NaNs.
 Picture random_picture(unsigned seed, int width, int height) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> number(0, 1);
@@ -47,7 +47,7 @@ Picture random_picture(unsigned seed, int width, int height) {
     return picture;
 }
 
-// Of every pixel, by its definition.
+// By its definition, over every pixel.
 TEST(Contrast, OfASmallStoneIsThatOfEachPixel) {
     for (unsigned seed = 0; seed < 4; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -76,8 +76,8 @@ TEST(Contrast, OfASmallStoneIsThatOfEachPixel) {
     EXPECT_TRUE(contrast_of(Picture{}, 1, 0).pixels.empty());
 }
 
-// One pixel in each square of four by four, none in rows or columns: each place of the square has
-// as many as any other, within five of the standard deviations that random places would have.
+// One pixel in each square of four by four, and no pattern in rows or columns: each place of the
+// square is used equally often, within five of the standard deviations of random places.
 TEST(Contrast, OfALargeStoneIsThatOfPixelsSpreadEvenly) {
     constexpr int k_side = 1000;
     Picture picture;
@@ -114,7 +114,7 @@ using Pixels = std::vector<std::pair<int, int>>;
 TEST(OutstandingPixels, HaveMoreThanAShareOfTheLightAndThan30Means) {
     Picture picture = grey_picture(100, 100);
     EXPECT_TRUE(outstanding_pixels(picture, 1, 1e-6, 10).empty()) << "all are alike";
-    // Of 5000 and what they add themselves.
+    // Of 5000, plus what they add themselves.
     light_up(picture, 7, 30, 30);
     light_up(picture, 60, 2, 100);
     light_up(picture, 61, 2, 10);
@@ -127,8 +127,8 @@ TEST(OutstandingPixels, HaveMoreThanAShareOfTheLightAndThan30Means) {
     EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 10), (Pixels{{7, 30}})) << "beside the stone";
 }
 
-// A sun where none is, in a picture that comes after the one by which the estimate's pixels were
-// chosen: one pixel of 2000 that brings half of all light.
+// A false sun in a picture drawn after the one that determined the estimate's pixels: one pixel of
+// 2000 with half of all light.
 TEST(ErrorEstimate, LooksAtAFalseSunInALaterPicture) {
     Scene scene = plan_scene_of("spinel", "princess", "daylight", 64).scene;
     scene.settings.tolerance = 0.1;
@@ -146,7 +146,7 @@ TEST(ErrorEstimate, LooksAtAFalseSunInALaterPicture) {
         light_up(wrong, x, y, static_cast<float>(light / 2));
         const double error = 0.5 - mean_of(picture.pixel(x, y)) / light;
         const ErrorEstimate found = estimator.estimate(wrong, 0.1, 1e12);
-        // What it says of the others is right to within its own spread.
+        // The estimate for the other pixels is right to within its own spread.
         EXPECT_NEAR(found.difference, error + right.difference,
                     3 * (right.spread + found.spread) + 0.1 * error)
             << x << ", " << y;
@@ -163,7 +163,7 @@ TEST(LightRims, OfACapLieOnBothSidesOfItsEdges) {
     EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 0).to, 0.55);
     EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 1).from, 0.25);
     EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 1).to, 0.35);
-    // A light smaller than its rim is all rim.
+    // A light smaller than its rim consists of rim only.
     EXPECT_EQ(nth_light<DiscLight>(rims, 2).from, 0);
     EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 2).to, 0.07);
     EXPECT_EQ(std::get<double>(nth_light<DiscLight>(rims, 2).radiance.value), 9.0);
@@ -174,7 +174,7 @@ TEST(LightRims, OfDimLightsAreLeftOut) {
     lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
     lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.02, {9.0}});
     lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.3, {4.9}});
-    // Bright at one wavelength is bright.
+    // Brightness at a single wavelength counts.
     lights.sources.push_back(SphereLight{{0, 0, 50}, 1, {Rgb{0.0, 0.0, 20.0}}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 5);
     ASSERT_EQ(count_lights<DiscLight>(rims), 1u);
@@ -214,8 +214,7 @@ TEST(LightRims, OfAWindowAreItsFourSides) {
     EXPECT_NEAR(nth_light<PlaneLight>(rims, 1).v->y, 0.5, 1e-12);
 }
 
-// An infinite plane has no side, and a ball that is as near as it is wide no rim that would not
-// hold the stone.
+// An infinite plane has no side. The rim of a ball as near as it is wide would enclose the stone.
 TEST(LightRims, OfEndlessPlanesAndOfBallsAboutTheStoneAreLeftOut) {
     Lights lights;
     lights.sources.push_back(PlaneLight{{0, 0, 10}, {0, 0, -1}, {}, {}, {1.0}});
@@ -250,8 +249,8 @@ struct CheckedScene {
 };
 class BoundOverAllPixels : public testing::TestWithParam<CheckedScene> {};
 
-// Every pixel of the stone. The truth's few rays make what is measured larger, if anything, and so
-// their noise is taken off as of independent quantities (`hold_against`).
+// Every pixel of the stone. The truth has few rays, whose noise can only raise what is measured, so
+// it is subtracted as an independent quantity (`hold_against`).
 TEST_P(BoundOverAllPixels, IsNotBelowWhatIsMeasured) {
     const CheckedScene& which = GetParam();
     Scene scene = plan_scene_of(which.material, which.cut, which.light, 100).scene;
@@ -266,9 +265,9 @@ TEST_P(BoundOverAllPixels, IsNotBelowWhatIsMeasured) {
     EXPECT_LE(found.measured, which.tolerance);
 }
 
-// A window's colours that one wavelength lacks are in a hundredth of the pixels, the sun that three
-// lack in a thousandth; of the spinel 150 evenly spread pixels of a larger picture showed more than
-// its bound, all of them less.
+// One wavelength lacks window colours in a hundredth of the pixels; three lack the sun in a
+// thousandth. For the spinel 150 evenly spread pixels of a larger picture showed more than its
+// bound, all of them less.
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BoundOverAllPixels,
     testing::Values(CheckedScene{"spinel", "trillion", "lightbox", 0.03, "spinel_in_a_light_box"},
@@ -276,8 +275,8 @@ INSTANTIATE_TEST_SUITE_P(
                     CheckedScene{"cubic_zirconia", "oval", "daylight", 0.1, "zirconia_in_the_sun"}),
     [](const testing::TestParamInfo<CheckedScene>& which) { return which.param.name; });
 
-// Cubic zirconia in the sun at three wavelengths: the sun's other images are where pixels are off
-// by more than ten times the mean.
+// Cubic zirconia in the sun at three wavelengths: errors above ten times the mean occur at the
+// sun's other images.
 TEST(LightEdgeScan, FindsWhereTheSunIsSeenAtOtherWavelengths) {
     Scene scene = plan_scene_of("cubic_zirconia", "oval", "daylight", 200).scene;
     scene.settings.tolerance = 0.03;
@@ -286,7 +285,7 @@ TEST(LightEdgeScan, FindsWhereTheSunIsSeenAtOtherWavelengths) {
     double mean = 0;
     const StonePixels all = all_stone_pixels(scene);
     for (const auto& [x, y] : all.at) mean += scan.near(x, y) / static_cast<double>(all.at.size());
-    // Found by the reference with 256 rays and 57 wavelengths: 20 x the mean of the picture.
+    // Found by the reference with 256 rays and 57 wavelengths: 20 times the mean of the picture.
     const double there = scan.near(170, 118);
     EXPECT_GT(there, 20 * mean) << "one of a thousand pixels in which it is";
 }
@@ -310,9 +309,9 @@ TEST(LightEdgeScan, FindsTheSunOnPathsOfLittleWeight) {
     EXPECT_LT(static_cast<double>(seen), 0.1 * static_cast<double>(all.at.size()));
 }
 
-// Next to total reflection the sun's images of 29 wavelengths part in strontium titanate: what such
-// a picture is off by, a truth of the same wavelengths does not show. The pixels that may see the
-// sun, by themselves, may not be off by more than all of them are said to be.
+// In strontium titanate the sun's images at 29 wavelengths separate next to total reflection. A
+// truth with the same wavelengths does not show this error. The pixels that may see the sun must
+// not be off by more than the bound for all pixels.
 TEST(ErrorEstimate, KnowsOfTheSunBetweenThePicturesWavelengths) {
     Scene scene = plan_scene_of("strontium_titanate", "round-brilliant", "daylight", 200).scene;
     scene.settings.tolerance = 0.1;
@@ -333,13 +332,13 @@ TEST(ErrorEstimate, KnowsOfTheSunBetweenThePicturesWavelengths) {
     const Verification found = hold_against(draw_truth(scene, finest, some, 49), result.picture);
     double seen = 0;
     for (const auto& [x, y] : some.at) seen += mean_of(result.picture.pixel(x, y));
-    // The shares of these and of all are of the true light, which the picture's is near.
+    // Their shares refer to the true light, which is close to the picture's.
     EXPECT_LE(found.measured * seen / light, 1.1 * result.stats.error_bound);
 }
 
 // The sun's colours leave an almandine side by side, over 150 pixels of 57 000 and a thousand times
-// as bright as the rest: more light than all else. A pilot of even pixels does not see them, and
-// without dispersion they are not there.
+// as bright as the rest: more than half of the light. A pilot of evenly spread pixels misses them,
+// and without dispersion they do not exist.
 TEST(ErrorEstimate, SaysWhatWasLeftOutWhereThePilotMissedIt) {
     Scene scene = plan_scene_of("garnet_almandine", "round-brilliant", "daylight", 400).scene;
     scene.settings.tolerance = 0.1;
@@ -348,7 +347,7 @@ TEST(ErrorEstimate, SaysWhatWasLeftOutWhereThePilotMissedIt) {
     EXPECT_LE(result.stats.error_bound, 0.1);
     ASSERT_TRUE(result.stats.plan);
     EXPECT_TRUE(result.stats.plan->item("dispersion").on);
-    // Of so many pixels, each with everything on.
+    // With this many pixels, each with all effects.
     const Verification checked = verify(scene, result);
     EXPECT_TRUE(checked.holds()) << checked.measured << " for " << checked.bound;
     double sum = 0, most = 0;
@@ -363,8 +362,8 @@ TEST(ErrorEstimate, SaysWhatWasLeftOutWhereThePilotMissedIt) {
     EXPECT_GT(most, 50 * sum / static_cast<double>(pixels));
 }
 
-// At the estimate's pixels against all pixels of the stone, drawn without the same effect: means of
-// few pixels are off by three of their standard errors at most. Glints make single pixels differ by
+// The estimate's pixels against all pixels of the stone, drawn without the same effect: means of
+// few pixels are off by at most three of their standard errors. Glints make single pixels differ by
 // about twice their mean.
 TEST(ErrorEstimate, FindsWhatEffectsThatAreLeftOutChange) {
     const Progress quiet;
@@ -380,7 +379,7 @@ TEST(ErrorEstimate, FindsWhatEffectsThatAreLeftOutChange) {
     const Picture picture = FrameRenderer(without).draw().picture;
     const StonePixels all = all_stone_pixels(scene);
     ErrorEstimator estimator(scene, all, scene.settings.tolerance, quiet);
-    // A bound that is asked to be a little smaller each time takes more pixels.
+    // Asking for a slightly smaller bound each time takes more pixels.
     ErrorEstimate estimate = estimator.estimate(picture, 1e9, 1e12);
     for (int more = 0; more < 20 && estimate.pixels < 192; ++more)
         estimate = estimator.estimate(picture, 0.95 * estimate.bound, 1e12);

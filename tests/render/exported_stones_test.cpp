@@ -1,4 +1,4 @@
-// What the writers for other renderers say of each stone. Expectations: a published dispersion
+// What the exporters for other renderers write for each stone. Expectations: a published dispersion
 // formula, and the stones' own materials.
 
 #include <gtest/gtest.h>
@@ -54,8 +54,8 @@ TEST(ExportedStones, DiamondDispersesAsPublished) {
     EXPECT_EQ(seen, 39);
 }
 
-// The first stone is clear, isotropic glass of one index: the others disperse, absorb and split
-// light none the less.
+// The first stone is clear, isotropic glass of one index; the others must still disperse, absorb
+// and split light.
 TEST(ExportedStones, EachHasTheOpticsOfItsOwnMaterial) {
     Scene scene = one_stone();
     scene.stone.material.index[0].n = 1.5;
@@ -95,7 +95,7 @@ TEST(ExportedStones, EachHasTheOpticsOfItsOwnMaterial) {
     }
 }
 
-// The map of the one has not the shape of the other's: in one folder they must not meet.
+// The two maps have different shapes: in one folder they must not share a name.
 TEST(ExportedStones, FilesBesideTheScenesHaveNamesOfTheirOwn) {
     Scene scene = one_stone();
     scene.lights.sources.push_back(HemisphereLight{{0, 0, 1}, {1.0}});

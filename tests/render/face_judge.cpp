@@ -20,7 +20,7 @@ using oracle::Wave;
 
 namespace {
 
-// Two N that differ by less are one N in doubles.
+// Two N that differ by less are equal in doubles.
 constexpr double k_one_wave = 4 * 2.220446049250313e-16;
 
 bool together(const std::array<Wave, 2>& pair, double gap) {
@@ -28,7 +28,7 @@ bool together(const std::array<Wave, 2>& pair, double gap) {
            gap < k_one_wave * std::sqrt(squared_length(pair[0].N));
 }
 
-// Coefficient [k][j] of the oracle's wave k in culet's mode j, both of unit normal flux.
+// Coefficient [k][j]: the oracle's wave k in culet's mode j, both of unit normal flux.
 Matrix2 turn_of_pair(const std::array<CrystalMode, 2>& modes, const std::array<Wave, 2>& waves,
                      double gap, const Vec3& n) {
     Matrix2 turn{{{1, 0}, {0, 1}}};
@@ -60,7 +60,7 @@ Matrix2 adjoint(const Matrix2& m) {
     return {{{std::conj(m[0][0]), std::conj(m[1][0])}, {std::conj(m[0][1]), std::conj(m[1][1])}}};
 }
 
-// Some numbers of culet beside those of the oracle.
+// Numbers of culet beside those of the oracle.
 struct Figures {
     std::vector<Complex> amplitudes;
     std::vector<double> powers, waves, rays;
@@ -88,8 +88,8 @@ Deviation between(const Figures& a, const Figures& b) {
 
 }  // namespace
 
-// One incident wave, or the waves themselves: culet's figures, and those of an answer of the oracle
-// in culet's pairs of waves.
+// One incident wave, or the waves themselves: culet's figures, and an answer of the oracle in
+// culet's pairs of waves.
 struct FaceJudge::Column {
     std::string name;
     Answer answer;
@@ -100,7 +100,7 @@ struct FaceJudge::Column {
 
 namespace {
 
-// Which answers are comparable number by number is settled by the problem as given.
+// The problem as given decides which answers are comparable number by number.
 struct Resolved {
     bool towards, away;
 };
@@ -163,8 +163,8 @@ void FaceJudge::compare(const Face& given) {
     nudged_.clear();
     judge(face, waves);
 
-    // The root q of a wave c from grazing (c = ray.n) has a rounding of 2^-52/c, its normal flux
-    // one of 2^-52/c^2 of itself, and so have the powers that are put right with it.
+    // For a wave at c from grazing (c = ray.n) the root q has a relative rounding error of 2^-52/c,
+    // and its normal flux and the powers normalised by it one of 2^-52/c^2.
     double most_grazing = 1;
     for (const auto& pair : {towards, away})
         for (const CrystalMode& mode : pair)
@@ -197,7 +197,7 @@ void FaceJudge::compare(const Face& given) {
 
     for (int m = 0; m < 2; ++m) {
         if (!towards[m].propagates || !answer.towards[m].propagates) {
-            // Where only one of the two says that it travels, it all but grazes.
+            // Where only one of the two says that it propagates, it nearly grazes.
             if (towards[m].propagates) {
                 EXPECT_LT(glm::dot(towards[m].ray, n), 1e-7) << described(face);
             }

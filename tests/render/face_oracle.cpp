@@ -56,7 +56,7 @@ std::vector<Number> normal_parts(const Matrix& eps, const RealVec& K, const Real
     return roots_of(determinant(m), 4);  // powers 5 and 6 cancel
 }
 
-// The null vector of a matrix of rank 2: the longest product of two rows.
+// The null vector of a matrix of rank 2: the longest cross product of two rows.
 Vec null_vector(const Matrix& m) {
     Vec best{};
     for (int i = 0; i < 3; ++i) {
@@ -66,8 +66,8 @@ Vec null_vector(const Matrix& m) {
     return (1 / Number(sqrt(norm_of(best)))) * best;
 }
 
-// Two orthogonal null vectors of a symmetric matrix of rank 1, which is a multiple of row row^T.
-// The rows are complex for waves that do not travel.
+// Two orthogonal null vectors of a symmetric matrix of rank 1, a multiple of row row^T. The rows
+// are complex for evanescent waves.
 std::array<Vec, 2> null_plane(const Matrix& m) {
     Vec row{};
     for (int i = 0; i < 3; ++i)
@@ -112,7 +112,7 @@ Wave rounded_wave(const Wave100& wave) {
     return w;
 }
 
-// x of m x = right, Gauss with full pivoting by rows and columns.
+// Solves m x = right for x by Gauss with full pivoting.
 using Vec4 = std::array<Number, 4>;
 Vec4 solution(std::array<Vec4, 4> m, Vec4 right) {
     std::array<int, 4> column{0, 1, 2, 3};
@@ -140,7 +140,7 @@ Vec4 solution(std::array<Vec4, 4> m, Vec4 right) {
     return x;
 }
 
-// Everything that one K and one face have in common.
+// What all waves of one K and one face share.
 class Problem {
 public:
     Problem(const Face& face, const Nudge& nudge) {
@@ -172,8 +172,8 @@ public:
             wave.E = null_vector(wave_matrix(eps, wave.N));
             wave.complete(n_, crystal_.axes[odd_]);
         }
-        // Pairs of one N that are no pair of forward and backward grazing waves: a plane of fields.
-        // In a crystal of three equal indices those that do not travel are such pairs too.
+        // Pairs with one N that are not the forward and backward grazing wave: a plane of fields.
+        // In a crystal of three equal indices evanescent waves are such pairs too.
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < i; ++j) {
                 if (norm_of(found[i].q - found[j].q) > k_same * k_same) continue;
@@ -289,7 +289,7 @@ private:
         return {E, cross(N, E)};
     }
 
-    // The tangential fields of a wave: E and H along two directions in the face.
+    // A wave's tangential fields: E and H along two directions in the face.
     template <class W>
     Vec4 part(const W& wave) const {
         const Vec t1 = complex_of(s_), t2 = complex_of(cross(n_, s_));

@@ -1,21 +1,20 @@
 #pragma once
-// A second derivation of what a crystal face does to light, in 100 decimal digits, to judge
-// render/optics/crystal.h by. It shares no formula with it:
+// A second derivation of what a crystal face does to light, in 100 decimal digits, to check
+// render/optics/crystal.h. It shares no formula with it:
 //  - all four q of det(N N^T - N^2 I + eps) = 0, N = K + q n, as the roots of the quartic in q
-//  whose
-//    coefficients come from multiplying the determinant out (Aberth's method);
+//    whose coefficients come from expanding the determinant (Aberth's method);
 //  - fields as null vectors of that matrix, H = N x E;
 //  - towards +n by the sign of Re(E x H*).n where q is real, of Im q where not;
 //  - amplitudes from the 4x4 system of continuous tangential E and H, with s and p waves outside
 //    (evanescent ones included).
 //
-// Input. The numbers of the doubles, with three repairs that make them a physical problem and move
-// none of them by more than its own rounding: n is made a unit vector, K is projected on the face,
-// and the axes are made orthonormal (Gram-Schmidt, in their order).
+// Input: the doubles, with three repairs that make the problem physical and move no number by more
+// than its own rounding error: n becomes a unit vector, K is projected on the face, and the axes
+// become orthonormal (Gram-Schmidt, in their order).
 //
-// Precision. A double root of a quartic is found to 1e-50, one of a pair that is d apart to
-// 1e-100/d, and the direction of its field to 1e-100/d^2. Waves closer than 1e-40 are taken as one,
-// with two orthogonal fields of its plane of vibration.
+// Precision: a double root of a quartic is found to 1e-50, one of a pair that is d apart to
+// 1e-100/d, and the direction of its field to 1e-100/d^2. Waves closer than 1e-40 count as one,
+// with two orthogonal fields in its plane of vibration.
 
 #include <array>
 
@@ -32,8 +31,8 @@ struct Face {
     Vec3 s{0, 0, 0};  ///< used at |K| < 1e-13, where the face has no s of its own
 };
 
-/// A change of the problem within the rounding of its input: K grows and turns about the normal,
-/// the crystal turns.
+/// A perturbation of the problem within the rounding of its input: K grows and turns about the
+/// normal, the crystal turns.
 struct Nudge {
     double K_growth = 0, K_turn = 0;
     Vec3 crystal_turn{0, 0, 0};
@@ -49,7 +48,7 @@ struct Wave {
 
 using Matrix2 = std::array<std::array<Complex, 2>, 2>;
 
-/// Amplitudes in units of the root of normal flux; waves that carry none have amplitude 0.
+/// Amplitudes in units of the square root of normal flux; waves without flux have amplitude 0.
 struct Answer {
     std::array<Wave, 2> towards, away;  ///< from and to -n; uniaxial: o, e; biaxial: by falling N^2
     double gap_towards = 0, gap_away = 0;  ///< |q - q| of the two

@@ -1,4 +1,5 @@
-// Pictures of few wavelengths against those of the whole spectrum, which is integrated here anew.
+// Pictures with few wavelengths against the whole spectrum, which this test integrates
+// independently.
 
 #include "render/colour/few_wavelengths.h"
 
@@ -28,7 +29,7 @@ std::vector<Spectrum> rays_of(const Material& material) {
             material.absorption_per_mm.begin() + ray_count(material.optic)};
 }
 
-// Of daylight after one way, a share along each principal ray.
+// Daylight after one path, with a share along each principal ray.
 Rgb few_colour(const FewWavelengths& few, const std::vector<double>& nm, double mm) {
     std::vector<double> light(nm.size(), 0.0);
     for (const std::vector<double>& absorption : few.absorption_per_mm) {
@@ -41,7 +42,7 @@ Rgb whole_colour(const Material& material, double mm) {
     return body_colour(material, mm / light_path_mm(1)).rgb;
 }
 
-// Of ways spread exponentially about a mean.
+// Over exponentially distributed path lengths with a given mean.
 template <class Colour>
 Lab spread_colour(double mean, const Colour& colour) {
     Rgb sum{};
@@ -56,7 +57,7 @@ Lab spread_colour(double mean, const Colour& colour) {
     return lab_of(sum);
 }
 
-// CIEDE2000 of two colours is just noticeable at 1 to 2.
+// A CIEDE2000 of 1 to 2 is just noticeable.
 TEST(FewWavelengths, HaveTheColourOfTheWholeSpectrum) {
     for (const std::string& name : catalogue_names()) {
         const Material material = catalogue_material(name);
@@ -89,7 +90,7 @@ TEST(FewWavelengths, HaveTheColourOfTheWholeSpectrum) {
     }
 }
 
-// The light of a lamp of one colour, whatever the shares: red + green + blue is white.
+// The light of a coloured lamp, for any shares: red + green + blue is white.
 TEST(FewWavelengths, KeepColouredLights) {
     const Material ruby = catalogue_material("ruby_gem");
     const std::vector<double> nm{450, 540, 610};
@@ -98,7 +99,7 @@ TEST(FewWavelengths, KeepColouredLights) {
         const Rgb back = set.rgb_of(set.spectrum_of(rgb).data());
         for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(back[c], rgb[c], 1e-9);
     }
-    // A, 2856 K: x 0.4476, y 0.4074 (CIE 15).
+    // Illuminant A, 2856 K: x 0.4476, y 0.4074 (CIE 15).
     const auto xyz = xyz_of_rgb(set.rgb_of(set.illuminant_relative("A").data()));
     EXPECT_NEAR(xyz[0] / (xyz[0] + xyz[1] + xyz[2]), 0.4476, 2e-3);
     EXPECT_NEAR(xyz[1] / (xyz[0] + xyz[1] + xyz[2]), 0.4074, 2e-3);
@@ -128,15 +129,15 @@ Lab mean_colour(const Scene& scene) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += picture.rgb[3 * p + c];
         covered += picture.coverage[p];
     }
-    // What is beside the stone sees the light.
+    // Pixels beside the stone see the light.
     for (double& value : sum) value = (value - (double(picture.pixels()) - covered)) / covered;
     return lab_of(sum);
 }
 
 TEST(FewWavelengths, DrawTheColourOfTheFullPicture) {
     const std::vector<double> full = even_wavelengths(29);
-    // Not within 2: ruby, emerald, alexandrite, whose light goes over from one wave into the other
-    // at each face (docs/engines.md has by how much).
+    // Not within 2: ruby, emerald, alexandrite, whose light changes from one wave to the other at
+    // each face (docs/engines.md gives the differences).
     for (const char* name : {"sapphire_blue", "garnet_almandine", "peridot"}) {
         const Lab whole = mean_colour(coloured(name, full));
         for (const int count : {3, 8}) {
@@ -146,7 +147,7 @@ TEST(FewWavelengths, DrawTheColourOfTheFullPicture) {
     }
 }
 
-// Spectra, full pictures and pictures of one wavelength are of the material itself.
+// Spectra, full pictures and single-wavelength pictures use the material itself.
 TEST(FewWavelengths, LeaveSpectraAsTheyAre) {
     const Material ruby = catalogue_material("ruby_gem");
     const auto first_absorption = [&](Scene scene) {

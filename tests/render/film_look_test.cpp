@@ -1,4 +1,4 @@
-// What is done to a picture for the eye: glare, sparkle, tone maps, alpha.
+// Post-processing for the eye: glare, sparkle, tone maps, alpha.
 
 #include "render/image/film_look.h"
 
@@ -33,9 +33,9 @@ double sum(const std::vector<float>& rgb) {
     return std::accumulate(rgb.begin(), rgb.end(), 0.0);
 }
 
-// Spencer et al. 1995: each part of the point spread is 1 over the hemisphere. The sharp part,
-// 0.384 f0, is what is left: 0.478 + 0.138 of the light is scattered, within the 3 % that the
-// paper's rounded constants give.
+// Spencer et al. 1995: each part of the point spread is normalised to 1 over the hemisphere. The
+// sharp part has 0.384 f0, so 0.478 + 0.138 of the light is scattered, to the 3 % of the paper's
+// rounded constants.
 TEST(Glare, ScattersWhatThePaperSays) {
     const double to_steradian = std::pow(std::numbers::pi / 180, 2);
     double scattered = 0;
@@ -83,7 +83,7 @@ TEST(Sparkle, SpreadsWhatIsOverWhiteAlongTheDiagonals) {
     rgb[at(200, 200)] = 11;
     const double before = sum(rgb);
     add_sparkle(rgb, size, 0.5);
-    // Half of what is over white, 10, and no more of it beyond the picture than e^-25.
+    // Half of what exceeds white, 10; no more than e^-25 of it falls outside the picture.
     EXPECT_NEAR(sum(rgb) - before, 5, 1e-3 * 5);
     EXPECT_GT(rgb[at(210, 210)], 0.5f);
     EXPECT_NEAR(rgb[at(210, 210)], rgb[at(190, 210)], 1e-6f);
@@ -147,7 +147,7 @@ TEST(Film, IsReadFromASceneAndWrittenToItsPng) {
 }
 
 // A display of gamma 2 shows light v for a code of sqrt(v): a quarter of white is code 0.5. The
-// file is encoded as sRGB afterwards, so that its code is the root.
+// file is encoded as sRGB afterwards, so its code is the root.
 TEST(ToneMaps, Gamma2WritesTheRootOfTheLight) {
     Picture picture;
     picture.width = 3;

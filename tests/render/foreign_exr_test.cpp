@@ -78,7 +78,7 @@ TEST_F(ForeignExr, ChromaticitiesAreFollowed) {
                               file(plain, {{"X", float(x)}, {"Y", float(y)}, {"Z", float(z)}})})
         expect_near(pixel(read(bytes), 0, 0), {1, 1, 1}, 5e-4);
 
-    // What spans nothing is named.
+    // Primaries that span nothing are named.
     Imf::addChromaticities(header, {{0.3f, 0.3f}, {0.3f, 0.3f}, {0.3f, 0.3f}, k_d65});
     EXPECT_THAT(read(file(header, {{"R", 1}, {"G", 1}, {"B", 1}})).notes,
                 ElementsAre(HasSubstr("span no colours")));
@@ -89,7 +89,7 @@ TEST_F(ForeignExr, TheDataWindowIsPlacedInTheDisplayWindow) {
     const auto box = [](int left, int top, int right, int bottom) {
         return Imath::Box2i({left, top}, {right, bottom});
     };
-    // The right lower quarter of a picture whose corner is at (100, 50).
+    // The lower right quarter of a picture whose corner is at (100, 50).
     const ReadPicture part =
         read(file(windows(box(100, 50, 107, 53), box(104, 52, 107, 53)), channels, 10));
     ASSERT_EQ(part.picture.width, 8);
@@ -100,7 +100,7 @@ TEST_F(ForeignExr, TheDataWindowIsPlacedInTheDisplayWindow) {
     expect_near(pixel(part, 7, 3), {31, 32, 33}, 0);
     EXPECT_EQ(part.picture.coverage[0], 0);
     EXPECT_THAT(part.notes, ElementsAre(HasSubstr("columns 4 to 7 and rows 2 to 3 of 8 x 4")));
-    // More than is shown.
+    // A display window larger than the data window.
     const ReadPicture more = read(file(windows(box(0, 0, 1, 1), box(-2, -1, 5, 3)), channels, 10));
     ASSERT_EQ(more.picture.width, 2);
     expect_near(pixel(more, 1, 1), {31, 32, 33}, 0);

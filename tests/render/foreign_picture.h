@@ -1,5 +1,5 @@
 #pragma once
-// Reading pictures that a test has made, and what is published of colour spaces.
+// Reading pictures that a test made, and published colour space data.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ inline Colour srgb_of_adobe_rgb(const Colour& v) {
 inline constexpr std::array<Colour, 3> k_rec709_of_rec2020{
     {{1.6605, -0.1246, -0.0182}, {-0.5876, 1.1329, -0.1006}, {-0.0728, -0.0083, 1.1187}}};
 
-// It and the matrix of IEC 61966-2-1 are published with four digits.
+// This matrix and that of IEC 61966-2-1 are published with four digits.
 inline constexpr double k_four_digits = 5e-4;
 
 // D65 at luminance 1, CIE 15.

@@ -1,5 +1,5 @@
-// PNG, TIFF and JPEG as other programs write them. Expectations: the formats' specifications,
-// closed forms of transfer curves, published matrices.
+// PNG, TIFF and JPEG files of other programs. Expectations: the formats' specifications, closed
+// forms of transfer curves, published matrices.
 
 #include <fmt/format.h>
 #include <half.h>
@@ -7,7 +7,7 @@
 #include <png.h>
 #include <tiffio.h>
 #include <zlib.h>
-// jpeglib.h needs this before it.
+// jpeglib.h needs this include before it.
 #include <cstdio>
 // After it.
 #include <jpeglib.h>
@@ -30,7 +30,7 @@ using ::testing::IsEmpty;
 
 using Xy = std::array<double, 2>;
 
-// An ICC profile of primaries and a curve, white D65.
+// An ICC profile with primaries and a curve, white D65.
 std::string icc_profile(const Xy& red, const Xy& green, const Xy& blue, cmsToneCurve* curve) {
     const cmsCIExyY white{0.3127, 0.3290, 1};
     const cmsCIExyYTRIPLE primaries{
@@ -92,7 +92,7 @@ protected:
     static std::string rgb(const Adapt& adapt) {
         return png(1, 8, PNG_COLOR_TYPE_RGB, std::string("\x33\x80\xcc"), adapt);
     }
-    // A chunk behind the header, with its checksum (PNG, 5.3).
+    // A chunk after the header, with its checksum (PNG, 5.3).
     static std::string with_chunk(std::string bytes, const std::string& name_and_data) {
         const auto number = [](std::uint32_t v) {
             return std::string{char(v >> 24), char(v >> 16), char(v >> 8), char(v)};
@@ -115,7 +115,7 @@ TEST_F(ForeignPng, GammaAndChromaticitiesAreFollowed) {
         };
         expect_near(pixel(read(rgb(gamma)), 0, 0), powers(k_values, exponent), 1e-4);
     }
-    // 1/2.2 beside nothing else is what programs write for sRGB.
+    // A lone gamma of 1/2.2 is how programs mark sRGB.
     const auto usual = [](png_structp png, png_infop info) { png_set_gAMA(png, info, 0.45455); };
     expect_near(pixel(read(rgb(usual)), 0, 0), decoded(), 1e-6);
     const auto adobe = [](png_structp png, png_infop info) {
@@ -172,7 +172,7 @@ TEST_F(ForeignPng, PalettesBitsTransparencyAndOrientation) {
     EXPECT_EQ(read(png(2, 8, PNG_COLOR_TYPE_GRAY, "\x07\x08", one_is_clear)).picture.coverage,
               (std::vector<float>{0, 1}));
 
-    // EXIF 2.3, 4.6.4: 6 is shown turned clockwise by a quarter. Pixels a length: PNG, 11.3.5.3.
+    // EXIF 2.3, 4.6.4: 6 is shown turned clockwise by a quarter. Pixels per length: PNG, 11.3.5.3.
     const ReadPicture turned =
         read(png(2, 8, PNG_COLOR_TYPE_GRAY, std::string("\0\xff", 2), [](auto png, auto info) {
             std::string exif("II*\0\x08\0\0\0\1\0\x12\1\3\0\1\0\0\0\6\0\0\0\0\0\0\0", 26);
@@ -188,7 +188,6 @@ class ForeignTiff : public test::ForeignPicture {
 protected:
     using Adapt = std::function<void(TIFF*)>;
 
-    // A pixel of samples.
     template <class Sample>
     std::string tiff(const std::vector<Sample>& samples, int colours, int format,
                      const Adapt& adapt = {}) const {
@@ -230,13 +229,13 @@ TEST_F(ForeignTiff, ProfilesAreFollowed) {
         pixel(read(tiff(values, PHOTOMETRIC_RGB, SAMPLEFORMAT_UINT, profile(linear_profile()))), 0,
               0),
         parts, 1e-3);
-    // Floats are decoded likewise; none of their range is lost.
+    // Floats are decoded the same way and keep their range.
     const std::vector<float> bright{4, 0.5f, 0.25f};
     expect_near(pixel(read(tiff(bright, PHOTOMETRIC_RGB, SAMPLEFORMAT_IEEEFP,
                                 profile(adobe_rgb_profile()))),
                       0, 0),
                 test::srgb_of_adobe_rgb(powers({4, 0.5, 0.25}, 2.19921875)), 0.02);
-    // What is no profile, or one for inks' channels, is said.
+    // Invalid profiles, and profiles for inks, are reported.
     for (const std::string& broken :
          {std::string("no profile at all"), adobe_rgb_profile().substr(0, 200)}) {
         const ReadPicture read =
@@ -292,7 +291,7 @@ TEST_F(ForeignTiff, AlphaAndInks) {
     EXPECT_FLOAT_EQ(grey.picture.coverage[0], 0.2f);
     expect_near(pixel(grey, 0, 0), {half, half, half}, 0.002);
 
-    // Half of the cyan, and a fifth of black: no alpha.
+    // Half of the cyan and a fifth of black: no alpha.
     const ReadPicture inks =
         read(tiff(Bytes{128, 0, 255, 51}, PHOTOMETRIC_SEPARATED, SAMPLEFORMAT_UINT));
     EXPECT_FALSE(inks.had_alpha);
@@ -317,7 +316,7 @@ class ForeignJpeg : public test::ForeignPicture {
 protected:
     using Adapt = std::function<void(jpeg_compress_struct&)>;
 
-    // 8 x 8 pixels of one colour, at the best quality.
+    // 8 x 8 pixels of one colour at the best quality.
     static std::string jpeg(const std::vector<std::uint8_t>& colour, J_COLOR_SPACE space,
                             const std::string& profile = {}, const Adapt& adapt = {}) {
         jpeg_compress_struct info{};
@@ -375,7 +374,7 @@ TEST_F(ForeignJpeg, AdobeRgbByProfileAndByExif) {
 }
 
 TEST_F(ForeignJpeg, InksOfAdobeAreComplements) {
-    // What is left of white behind cyan and black: the same picture either way.
+    // What cyan and black leave of white: the same picture either way.
     const Colour expected{srgb_decoded(100 / 255.0 * 0.8), srgb_decoded(0.8), srgb_decoded(0.8)};
     const ReadPicture adobe = read(jpeg({100, 255, 255, 204}, JCS_CMYK));
     expect_near(pixel(adobe, 3, 3), expected, 0.01);

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 class Radiance : public test::ForeignPicture {
 protected:
-    // Mantissas of 8 bits beside 2^-8 of their power of two.
+    // 8-bit mantissas: accurate to 2^-8 of their power of two.
     static std::string rgbe(const Colour& colour) {
         int exponent = 0;
         std::frexp(std::max({colour[0], colour[1], colour[2]}), &exponent);
@@ -36,7 +36,7 @@ protected:
 };
 
 TEST_F(Radiance, ExposuresAndColourCorrectionsMultiplyAndAreTakenOut) {
-    // Lines of the pictures it was made from are indented, and count no more.
+    // Indented lines belong to the pictures it was made from and are ignored.
     const ReadPicture read = this->read(
         one("EXPOSURE=2\n\tEXPOSURE=100\nEXPOSURE=4.0\nCOLORCORR=2 1 0.5\n", {1, 0.5, 0.25}));
     expect_near(pixel(read, 0, 0), {1 / 16.0, 1 / 16.0, 1 / 16.0}, 1e-7);
@@ -52,11 +52,11 @@ TEST_F(Radiance, XyzAndPrimariesBecomeSrgb) {
     for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(pixel(red, 0, 0)[c], 0.5 * test::k_rec709_of_rec2020[0][c],
                     test::k_four_digits);
-    // Radiance's own white is that of equal energy: white stays white.
+    // Radiance's own white is equal energy: white stays white.
     expect_near(
         pixel(read(one("PRIMARIES=.64 .33 .29 .60 .15 .06 .3333 .3333\n", {1, 1, 1})), 0, 0),
         {1, 1, 1}, 1e-6);
-    // Photoshop's way of not saying it.
+    // Photoshop's way of leaving it unspecified.
     expect_near(pixel(read(one("PRIMARIES=0 0 0 0 0 0 0 0\n", {0.5, 0, 0})), 0, 0), {0.5, 0, 0}, 0);
     EXPECT_THAT(refusal(one("", {1, 1, 1}, "luvw")), HasSubstr("line 2"));
 }
@@ -92,7 +92,7 @@ TEST_F(Radiance, EveryOrderOfPixelsIsTurnedUpright) {
 }
 
 TEST_F(Radiance, OldRunsRepeatThePixelBefore) {
-    // 1 + 3 + 256 pixels: a mark right behind a mark counts 256 times.
+    // 1 + 3 + 256 pixels: a mark directly after a mark counts 256 times.
     std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 262\n" +
                         rgbe({0.5, 0.25, 0.5}) + "\1\1\1\3" + "\1\1\1\1" + rgbe({0.25, 0.5, 0.5}) +
                         "\1\1\1\1";

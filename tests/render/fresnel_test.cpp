@@ -28,8 +28,8 @@ TEST(Fresnel, NormalIncidenceIsTheSquareOfTheIndexContrast) {
 }
 
 TEST(Fresnel, FortyFiveDegreesOnGlass) {
-    // r_s = -sin(a-b)/sin(a+b), r_p = tan(a-b)/tan(a+b) (Born & Wolf 1.5.2 (21a)); our p flips the
-    // sign of none.
+    // r_s = -sin(a-b)/sin(a+b), r_p = tan(a-b)/tan(a+b) (Born & Wolf 1.5.2 (21a)); our p has the
+    // same sign.
     const double n = 1.5, a = std::acos(-1.0) / 4, b = std::asin(std::sin(a) / n);
     const FaceAmplitudes face = fresnel(1, n, std::cos(a));
     EXPECT_NEAR(reflectance(face.r_s), std::pow(std::sin(a - b) / std::sin(a + b), 2), 1e-15);
@@ -59,7 +59,7 @@ TEST(Fresnel, ReflectedAndTransmittedPowerSumToOne) {
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int i = 0; i < 20000; ++i) {
         const double n1 = 1 + 3 * uniform(random), n2 = 1 + 3 * uniform(random);
-        // Half of the draws crowd towards grazing.
+        // Half of the draws are close to grazing.
         const double c = i % 2 == 0 ? uniform(random) : std::pow(10, -15 * uniform(random));
         const FaceAmplitudes face = fresnel(n1, n2, n1 * c);
         EXPECT_NEAR(reflectance(face.r_s) + face.t_s * face.t_s, 1, 5e-15)
@@ -79,7 +79,7 @@ TEST(Fresnel, TotalReflectionRetardsSAgainstPByTheClosedForm) {
         EXPECT_NEAR(std::abs(face.r_s), 1, 1e-15);
         EXPECT_NEAR(std::abs(face.r_p), 1, 1e-15);
         const double delta = 2 * std::atan(c * std::sqrt(s * s - n * n) / (s * s));
-        // arg r_s - arg r_p = delta up to a whole turn.
+        // arg r_s - arg r_p = delta, modulo a whole turn.
         const std::complex<double> ratio = face.r_s / face.r_p;
         EXPECT_NEAR(std::abs(ratio - std::polar(1.0, delta)), 0, 1e-14) << degrees;
     }

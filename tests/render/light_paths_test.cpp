@@ -1,5 +1,5 @@
-// Expectations: conservation (leaves + remainder + absorbed + cut = 1), closed forms of a slab, and
-// Beer and Lambert.
+// Expectations: energy balance (exits + remainder + absorbed + cut = 1), closed forms of a slab,
+// and Beer and Lambert.
 
 #include "render/reference/light_paths.h"
 
@@ -56,7 +56,7 @@ TEST(LightPaths, IsotropicWhiteFurnaceBalancesAtEveryDepth) {
     EXPECT_LT(worst, 1e-12) << "seed " << seed;
 }
 
-// Of a convex stone, the way through any solid sees what the way through planes sees.
+// For a convex stone the tracer for any solid must agree with the tracer for planes.
 TEST(LightPaths, GoThroughAnySolidAsThroughPlanes) {
     std::mt19937_64 random(411);
     double worst = 0;
@@ -156,13 +156,12 @@ TEST(LightPaths, PolarisationIsRememberedFromFaceToFace) {
 }
 
 TEST(LightPaths, CrossedPlaneReflectionsPolariseAsTheProductOfJonesMatrices) {
-    // Two Brewster reflections in crossed planes of incidence extinguish: seen from inside, p of
-    // the first is s of the second. Built from Jones matrices by hand: cube of n, ray at 45 degrees
-    // meets x then y faces.
+    // Two Brewster reflections in crossed planes of incidence extinguish light: p of the first is s
+    // of the second. By hand from Jones matrices: cube of index n, a ray at 45 degrees meets the x
+    // and then the y face.
     const double n = 1.3;
     const Vec3 inner = glm::normalize(Vec3{1, 1, 0.3});
-    // ExitEvent weights of the tree must be the same for the mirrored path (a symmetry of the
-    // cube).
+    // The tree's exit weights must be the same for the mirrored path (a symmetry of the cube).
     std::vector<NamedPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
         for (int sign : {-1, 1}) {

@@ -28,7 +28,7 @@ TEST(MaterialColour, OfAGreyStoneIsBeersLaw) {
 }
 
 TEST(MaterialColour, AddsUpWhatTheRaysLetThrough) {
-    // Opaque along one of two rays: half of the light is left, however thick the stone.
+    // Opaque along one of two rays: half of the light remains, however thick the stone.
     Material half = catalogue_material("quartz");
     half.absorption_per_mm[0] = Spectrum(1e3);
     half.absorption_per_mm[1] = Spectrum(0.0);
@@ -58,8 +58,8 @@ TEST(MaterialColour, NamesAreThoseOfTheirBlocks) {
 }
 
 TEST(MaterialColour, IsThatOfThePublishedNames) {
-    // Hue within 20 degrees and lightness within 20 of the nearest entry of a dictionary of colour;
-    // what does not come so near is told in docs/materials.md and not here.
+    // Hue within 20 degrees and lightness within 20 of the nearest entry of a dictionary of colour.
+    // Exceptions are in docs/materials.md, not here.
     for (const test::NamedGem& gem : test::named_gems()) {
         if (gem.material == "citrine" || gem.material.starts_with("tourmaline_")) continue;
         const StoneColour colour = body_colour(catalogue_material(gem.material));

@@ -77,7 +77,7 @@ inline Vec3 rounded(const RealVec& a) {
     return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
 }
 
-// Rodrigues.
+// Rodrigues' rotation formula.
 inline RealVec turned(const RealVec& v, const RealVec& about) {
     const Real angle = length(about);
     if (angle == 0) return v;
@@ -109,9 +109,9 @@ inline Polynomial determinant(const std::array<std::array<Polynomial, 3>, 3>& m)
     return m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1);
 }
 
-// All roots of the polynomial of the given degree by the method of Aberth (1973): Newton's step,
-// with the other roots divided out. A root of a double pair gains one bit a step, any other
-// triples its digits.
+// All roots of a polynomial of the given degree by the method of Aberth (1973): Newton's step, with
+// the other roots divided out. Each step gives a root of a double pair one more bit, and triples
+// the digits of any other.
 inline std::vector<Number> roots_of(const Polynomial& p, int degree) {
     Real bound = 0;
     for (int i = 0; i < degree; ++i) {
@@ -141,7 +141,7 @@ inline std::vector<Number> roots_of(const Polynomial& p, int degree) {
             if (norm_of(denominator) == 0) continue;
             const Number move = value / denominator;
             const Real size = sqrt(norm_of(move));
-            // Steps that no longer shrink, this far down, are rounding noise.
+            // Steps this small that no longer shrink are rounding noise.
             if (size < bound * Real("1e-44") && size >= last[i]) continue;
             last[i] = size;
             roots[i] -= move;

@@ -1,6 +1,6 @@
-// Scenes for Mitsuba 3 and PBRT-v4. Neither program is at hand: expectations are their documented
-// conventions (Mitsuba's plugin reference; Pharr, Jakob & Humphreys 2023), by which what is written
-// is read here, and the scene itself.
+// Scenes for Mitsuba 3 and PBRT-v4. Neither program is available here. Expectations: their
+// documented conventions (Mitsuba's plugin reference; Pharr, Jakob & Humphreys 2023), by which this
+// test reads the files, and the scene itself.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ double volume_of(const std::vector<Vec3>& vertices,
     return six / 6;
 }
 
-// PBRT's Transform: x is turned over after LookAt, whose rows are up x direction, direction x that,
+// PBRT's Transform reverses x after LookAt, whose rows are up x direction, direction x that,
 // direction. A pixel's place in the screen window is then a direction.
 Vec3 pbrt_direction(const std::string& text, const Camera& camera, double x, double y) {
     const std::vector<double> look = numbers_after(text, "LookAt ");
@@ -77,7 +77,7 @@ Vec3 pbrt_direction(const std::string& text, const Camera& camera, double x, dou
     return glm::normalize(forward - screen_x * side + screen_y * above);
 }
 
-// Mitsuba: x of the camera is up x direction, to the left, and the film's columns run against it.
+// Mitsuba: the camera's x is up x direction, to the left, and the film's columns run against it.
 // The film's middle is the line of sight, its height spans the angle `fov`, and the crop window is
 // the picture.
 Vec3 mitsuba_direction(const std::string& text, double x, double y) {
@@ -174,8 +174,8 @@ TEST(OtherRenderers, HaveIndexAndAbsorptionOfTheMaterial) {
     }
 }
 
-// Equal areas: the mean over the square is that over the sphere, of 1, x, x^2, xy, ... The midpoint
-// rule of 256 x 256 places is good to about the square of their distance.
+// Equal areas: the mean of 1, x, x^2, xy, ... over the square equals that over the sphere. The
+// midpoint rule with 256 x 256 points has an error of about the square of their distance.
 TEST(OtherRenderers, SquareMapOfPbrtHasEqualAreas) {
     constexpr int n = 256;
     Vec3 mean(0), squares(0);
@@ -190,15 +190,15 @@ TEST(OtherRenderers, SquareMapOfPbrtHasEqualAreas) {
     EXPECT_LT(glm::length(mean), 1e-12);  // symmetric
     for (const double square : {squares.x, squares.y, squares.z})
         EXPECT_NEAR(square, 1.0 / 3, 10.0 / (n * n));
-    // The middle is +z, corners -z, the middles of the sides +x and +y.
+    // The middle is +z, corners are -z, the middles of the sides +x and +y.
     EXPECT_LT(glm::length(equal_area_direction(0.5, 0.5) - Vec3(0, 0, 1)), 1e-12);
     EXPECT_LT(glm::length(equal_area_direction(1, 1) - Vec3(0, 0, -1)), 1e-12);
     EXPECT_LT(glm::length(equal_area_direction(1, 0.5) - Vec3(1, 0, 0)), 1e-12);
     EXPECT_LT(glm::length(equal_area_direction(0.5, 1) - Vec3(0, 1, 0)), 1e-12);
 }
 
-// A cap of half angle a has the solid angle 2 pi (1 - cos a). Texels on its rim count by 4 x 4
-// places: off by a twentieth of the texels there.
+// A cap of half angle a has the solid angle 2 pi (1 - cos a). Texels on its rim are sampled 4 x 4
+// times: off by a twentieth of the texels there.
 TEST(OtherRenderers, MapsHaveTheLightWhereItComesFrom) {
     Scene scene = garnet();
     const double a = radians(10);
@@ -226,7 +226,7 @@ TEST(OtherRenderers, MapsHaveTheLightWhereItComesFrom) {
     const ExportedScene mitsuba = mitsuba_scene(scene, "s");
     ASSERT_TRUE(mitsuba.environment);
     const Picture& map = mitsuba.environment->second;
-    // Mitsuba's frame, then the matrix of the file.
+    // Mitsuba's frame, then the file's matrix.
     const std::vector<double> m = numbers_after(mitsuba.text, "<matrix value=\"");
     double energy = 0;
     middle = Vec3(0);
@@ -248,7 +248,7 @@ TEST(OtherRenderers, MapsHaveTheLightWhereItComesFrom) {
     EXPECT_LT(angle_between(middle, towards), radians(0.05));
 }
 
-// Every tag that is opened is closed by its own name, and comments hold no tag.
+// Every opened tag is closed by its own name, and comments contain no tag.
 void expect_well_formed(const std::string& xml) {
     const std::regex tag(R"(<(!--|[?]?/?)([a-z]*)((?:[^<>"]|"[^"<>]*")*)>)");
     std::vector<std::string> open;
@@ -300,7 +300,7 @@ TEST(OtherRenderers, KnowEveryObjectAndLight) {
     EXPECT_EQ(count(pbrt.text, "AttributeEnd"), 9);
     EXPECT_EQ(count(pbrt.text, "AreaLightSource"), 4);
     EXPECT_EQ(count(pbrt.text, "LightSource \"infinite\""), 1);
-    // The box, in the interior of which light is lost.
+    // The box, whose interior absorbs light.
     EXPECT_EQ(count(pbrt.text, "MakeNamedMedium"), 2);
 }
 

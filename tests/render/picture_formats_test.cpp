@@ -1,5 +1,5 @@
-// Files as other programs write them, and files that are broken. Expectations: the values that were
-// stored, decoded by the sRGB standard; the formats' own rules for sizes, checksums and ends.
+// Files of other programs, and broken files. Expectations: the stored values, decoded by the sRGB
+// standard; the formats' rules for sizes, checksums and ends.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 class PictureFormats : public test::FolderTest {
 protected:
     static std::string bytes_of(const cv::Mat& image, const char* extension) {
-        // TIFF without compression: the default for floats, LogLuv, is lossy.
+        // TIFF without compression: LogLuv, the default for floats, is lossy.
         std::vector<unsigned char> bytes;
         cv::imencode(extension, image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, 1});
         return {bytes.begin(), bytes.end()};
@@ -129,13 +129,14 @@ TEST_F(PictureFormats, SizesOfHostileHeadersAreRefusedBeforeThereIsRoomForThem) 
     EXPECT_NE(refusal("b.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16000 +X 16000\n")
                   .find("cut off"),
               std::string::npos);
-    // The size of a JPEG stands in its start of frame: height, then width, two bytes each.
+    // A JPEG's size is in its start of frame: height, then width, two bytes each.
     std::string jpeg = bytes_of(two_halves(), ".jpg");
     const std::size_t frame = jpeg.find("\xff\xc0");
     ASSERT_NE(frame, std::string::npos);
     jpeg.replace(frame + 5, 4, "\x7f\x7f\x7f\x7f");
     EXPECT_NE(refusal("huge.jpg", jpeg).find("32639 x 32639"), std::string::npos);
-    // A TIFF with one directory of three LONG entries: width and height 2^30, the place of a strip.
+    // A TIFF with one directory of three LONG entries: width and height 2^30, and the offset of a
+    // strip.
     std::string tiff("II*\0\x08\0\0\0\x03\0", 10);
     tiff += std::string("\0\1\4\0\1\0\0\0\0\0\0\x40", 12);
     tiff += std::string("\1\1\4\0\1\0\0\0\0\0\0\x40", 12);
@@ -175,7 +176,7 @@ TEST_F(PictureFormats, APfmIsReadFromTheBottomUp) {
     EXPECT_FALSE(read.was_encoded);
     EXPECT_EQ(read.picture.rgb,
               (std::vector<float>{1e-30f, 0.5f, 7, 1e30f, 8, 9, 1, 2, 3, 4, 5, 6}));
-    // A header that promises more than there is, or no size at all.
+    // A header that promises more data than there is, or has no size.
     for (const char* head : {"PF\n100000 100000\n-1.0\n", "PF\n-1.0\n", "PF\n", "PF\n9 9\n-1\n"}) {
         std::ofstream(folder_ / "b.pfm", std::ios::binary) << head << "abcd";
         EXPECT_THROW(read_picture(folder_ / "b.pfm"), InputError) << head;
@@ -191,7 +192,7 @@ TEST_F(PictureFormats, TextBeyondAsciiIsStoredAsUtf8) {
     const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
     EXPECT_NE(bytes.find(std::string("iTXtculet:scene\0\0\0\0\0gr\u00fcn.toml", 30)),
               std::string::npos);
-    // Reading checks the checksums of all chunks, ours among them.
+    // Reading verifies the checksums of all chunks, including those that culet wrote.
     EXPECT_EQ(read_picture(folder_ / "a.png").picture.width, 1);
 }
 

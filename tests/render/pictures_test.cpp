@@ -73,7 +73,7 @@ TEST_F(Pictures, HdrIsWithinItsOnePerCent) {
     write_picture(picture, folder_ / "a.hdr");
     const ReadPicture back = read_picture(folder_ / "a.hdr");
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
-        // RGBE shares the exponent of the brightest channel: 1/256 of it.
+        // RGBE shares the exponent of the brightest channel: accurate to 1/256 of it.
         EXPECT_NEAR(back.picture.rgb[3 * i], picture.rgb[3 * i],
                     picture.rgb[3 * i + 2] / 128 + 1e-6);
     }
@@ -116,8 +116,8 @@ TEST_F(Pictures, WhatIsNoPictureEndsInOneClearLine) {
     tile.insert(tiles, attribute);
     tile[5] = 2;  // the flag of tiled files
     bad.push_back(write("tile.exr", tile));
-    // An offset table whose first entry lies 3 bytes before the end of all numbers: the two blocks
-    // of 16 rows begin right behind the table.
+    // An offset table whose first entry is 3 below the largest 64-bit number: the two blocks of 16
+    // rows begin directly after the table.
     std::string wild = whole;
     for (std::size_t at = 8; at + 16 < whole.size(); ++at) {
         std::uint64_t offset = 0;
@@ -173,7 +173,7 @@ TEST(Colour, RgbLightsComeBackThroughEveryWavelengthSet) {
 }
 
 TEST(Colour, SpectraOfLightsAreNoDarkerThanBlack) {
-    // Light cannot be negative; with fewer nodes than about ten the exact inverse is (-1 for
+    // Light cannot be negative; with fewer than about ten nodes the exact inverse is (-1 for
     // three).
     for (const int count : {15, 31, 81, 400}) {
         std::vector<double> nm;
@@ -191,7 +191,7 @@ TEST(Colour, SpectraOfLightsAreNoDarkerThanBlack) {
 }
 
 TEST(Colour, TwoWavelengthsTellRedFromBlue) {
-    // Three numbers do not fit in two; the order of the colours does.
+    // Two wavelengths cannot hold three numbers, but they keep the order of the colours.
     const WavelengthSet set({460, 610});
     const std::vector<double> red = set.spectrum_of({1, 0, 0}), blue = set.spectrum_of({0, 0, 1});
     EXPECT_GT(red[1], 2 * std::abs(red[0]));
@@ -219,7 +219,7 @@ TEST(Colour, IlluminantsHaveTheirPublishedChromaticity) {
     const WavelengthSet set(nm);
     const auto xyz = xyz_of_rgb(set.rgb_of(set.illuminant_relative("A").data()));
     const double sum = xyz[0] + xyz[1] + xyz[2];
-    // White is sRGB's D65 in four digits here, which moves A's place by as much.
+    // White is sRGB's D65 to four digits here, which moves A by as much.
     EXPECT_NEAR(xyz[0] / sum, 0.44757, 3e-4);
     EXPECT_NEAR(xyz[1] / sum, 0.40745, 3e-4);
     EXPECT_NEAR(xyz[1], 1, 2e-3) << "luminance 1";

@@ -1,5 +1,5 @@
-// The plain shadings: flat, Gouraud and Phong, and what all pictures of their kind share.
-// Source of the expectations: closed forms, stated with each.
+// The plain shadings: flat, Gouraud and Phong, and what their pictures share. Expectations: closed
+// forms, stated with each test.
 
 #include <gtest/gtest.h>
 
@@ -45,8 +45,8 @@ TEST(Phong, ALambertSphereUnderADistantLight) {
     EXPECT_FALSE(shader.shade(down(1.1, 0)).met);
 }
 
-// Phong: at the point whose normal halves the angle between light and eye the highlight is k_s L;
-// beside it, at an angle b between reflected light and eye, k_s L cos^m b.
+// Phong: where the normal bisects the angle between light and eye the highlight is k_s L; at an
+// angle b between reflected light and eye it is k_s L cos^m b.
 TEST(Phong, AHighlightHasTheValueOfItsFormula) {
     Scene scene = scene_of_objects({sphere(diffuse(0))});
     const double angle = 0.4;
@@ -55,15 +55,15 @@ TEST(Phong, AHighlightHasTheValueOfItsFormula) {
     scene.shading.exponent = 20;
     const LocalShader shader(scene, LocalShading::phong);
     for (const double off : {0.0, 0.05, -0.1, 0.3}) {
-        // A normal that is turned by `off` turns the reflected light by twice that.
+        // Turning the normal by `off` turns the reflected light by twice that.
         const double normal = 0.5 * angle + off;
         const Rgb seen = shader.shade(down(std::sin(normal), 0)).colour;
         EXPECT_NEAR(seen[1], 0.7 * std::pow(std::cos(2 * off), 20), 1e-7) << off;
     }
 }
 
-// c + l a + q a^2 with a the distance over that to the scene's middle; the strength of a sphere
-// light there is its radiance times (radius / distance)^2.
+// c + l a + q a^2, with a the distance relative to that of the scene's middle; the strength of a
+// sphere light there is its radiance times (radius / distance)^2.
 TEST(Phong, LightFadesWithDistanceAsItsThreeTermsSay) {
     Scene scene = scene_of_objects({{DiscShape{{0, 0, 0}, {0, 0, 1}, 5}, diffuse(1)}}, 12);
     scene.camera.position = {0, 0, 10};
@@ -87,8 +87,8 @@ TEST(Phong, LightFadesWithDistanceAsItsThreeTermsSay) {
     }
 }
 
-// Ambient light alone: albedo times the mean of the light over all directions; of a hemisphere of
-// radiance 2 that is 1.
+// Ambient light alone: albedo times the mean of the light over all directions, which is 1 for a
+// hemisphere of radiance 2.
 TEST(Phong, AmbientLightIsTheMeanOfAllDirections) {
     Scene scene = scene_of_objects({sphere(diffuse(0.25))});
     scene.lights.constant = 0.5;
@@ -100,7 +100,7 @@ TEST(Phong, AmbientLightIsTheMeanOfAllDirections) {
 }
 
 // On one flat facet whose corners have its own normal, under a distant light, every corner has the
-// facet's colour: Gouraud's picture is flat shading's.
+// facet's colour: Gouraud equals flat shading.
 TEST(Gouraud, EqualsFlatShadingForOneFacet) {
     auto mesh = std::make_shared<TriangleMesh>();
     mesh->vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
@@ -116,8 +116,8 @@ TEST(Gouraud, EqualsFlatShadingForOneFacet) {
     }
 }
 
-// Two squares that meet at a ridge in right angles: on the ridge the mean of their normals is up,
-// on the outer edges it is each square's own. Between them Gouraud's colour is linear.
+// Two squares meet at a ridge in right angles. On the ridge the mean of their normals points up, on
+// the outer edges it is each square's own. Between them Gouraud's colour is linear.
 TEST(Gouraud, InterpolatesColoursOfCorners) {
     auto mesh = std::make_shared<TriangleMesh>();
     mesh->vertices = {{-1, -1, -1}, {0, -1, 0}, {0, 1, 0}, {-1, 1, -1}, {1, -1, -1}, {1, 1, -1}};
@@ -127,9 +127,9 @@ TEST(Gouraud, InterpolatesColoursOfCorners) {
     scene.shading.specular = 0;
     const LocalShader gouraud(scene, LocalShading::gouraud), flat(scene, LocalShading::flat),
         phong(scene, LocalShading::phong);
-    // At the ridge 1, at the edge cos 45 degrees; corner 1 has one triangle of the left square and
-    // two of the right one, corner 2 the other way round: their normals are mirror images, at the
-    // same angle to the light; the middle of the ridge is between them.
+    // At the ridge 1, at the edge cos 45 degrees. Corner 1 has one triangle of the left square and
+    // two of the right one, corner 2 the reverse: their normals are mirror images at the same angle
+    // to the light. The middle of the ridge is between them.
     const double edge = std::sqrt(0.5);
     const Vec3 left(-1, 0, 1), right(1, 0, 1);
     const double ridge = glm::normalize(left + 2.0 * right).z;
@@ -155,8 +155,8 @@ TEST(Flat, AStonesFacetHasOneColour) {
     const Rgb middle = flat.shade(down(0, 0)).colour;
     EXPECT_EQ(flat.shade(down(1.2, 0.6)).colour, middle);
     EXPECT_NE(phong.shade(down(1.2, 0.6)).colour, phong.shade(down(0, 0)).colour);
-    // A clear stone's body colour is white: the table looks up, Lambert's law of both lights and
-    // what the model adds for highlights.
+    // A clear stone's body colour is white. The table faces up: Lambert's law for both lights, plus
+    // the model's highlights.
     EXPECT_GT(middle[0], 2 / std::sqrt(6.0));
 }
 
@@ -165,12 +165,13 @@ TEST(Flat, AStonesFacetHasOneColour) {
 TEST(PlainSurface, MetalsReflectAsTheirIndexSays) {
     EXPECT_NEAR(conductor_reflectance(0.2, 3.0, 1), (0.64 + 9) / (1.44 + 9), 1e-12);
     EXPECT_NEAR(conductor_reflectance(0.2, 3.0, 0), 1, 1e-12);
-    // Without absorption: glass. Brewster's angle (tan = n): p is 0, s is ((n^2 - 1)/(n^2 + 1))^2.
+    // Without absorption: glass. At Brewster's angle (tan = n) p is 0 and s is ((n^2 - 1)/(n^2 +
+    // 1))^2.
     const double n = 1.5, cosine = 1 / std::sqrt(1 + n * n);
     EXPECT_NEAR(conductor_reflectance(n, 0, cosine), 0.5 * std::pow(1.25 / 3.25, 2), 1e-12);
 }
 
-// The mean of a pixel's rays: over the edge of a disc that covers a known part of the picture.
+// The mean of a pixel's rays, over the edge of a disc that covers a known part of the picture.
 TEST(ShadedPicture, AveragesItsRays) {
     Scene scene = scene_of_objects({{DiscShape{{0, 0, 0}, {0, 0, 1}, 1}, diffuse(1)}}, 4);
     scene.lights.sources.push_back(sun({0, 0, 1}));
@@ -184,8 +185,8 @@ TEST(ShadedPicture, AveragesItsRays) {
         sum += static_cast<double>(result.picture.rgb[3 * i]);
         covered += static_cast<double>(result.picture.coverage[i]);
     }
-    // Of 64 pixels of 0.5 x 0.5 the disc covers pi / 0.25. A regular grid of 20 x 20 rays a pixel
-    // counts an area to within (its border x the grid's step) / 2, and by far more closely as the
+    // Of 64 pixels of 0.5 x 0.5 the disc covers pi / 0.25. A regular grid of 20 x 20 rays per pixel
+    // counts an area to within (its border x the grid's step) / 2, and much closer because the
     // border's errors have either sign.
     const double bound = 2 * k_pi * (0.5 / 20) / 2 / 0.25;
     EXPECT_NEAR(sum, k_pi / 0.25, bound);
@@ -204,7 +205,7 @@ TEST(ShadedPicture, IsTheSameWhateverTheThreads) {
     const RenderResult one = render(scene);
     scene.settings.threads = 3;
     EXPECT_EQ(render(scene).picture.rgb, one.picture.rgb);
-    // Another seed turns rough reflexes otherwise.
+    // Another seed changes the rough reflections.
     scene.settings.seed = 2;
     EXPECT_NE(render(scene).picture.rgb, one.picture.rgb);
 }

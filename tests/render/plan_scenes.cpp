@@ -29,7 +29,7 @@ Lights two_windows(double size) {
     return lights;
 }
 
-// A sun of its true size and a sky: the hardest of all.
+// A sun of its true size and a sky: the hardest case.
 Lights bare_sun() {
     const Vec3 up{0, 0, 1};
     Lights lights;
@@ -41,7 +41,7 @@ Lights bare_sun() {
     return lights;
 }
 
-// "lightbox" and "daylight" are those that culet's figures were measured in, not today's presets.
+// "lightbox" and "daylight" are those of culet's measurements, not today's presets.
 Lights light_named(const std::string& name, double size) {
     if (name == "smooth") return smooth_lights(3);
     if (name == "lightbox") return two_windows(size);
@@ -67,7 +67,7 @@ PlanScene plan_scene_of(const std::string& material, const std::string& cut,
     scene.stone.name = cut;
     scene.stone.solid = make_cut(cut);
     scene.stone.material = catalogue_material(material);
-    // The optic axis neither along the view nor across it.
+    // The optic axis is neither along the view nor across it.
     const Vec3 axis = glm::normalize(Vec3{0.5, 0.3, 0.8}),
                across = glm::normalize(glm::cross(axis, Vec3{0, 0, 1}));
     scene.stone.crystal.axes = {axis, across, glm::cross(axis, across)};

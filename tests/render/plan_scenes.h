@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that plans are measured on: materials of the catalogue x cuts x lights.
+// The scenes on which plans are measured: materials of the catalogue x cuts x lights.
 
 #include <string>
 #include <vector>
@@ -13,9 +13,9 @@ struct PlanScene {
     Scene scene;
 };
 
-/// Sixty, the first ones as unlike each other as the last; `pixels` along a side.
+/// Sixty scenes; the first ones are as different from each other as the last. `pixels` along a
+/// side.
 std::vector<PlanScene> plan_scenes(int pixels);
-/// One of them.
 PlanScene plan_scene_of(const std::string& material, const std::string& cut,
                         const std::string& light, int pixels);
 

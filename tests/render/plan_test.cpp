@@ -1,5 +1,5 @@
-// Expectations: what is zero by the table of effects (docs/plan.md), pictures drawn with everything
-// on, and the scenes of samples/effects, each made so that one effect matters.
+// Expectations: zeros of the table of effects (docs/plan.md), pictures drawn with all effects, and
+// the scenes of samples/effects, in each of which one effect matters.
 
 #include "render/planner/explain.h"
 
@@ -66,14 +66,14 @@ TEST(ColourError, IsZeroForEqualPixelsAndRelativeToTheMean) {
     EXPECT_NEAR(error.radiance, 0.025, 1e-15);
     EXPECT_NEAR(error.radiance_spread, 0.025, 1e-15) << "of 0.05 and 0";
     EXPECT_GT(error.delta_e, 0);
-    // No scale: twice the light, the same error.
+    // Scale invariant: twice the light, the same error.
     const ColourError twice = colour_error({{2.6, 2, 2}, {6, 6, 6}}, {{2, 2, 2}, {6, 6, 6}});
     EXPECT_NEAR(twice.radiance, error.radiance, 1e-15);
     EXPECT_NEAR(twice.delta_e, error.delta_e, 1e-12);
     EXPECT_EQ(colour_error({{0, 0, 0}}, {{0, 0, 0}}).radiance, 0) << "a dark picture";
 }
 
-// Closed form: differences are kept that both drawings show, and vanish that they do not.
+// Closed form: differences that both drawings show remain, others vanish.
 TEST(ColourError, InCommonIsWhatTwoDrawingsBothShow) {
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0, 0.3);
@@ -90,8 +90,8 @@ TEST(ColourError, InCommonIsWhatTwoDrawingsBothShow) {
     EXPECT_EQ(noise_corrected_error(apart, both).radiance, 0);
     std::vector<Rgb> mean = truth;
     for (std::size_t i = 0; i < pixels; ++i) mean[i][1] = 0.5 * (noisy[0][i][1] + noisy[1][i][1]);
-    // Products of P independent pairs sum to 0 within 3 sqrt(P) of the two variances, and 1/sqrt(P)
-    // of the squares, which are half of one variance, is left open: (6 + 1) / 64.
+    // Products of P independent pairs sum to 0 within 3 sqrt(P) of one drawing's variance. The
+    // mean's squares are half a variance each; 1/sqrt(P) of them is also allowed: (6 + 1) / 64.
     EXPECT_LE(noise_corrected_error(noisy, both).radiance,
               std::sqrt(7.0 / 64) * colour_error(mean, truth).radiance);
 }
@@ -112,7 +112,7 @@ TEST(OpticalSetup, InTheSameLightFromEverywhereNothingButDepthMatters) {
         EXPECT_EQ(plan.settings.wavelengths_nm.size(), 1u);
         const RenderResult result = render(scene);
         EXPECT_LE(result.stats.error_bound, scene.settings.tolerance);
-        // Everything on: 1 less what paths were cut.
+        // All effects: 1 less what paths were cut.
         EXPECT_NEAR(result.stats.mean_radiance, 1, result.stats.error_bound) << material;
     }
 }
@@ -233,8 +233,8 @@ TEST(OpticalSetup, StopsWhenItIsToldTo) {
     EXPECT_EQ(told, 3);
 }
 
-// In even light a path brings all that it has not lost, so that what a depth leaves out is 1 less
-// the mean radiance, exactly.
+// In even light a path carries all that it has not lost, so a depth leaves out exactly 1 less the
+// mean radiance.
 TEST(OpticalSetup, HasADepthThatTheSceneNamesInItsBound) {
     Scene scene = small_scene("diamond");
     scene.settings.depth = 3;
@@ -264,7 +264,7 @@ TEST(OpticalSetup, DrawsCrystalsAsOneWaveWhereThatIsNearEnough) {
     EXPECT_LE(result.stats.error_bound, 0.1);
     const Verification found = verify(scene, result, 48);
     EXPECT_LE(found.measured, result.stats.error_bound + found.noise);
-    // Where it is not: zircon's images lie far apart.
+    // Counter-example: zircon's two images are far apart.
     scene.stone.material = catalogue_material("zircon_high");
     scene.settings.tolerance = 0.05;
     scene.camera.width = scene.camera.height = 16;
@@ -290,7 +290,7 @@ TEST(OpticalSetup, WeighsNoEffectsWhereThatWouldCostMoreThanThePicture) {
     Scene by_hand = scene;
     by_hand.settings = plan.settings;
     EXPECT_EQ(render(by_hand).picture.rgb, result.picture.rgb);
-    // What is asked of a plan is what looking closer says.
+    // The answer about a plan is that of the closer look.
     EXPECT_FALSE(std::isnan(plan_scene(scene).item("polarization").matters));
 }
 
@@ -320,20 +320,20 @@ TEST(ErrorEstimate, FindsWhatAPictureIsOffBy) {
     const Progress progress;
     ErrorEstimator estimator(scene, stone_pixels(scene, 64), 0.05, progress);
     const ErrorEstimate off = estimator.estimate(picture, 0.05, 1e9);
-    // The truth leaves out less than a hundredth of the tolerance a path.
+    // The truth leaves out less than a hundredth of the tolerance per path.
     EXPECT_NEAR(off.difference, 0.1, 0.005);
     EXPECT_GE(off.bound, 0.1);
     EXPECT_LE(off.bound, 0.11);
     for (float& v : picture.rgb) v = 1;
     const ErrorEstimate right = estimator.estimate(picture, 0.05, 1e9);
     EXPECT_LE(right.bound, 0.01);
-    // A pixel of no number is as wrong as can be.
+    // A NaN pixel is as wrong as possible.
     picture.rgb.assign(3 * picture.pixels(), std::nanf(""));
     EXPECT_GT(estimator.estimate(picture, 0.05, 1e9).bound, 1e6);
 }
 
-// Where every other pixel is black, those beside which the picture changes are chosen: the mean
-// counts them for no more than they are.
+// Where every other pixel is black, pixels next to changes are chosen more often; the mean must
+// weight them accordingly.
 TEST(ErrorEstimate, CountsPixelsThatItChoosesMoreOftenForLess) {
     Scene scene = small_scene("diamond");
     scene.settings.tolerance = 0;
@@ -358,8 +358,8 @@ TEST(ErrorEstimate, CountsPixelsThatItChoosesMoreOftenForLess) {
     EXPECT_GE(estimate.bound, sum / count);
 }
 
-// What a spectrum that is 0 up to a wavelength and 1 beyond it shows, against wavelengths 1 nm
-// apart: mean over the wavelengths of such steps, and over R, G and B.
+// The response to a spectrum that is 0 up to a wavelength and 1 beyond it, against wavelengths 1 nm
+// apart: mean over the positions of the step, and over R, G and B.
 double off_at_steps(const std::vector<double>& nm) {
     std::vector<double> fine;
     for (int i = 390; i <= 710; ++i) fine.push_back(i);
@@ -390,14 +390,14 @@ TEST(Wavelengths, ThatAreFewShowStepsOfASpectrumBetterThanEvenOnes) {
     }
 }
 
-// Pilots read few wavelengths off their own.
+// Pilots use a subset of the wavelengths.
 TEST(Wavelengths, OfFiveAreAmongThoseOf29) {
     const std::vector<double> many = even_wavelengths(29);
     for (const double nm : even_wavelengths(5))
         EXPECT_NE(std::find(many.begin(), many.end(), nm), many.end()) << nm;
 }
 
-// In even light every wavelength brings the same, however few rays it has.
+// In even light every wavelength contributes the same, however few rays it has.
 TEST(Turns, BringEachWavelengthItsShare) {
     Scene scene = small_scene("diamond");
     scene.settings.tolerance = 0;
@@ -412,14 +412,14 @@ TEST(Turns, BringEachWavelengthItsShare) {
     double apart = 0;
     for (std::size_t i = 0; i < all.picture.rgb.size(); ++i)
         apart += std::abs(static_cast<double>(all.picture.rgb[i] - turns.picture.rgb[i]));
-    // What is left inside differs a little from ray to ray.
+    // The remainder differs slightly from ray to ray.
     EXPECT_LT(apart / static_cast<double>(all.picture.rgb.size()), 0.02);
     EXPECT_NEAR(all.stats.mean_radiance, turns.stats.mean_radiance, 2e-3);
 }
 
 struct GalleryScene {
     const char* file;
-    std::set<std::string> on;  // of all lines but samples, which the engine decides
+    std::set<std::string> on;  // all items but samples, which the engine decides
     friend void PrintTo(const GalleryScene& one, std::ostream* out) { *out << one.file; }
 };
 class Gallery : public testing::TestWithParam<GalleryScene> {};
@@ -443,8 +443,8 @@ TEST_P(Gallery, CallsForItsEffect) {
     EXPECT_LE(plan.bound, scene.settings.tolerance);
 }
 
-// Beside its effect every scene has light paths of some depth. The waves of a crystal carry
-// polarisation, pleochroism is theirs and a matter of absorption, and colours need wavelengths.
+// Beside its effect every scene has light paths of some depth. Polarisation and pleochroism need
+// the waves of a crystal, pleochroism needs absorption, and colours need wavelengths.
 const std::set<std::string> k_pleochroic{"birefringence", "polarization", "absorption",
                                          "pleochroism",   "depth",        "wavelengths"};
 INSTANTIATE_TEST_SUITE_P(
@@ -472,7 +472,7 @@ INSTANTIATE_TEST_SUITE_P(
         return name;
     });
 
-// Without unequal absorption the two waves of these stones change less than the tolerance.
+// Without pleochroism the two waves of these stones change less than the tolerance.
 TEST(GalleryOfPleochroism, TheSplitItselfDoesNotShow) {
     for (const char* file : {"tourmaline-across.toml", "tourmaline-along.toml",
                              "andalusite-across.toml", "andalusite-along.toml"}) {
@@ -489,12 +489,12 @@ TEST(GalleryOfPleochroism, TheSplitItselfDoesNotShow) {
 }
 
 // Fresnel's equations: at Brewster's angle light that vibrates in the plane of incidence is not
-// reflected, light across it by ((n^2 - 1) / (n^2 + 1))^2, 15.5 % for n = 1.5168.
+// reflected; light across it is by ((n^2 - 1) / (n^2 + 1))^2, 15.5 % for n = 1.5168.
 TEST(GalleryOfBrewster, TheTableShinesInOneVibrationOnly) {
     const auto table_of = [](const char* file) {
         Scene scene = gallery_scene(file);
         const RenderResult result = render(scene);
-        // Above the middle, where nothing but the lamp's mirror image and the dim room are seen.
+        // Above the middle, where only the lamp's mirror image and the dim room are visible.
         const float* rgb = result.picture.at(80, 83);
         return static_cast<double>(rgb[1]);
     };
@@ -540,8 +540,8 @@ TEST(Explain, MeasuresWhatTheSceneSwitchesOff) {
     EXPECT_EQ(told.settings.samples, plan.settings.samples);
 }
 
-// physics: powers are added exactly where light comes from all directions alike and nothing is
-// absorbed; else interference near the optic axis changes something.
+// Adding powers is exact where light comes equally from all directions and nothing absorbs;
+// elsewhere interference near the optic axis changes the picture.
 TEST(Explain, BoundsWhatInterferenceWouldChange) {
     Scene even = gallery_scene("zircon-doubling.toml");
     even.lights.sources.clear();

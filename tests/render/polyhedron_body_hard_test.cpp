@@ -1,5 +1,5 @@
-// Hits at edges, corners, notches, holes and slivers. Expectations: the geometry of small solids by
-// hand, and of random starts by distances and solid angles.
+// Hits at edges, corners, notches, holes and slivers. Expectations: small solids by hand; distances
+// and solid angles for random starts.
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ TEST(PolyhedronBodyHard, StartBeyondAConvexEdgeLeavesAtOnceAndLeapsOverNoGap) {
         const BodyHit corner = body.exit({1 + beyond, 3, 0.5}, down, 8);
         EXPECT_EQ(corner.facet, 7) << beyond;
         EXPECT_LT(corner.distance, 1e-15);
-        // And from there across the gap: into the right arm's wall x = 2, 1/2 further down.
+        // From there across the gap into the right arm's wall x = 2, 1/2 further down.
         const auto across = body.reentry(body.on_facet(7, {1 + beyond, 3, 0.5}), down, 7);
         ASSERT_TRUE(across.has_value());
         EXPECT_EQ(body.normal(across->facet), (Vec3{-1, 0, 0}));
@@ -99,7 +99,7 @@ TEST(PolyhedronBodyHard, StartBeyondAConcaveEdgeGoesOnInside) {
         const BodyHit left = body.exit({1 + beyond, 1, 0.5}, grazing, 4);
         EXPECT_EQ(body.normal(left.facet), (Vec3{-1, 0, 0})) << beyond;
         EXPECT_NEAR(left.distance, 1, 1e-14);
-        // Out into the corner, beside the edge: either goes free or enters at once.
+        // Out into the corner, beside the edge: it may leave or enter again at once.
         const auto out = body.reentry({1 + beyond, 1, 0.5}, {-0.6, 0.8, 0}, 4);
         ASSERT_TRUE(out.has_value()) << beyond;
         EXPECT_EQ(out->facet, 5);
@@ -119,7 +119,7 @@ TEST(PolyhedronBodyHard, RayGrazingAlongAConcaveEdge) {
                 glm::normalize(Vec3{tilt * uniform(random), tilt * uniform(random), 1});
             const Vec3 below{1 + tilt * uniform(random), 1 + tilt * uniform(random), -1};
             const auto in = body.entry(below, direction);
-            // Beside the edge three quarters of the plane are inside.
+            // Beside the edge three quarters of the directions are inside.
             for (const int from : {-1, 4, 5}) {
                 const BodyHit out = body.exit({1, 1, 0.25}, direction, from);
                 ASSERT_TRUE(out.facet == 0 || out.facet == 4 || out.facet == 5) << tilt;
@@ -135,7 +135,7 @@ TEST(PolyhedronBodyHard, RayGrazingAlongAConcaveEdge) {
 }
 
 TEST(PolyhedronBodyHard, StartInAFacetSeenEdgeOnRunsAlongIt) {
-    // Inside by less than rounding along the side x = 3 of the L: out through the top.
+    // Inside by less than rounding error along the side x = 3 of the L: out through the top.
     const PolyhedronBody body(l_prism());
     for (const double inwards : {1e-300, 1e-20, 1e-17, 1e-16}) {
         const BodyHit out = body.exit({3, 0.5, 0.25}, {-inwards, 0, 1}, 3);
@@ -146,7 +146,8 @@ TEST(PolyhedronBodyHard, StartInAFacetSeenEdgeOnRunsAlongIt) {
 
 TEST(PolyhedronBodyHard, ValleyOfANotchIsEnteredAgainAtOnce) {
     const PolyhedronBody body(notched_box());
-    // Down through the hole of the top facet onto the apex, which the line goes through.
+    // Down through the hole of the top facet onto the apex; the line passes exactly through the
+    // apex.
     const auto apex = body.entry({0, 0, 5}, {0, 0, -1});
     ASSERT_TRUE(apex.has_value());
     EXPECT_GE(apex->facet, 6);
@@ -191,7 +192,7 @@ TEST(PolyhedronBodyHard, FacetWithAHoleLetsTheRayThrough) {
 
 TEST(PolyhedronBodyHard, EdgeThatFourFacetsShare) {
     const PolyhedronBody body(cubes_on_one_edge());
-    // Through the edge: from one cube straight into the other, or out and in at once.
+    // Through the edge: from one cube straight into the other, or out and in again at once.
     const BodyHit hit = body.exit({-1, -1, 0.5}, glm::normalize(Vec3{1, 1, 0}), 9);
     EXPECT_NEAR(hit.distance, hit.distance > 2 ? 2 * std::sqrt(2.0) : std::sqrt(2.0), 1e-15);
     // Across it, through the two free quadrants.
@@ -202,7 +203,8 @@ TEST(PolyhedronBodyHard, EdgeThatFourFacetsShare) {
 }
 
 TEST(PolyhedronBodyHard, ThinWedgeIsLeftWhereItIsEntered) {
-    // A wedge of 1e-9 radians: near its edge, crossings are closer together than their rounding.
+    // A wedge of 1e-9 radians: near its edge, crossings are closer together than their rounding
+    // error.
     const double thin = 1e-9;
     const PolyhedronBody body(prism({{0, 0}, {1, 0}, {1, thin}}, 0, 1));
     const unsigned seed = 2208;
@@ -220,7 +222,8 @@ TEST(PolyhedronBodyHard, ThinWedgeIsLeftWhereItIsEntered) {
 }
 
 TEST(PolyhedronBodyHard, StartOutsideByRoundingInTheMiddleOfAFacet) {
-    // Above the top by one rounding and running upwards: out at once. Downwards: in and through.
+    // Above the top by one rounding unit: upwards it leaves at once, downwards it enters and passes
+    // through.
     const PolyhedronBody body(l_prism());
     const Vec3 above{0.5, 0.75, std::nextafter(1.0, 2.0)};
     for (const int from : {-1, 3}) {
@@ -235,7 +238,7 @@ TEST(PolyhedronBodyHard, StartOutsideByRoundingInTheMiddleOfAFacet) {
 
 TEST(PolyhedronBodyHard, StartOffItsPlaneByRoundingAndGrazingKeepsItsDistance) {
     // 1e-16 below y = 0 (facet 2) the ray rises by 1e-9 of its length: by the planes alone it would
-    // come to its own facet after 1e-7, twice as far as the end at x = 1.
+    // meet its own facet after 1e-7, twice as far as the end at x = 1.
     const PolyhedronBody body(prism({{0, 0}, {1, 0}, {1, 1}}, 0, 1));
     const BodyHit hit = body.exit({1 - 5e-8, -1e-16, 0.5}, {1, 1e-9, 1}, 2);
     EXPECT_EQ(body.normal(hit.facet), (Vec3{1, 0, 0}));
@@ -265,10 +268,10 @@ TEST(PolyhedronBodyHard, RayThatOnlyTouchesAnEdgeOrCornerDoesNotEnter) {
 
 TEST(PolyhedronBodyHard, SideOfAnEdgeIsDecidedExactly) {
     // With e = 2^-52, the edge from a to b passes the axis at e^2 / 2 on its right or, mirrored, on
-    // its left; the two products of the side test are equal once rounded.
+    // its left; after rounding the two products of the side test are equal.
     const double e = std::numeric_limits<double>::epsilon();
     for (const double mirror : {1.0, -1.0}) {
-        // A pyramid upside down, its top split along a b.
+        // An inverted pyramid, its top split along a b.
         std::vector<Vec3> vertices{
             {-(1 + e), -1, 1}, {1, -1, 1}, {1 + 2 * e, 1 + e, 1}, {-1, 1, 1}, {0.125, 0.25, -1}};
         Loops loops{{0, 1, 2}, {0, 2, 3}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};

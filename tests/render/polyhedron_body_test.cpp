@@ -1,5 +1,6 @@
 // Expectations: ConvexBody where the solid is convex; exact rational clipping; integral geometry
-// (Cauchy, Crofton); solid angles; and the hand for small solids. Seeds are fixed and printed.
+// (Cauchy, Crofton); solid angles; and hand calculation for small solids. Seeds are fixed and
+// printed.
 
 #include "render/geometry/polyhedron_body.h"
 
@@ -76,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(Cuts, PolyhedronBodyConvex,
 
 enum class Position { general, special };
 
-// In special positions rounding may reorder crossings, and twist the outline of a facet that is
-// seen edge-on.
+// In special positions rounding may reorder crossings and twist the outline of a facet seen
+// edge-on.
 void expect_closed(const PolyhedronBody& body, const Ray& ray, const std::string& what,
                    Position position = Position::special) {
     int depth = 0;
@@ -160,8 +161,8 @@ Rational determinant(const RationalVec& a, const RationalVec& b, const RationalV
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// Exact length, in lengths of the direction, of the part of a line within a solid: the solid is the
-// sum of the tetrahedra, some negative, from the coordinates' origin over its facets' fans.
+// Exact length, in units of the direction, of the part of a line within a solid. The solid is the
+// signed sum of the tetrahedra from the origin over its facets' fans.
 double exact_length_inside(const Solid& solid, const Ray& ray) {
     const RationalVec origin = exactly(ray.origin), direction = exactly(ray.direction);
     Rational sum = 0;
@@ -228,7 +229,7 @@ TEST(PolyhedronBody, LengthsInsideAlongAChainOfHitsAreExact) {
                 point = body.on_facet(out.facet, point + out.distance * ray.direction);
                 hit = body.reentry(point, ray.direction, out.facet);
             }
-            // A corner off by the rounding of a coordinate moves a crossing by that over the
+            // A corner off by the rounding error of a coordinate moves a crossing by that over the
             // cosine.
             ASSERT_NEAR(inside, exact_length_inside(solid, ray), 1e-14 * size / least_cosine)
                 << name << " seed " << seed << " ray " << i;
@@ -240,9 +241,9 @@ TEST(PolyhedronBody, LengthsInsideAlongAChainOfHitsAreExact) {
     }
 }
 
-// Over isotropic uniform lines that meet a ball of radius R, the mean length inside is
-// V / (pi R^2) and the mean number of stretches S / (4 pi R^2), so that the mean stretch is 4 V / S
-// (Cauchy 1841, Crofton 1868; Santalo 1976, ch. 14), convex or not.
+// Over isotropic uniform lines that meet a ball of radius R, the mean length inside is V / (pi R^2)
+// and the mean number of stretches S / (4 pi R^2), so the mean stretch is 4 V / S (Cauchy 1841,
+// Crofton 1868; Santalo 1976, ch. 14), convex or not.
 TEST(PolyhedronBody, MeanChordsFollowVolumeAndSurface) {
     const unsigned seed = 2204;
     std::mt19937_64 random(seed);
@@ -319,8 +320,8 @@ TEST(PolyhedronBody, HitsTheSameFacetsFarAwaySmallAndLarge) {
         for (const Place& place : {Place{1, {1e6, -1e6, 1e6}}, Place{1e-6, {0, 0, 0}},
                                    Place{1e6, {0, 0, 0}}, Place{1e6, {-1e6, 1e6, 1e6}}}) {
             const PolyhedronBody other(moved(solid, upright, place.scale, place.shift));
-            // A coordinate's rounding over the size: rays that pass closer than that to an edge, or
-            // meet a facet at so small an angle, may differ, and none of these rays does.
+            // A coordinate's rounding error over the size. Rays that pass an edge closer than that,
+            // or meet a facet at so small an angle, may differ; none of these rays does.
             const double rounding = 1e-15 * (1 + glm::length(place.shift) / place.scale);
             for (int i = 0; i < 300; ++i) {
                 const Ray ray = random_ray(solid, random);
@@ -358,7 +359,7 @@ TEST(PolyhedronBody, LengthOfTheDirectionDoesNotMatter) {
     }
 }
 
-// ---- what is asked by mistake
+// ---- invalid calls
 
 TEST(PolyhedronBody, OpenOrSenselessSolidsAreRefused) {
     Solid open = l_prism();

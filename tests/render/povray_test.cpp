@@ -1,4 +1,4 @@
-// Expectations: what the scene holds, closed meshes, and, where POV-Ray 3.7 is installed, its own
+// Expectations: the scene's contents, closed meshes, and, where POV-Ray 3.7 is installed, its own
 // pictures of the same scenes.
 
 #include "render/export/povray.h"
@@ -92,7 +92,7 @@ WrittenMesh mesh_of(const std::string& text) {
 void expect_same_solid(const Solid& solid, const std::string& text) {
     const WrittenMesh mesh = mesh_of(text);
     ASSERT_EQ(mesh.vertices.size(), solid.vertices.size());
-    // y and z changed places, and one power of two.
+    // y and z exchanged, and a scale that is a power of two.
     const double scale = glm::length(mesh.vertices[0]) / glm::length(solid.vertices[0]);
     EXPECT_EQ(std::exp2(std::round(std::log2(scale))), std::round(scale * 1e6) / 1e6);
     std::map<std::pair<int, int>, int> edges;
@@ -108,7 +108,8 @@ void expect_same_solid(const Solid& solid, const std::string& text) {
         EXPECT_EQ(count, 1);
         EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
     }
-    // Mirrored: inside out. No triangle outside its facet: the area is no more than the facets'.
+    // Mirrored, so inside out. No triangle is outside its facet: the area is no more than the
+    // facets'.
     double whole = 0;
     for (const Facet& facet : solid.facets) whole += area(solid, facet);
     EXPECT_NEAR(six_volumes / (6 * std::pow(scale, 3)), -volume(solid), 1e-9 * volume(solid));
@@ -219,7 +220,7 @@ TEST(Povray, PlaneLightsAreLeftOutBehindAndClearFromBehind) {
     nth_light<PlaneLight>(scene.lights, 0) = {{0, 0, 20}, {0, 0, -1}, {}, {}, {1.0}};
     EXPECT_FALSE(holds(povray_scene(scene).text, "interior_texture"));
     EXPECT_FALSE(noted(povray_scene(scene), "back"));
-    // Between camera and stone, turned to the one and to the other.
+    // Between camera and stone, facing the one and then the other.
     nth_light<PlaneLight>(scene.lights, 0) = {{0, 0, 3}, {0, 0, -1}, {}, {}, {1.0}};
     EXPECT_THROW(povray_scene(scene), InputError);
     nth_light<PlaneLight>(scene.lights, 0) = {{0, 0, 3}, {0, 0, 1}, {}, {}, {1.0}};
@@ -227,7 +228,7 @@ TEST(Povray, PlaneLightsAreLeftOutBehindAndClearFromBehind) {
     EXPECT_TRUE(noted(povray_scene(scene), "back"));
 }
 
-// Root mean square difference of linear radiance from POV-Ray's picture.
+// Root mean square difference in linear radiance from POV-Ray's picture.
 class PovrayPictures : public test::FolderTest {
 protected:
     void SetUp() override {
@@ -287,7 +288,7 @@ TEST_F(PovrayPictures, AbsorptionInADomeWithNearLights) {
     EXPECT_LT(rmse(scene), k_same_picture);
 }
 
-// Mirrors and what shines: nothing of that is left to chance.
+// Mirrors and emitters: these scenes contain nothing random.
 TEST_F(PovrayPictures, MirrorsAndThingsThatShine) {
     Scene scene;
     scene.camera.position = {1, -9, 5};
@@ -296,7 +297,7 @@ TEST_F(PovrayPictures, MirrorsAndThingsThatShine) {
     scene.camera.width = 96;
     scene.camera.height = 72;
     scene.settings = stone_scene().settings;
-    // POV-Ray's levels count mirrors, too.
+    // POV-Ray's levels include mirrors.
     scene.settings.depth = 60;
     scene.lights.constant = 0.1;
     scene.lights.sources = {HemisphereLight{glm::normalize(Vec3{0.2, 0.1, 1}), {0.3}},

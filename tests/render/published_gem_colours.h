@@ -1,13 +1,13 @@
 #pragma once
-// Published colours of named gems, to hold the catalogue's stones against.
+// Published colours of named gems, to compare the catalogue's stones with.
 //
-// Names of colours after gems, as two dictionaries of colour have them, each given by the middle of
-// its ISCC-NBS block in sRGB: K. L. Kelly and D. B. Judd, Color: Universal Language and Dictionary
-// of Names, NBS Special Publication 440 (1976). TC: Standard Color Card of America, 9th edition; M:
-// A. Maerz and M. R. Paul, A Dictionary of Color, 1st edition. They are colours of textile and
-// paper that people called so, not measured stones: they judge hue and depth, no more.
+// Names of colours after gems from two dictionaries of colour, each given by the middle of its
+// ISCC-NBS block in sRGB: K. L. Kelly and D. B. Judd, Color: Universal Language and Dictionary of
+// Names, NBS Special Publication 440 (1976). TC: Standard Color Card of America, 9th edition; M: A.
+// Maerz and M. R. Paul, A Dictionary of Color, 1st edition. They are colours of textile and paper
+// with such names, not measured stones: they test only hue and depth.
 //
-// Rhodolite has no entry there: purplish red to reddish purple is what gemmologists call it.
+// Rhodolite has no entry there; gemmologists call it purplish red to reddish purple.
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// A direction, all alike likely.
+// A uniformly distributed direction.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // Expectations: oracle/ray_trees.json, whole trees of light paths from an independent tracer in
-// 50-digit arithmetic (oracle/ray_trees.py says how it goes about it).
+// 50-digit arithmetic (oracle/ray_trees.py describes its method).
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(RayTrees, RadianceAndRemainderEqualFiftyDigitArithmetic) {
         const double remainder = std::stod(item["remainder"].get<std::string>());
         const double error = std::max(std::abs(result.radiance[0] - radiance),
                                       std::abs(result.remainder[0] - remainder));
-        // Asked for is 1e-10; measured 1.3e-15. A few units in the last place for each of 6 hits
+        // Required is 1e-10; measured 1.3e-15. A few units in the last place for each of 6 hits
         // stay under 1e-13 with any compiler.
         EXPECT_LT(error, 1e-13) << item["stone"] << " " << item["material"];
         worst = std::max(worst, error);

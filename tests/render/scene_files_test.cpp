@@ -1,5 +1,5 @@
-// What a scene file may say about its stone and its lights. Expectations: docs/rendering.md,
-// closed forms of where a light is seen.
+// What a scene file may say about its stone and lights. Expectations: docs/rendering.md, closed
+// forms of where a light is seen.
 
 #include <gtest/gtest.h>
 
@@ -150,7 +150,7 @@ TEST_F(SceneStones, RadiancesThatNoPictureCanHoldAreRefused) {
     }
 }
 
-// All of it in one plane: nothing is inside.
+// Flat: it has no interior.
 TEST_F(SceneStones, AFlatStoneIsRefused) {
     std::string flat = k_tetrahedron;
     const std::size_t apex = flat.rfind("v ");
@@ -195,7 +195,7 @@ TEST_F(SceneStones, EnvironmentsOfEveryKind) {
     EXPECT_EQ(exposed.notes[0].find("map.hdr: it names no FORMAT"), 0u);
 }
 
-// Expectation: a quarter about z takes x to y, and near lights go round the stone's middle.
+// A quarter turn about z takes x to y, and near lights turn about the stone's middle.
 TEST_F(SceneStones, LightsAreRotatedAboutTheStonesMiddle) {
     const Scene scene = read(
         "stone = \"stone.toml\"\n[light]\nrotate = [0, 0, 90]\n[[light.lobe]]\ndirection = [1, 0, "
@@ -208,7 +208,7 @@ TEST_F(SceneStones, LightsAreRotatedAboutTheStonesMiddle) {
     EXPECT_NE(refusal("stone = \"stone.toml\"\n[light]\nconstant = 1\nrotate = 3\n"), "");
 }
 
-// A text that comes with its files reads none from the disk.
+// A text with its own files reads none from the disk.
 TEST_F(SceneStones, ASceneMayHoldItsFilesItself) {
     write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
     std::ifstream stream(folder_ / "map.exr", std::ios::binary);
@@ -251,7 +251,7 @@ TEST(Lights, ADomeShinesOnWhatStandsInside) {
 }
 
 TEST(Lights, NoRayIsBrighterThanTheBound) {
-    // Fixed directions over the sphere; coloured lights and few nodes, whose spectra exceed 1.
+    // Fixed directions over the sphere; coloured lights and few nodes, with spectra above 1.
     auto map = std::make_shared<EnvironmentMap>();
     map->width = 8;
     map->height = 4;

@@ -58,7 +58,7 @@ TEST(Camera, CentreLooksAtTheTargetAndYRunsDown) {
     camera.fov = std::numbers::pi / 2;
     const EyeRays eyes(camera);
     EXPECT_NEAR(glm::length(eyes.through(100, 50).direction - Vec3{0, 0, -1}), 0, 1e-15);
-    // Vertical field of 90 degrees: the top edge's middle looks up (camera up = +y) by 45.
+    // Vertical field of 90 degrees: the middle of the top edge looks up (camera up = +y) by 45.
     EXPECT_NEAR(glm::length(eyes.through(100, 0).direction - glm::normalize(Vec3{0, 1, -1})), 0,
                 1e-15);
     EXPECT_GT(eyes.through(200, 50).direction.x, 0) << "right is +x when up is +y and the view -z";
@@ -76,7 +76,7 @@ TEST(Camera, CentreLooksAtTheTargetAndYRunsDown) {
 }
 
 TEST(Environment, LatLongHasTheContractsFrame) {
-    // 8 x 4 texels, each red with its column, green with its row.
+    // 8 x 4 texels: red is the column, green the row.
     EnvironmentMap map;
     map.width = 8;
     map.height = 4;
@@ -128,7 +128,7 @@ TEST(Lights, EachKindShinesWhereItShould) {
 TEST(Render, ConstantLightOfOneGivesExactlyWhatPathsBringHome) {
     for (const char* material : {"diamond", "corundum", "calcite"}) {
         Scene scene = scene_with(material);
-        scene.settings.wavelengths_nm = {550};  // the balance is one wavelength's
+        scene.settings.wavelengths_nm = {550};  // the balance holds for one wavelength
         const RenderResult result = render(scene);
         for (std::size_t i = 0; i < result.picture.pixels(); ++i) {
             const float covered = result.picture.coverage[i];
@@ -169,13 +169,13 @@ TEST(Render, SplittingAtRandomAgreesWithFollowingBothWaves) {
     scene.settings.wavelengths_nm = {589.3};
     scene.settings.depth = 7;
     const double exact = render(scene).stats.mean_radiance;
-    scene.settings.tolerance = 1e-6;  // nothing is cut by depth 7, but small paths pick one wave
+    scene.settings.tolerance = 1e-6;  // depth 7 prunes nothing, but weak paths choose one wave
     scene.settings.samples = 49;
     const double sampled = render(scene).stats.mean_radiance;
     scene.settings.tolerance = 0;
     const double exact_fine = render(scene).stats.mean_radiance;
-    // The choice's spread: under 2 % of paths below the splitting weight, 10^4 rays; and pixel
-    // sampling apart.
+    // The choice's scatter: under 2 % of paths are below the splitting weight, with 10^4 rays; plus
+    // pixel sampling.
     EXPECT_NEAR(sampled, exact_fine, 2e-3);
     EXPECT_NEAR(exact, exact_fine, 2e-2);
 }
@@ -203,7 +203,7 @@ TEST(Render, EffectsCanBeSwitchedOffAndSaySo) {
 }
 
 TEST(Render, ACrystalsTreeHasABudget) {
-    // 2^40 paths would never end: from the budget on one wave is followed, and the balance still
+    // 2^40 paths would never end: beyond the budget one wave is followed, and the balance still
     // holds.
     Scene scene = scene_with("calcite");
     scene.settings.depth = 40;

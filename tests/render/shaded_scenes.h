@@ -18,7 +18,7 @@ inline DiffuseMaterial diffuse(double albedo) {
     return {SurfaceColour{albedo}};
 }
 
-// Seen from +z, parallel rays; no stone.
+// Seen from +z with parallel rays; no stone.
 inline Scene scene_of_objects(std::vector<SceneObject> objects, double width = 2.5) {
     Scene scene;
     scene.objects = std::move(objects);
@@ -29,8 +29,8 @@ inline Scene scene_of_objects(std::vector<SceneObject> objects, double width = 2
     return scene;
 }
 
-// A distant light from `toward` of irradiance pi on a surface that faces it: a cap of radiance
-// 1 / sin^2(half angle).
+// A distant light from `toward` with irradiance pi on a surface that faces it: a cap of radiance 1
+// / sin^2(half angle).
 inline Light sun(const Vec3& toward) {
     DiscLight cap;
     cap.direction = glm::normalize(toward);

@@ -12,8 +12,8 @@ double distance(const Stokes& a, const Stokes& b) {
     return std::hypot(std::hypot(a[0] - b[0], a[1] - b[1]), std::hypot(a[2] - b[2], a[3] - b[3]));
 }
 
-// What a projection onto a convex set promises: the result is in the set, what is in it stays, and
-// no member of the set is farther from the result than from what was projected.
+// The properties of a projection onto a convex set: the result is in the set, members of the set
+// stay, and no member of the set is farther from the result than from the projected point.
 TEST(Stokes, NearestLightIsLightAndNoFartherFromAnyOther) {
     std::mt19937_64 random(20261122);
     std::normal_distribution<double> normal;
@@ -34,7 +34,7 @@ TEST(Stokes, LessLightThanNoneIsNone) {
     EXPECT_EQ(nearest_light({-0.001, 0, 0, 0}), (Stokes{0, 0, 0, 0}));
     EXPECT_EQ(nearest_light({-0.5, 0.3, 0, -0.4}), (Stokes{0, 0, 0, 0}));
     EXPECT_EQ(nearest_light({0, 0, 0, 0}), (Stokes{0, 0, 0, 0}));
-    // Half way between: S0 0 and 1 of it polarised is nearest to (1/2; 1/2).
+    // Half way between: S0 = 0 with 1 polarised is nearest to (1/2; 1/2).
     EXPECT_EQ(nearest_light({0, 0, 1, 0}), (Stokes{0.5, 0, 0.5, 0}));
 }
 

@@ -1,4 +1,4 @@
-// Scenes that no file describes: how the stone is framed, sized, lit and exposed.
+// Scenes made for a stone without a scene file: framing, size, lights and exposure.
 
 #include "render/scene/stone_scene.h"
 
@@ -44,7 +44,7 @@ StoneScene of(const std::string& material, const std::string& light = {}) {
     return choices;
 }
 
-// Columns and rows that the stone covers, as shares of the picture's.
+// The columns and rows that the stone covers, as shares of the picture's.
 std::array<double, 2> spans(const Picture& picture) {
     int left = picture.width, right = -1, top = picture.height, bottom = -1;
     for (int y = 0; y < picture.height; ++y) {
@@ -60,7 +60,7 @@ std::array<double, 2> spans(const Picture& picture) {
     return {double(right - left + 1) / picture.width, double(bottom - top + 1) / picture.height};
 }
 
-// The coverage comes from the picture, the 85 % from the brief of the command.
+// The coverage is measured in the picture; the 85 % is from the command's specification.
 TEST_F(StoneSceneTest, TheStoneSpans85PercentOfTheTighterSide) {
     struct Case {
         const char *name, *cut, *size;
@@ -121,7 +121,7 @@ TEST_F(StoneSceneTest, HeartsAreSeenFromBelowAndAllElseFromAbove) {
     }
 }
 
-// A camera of the scene's own stays where it is.
+// A camera given in the scene stays where it is.
 TEST_F(StoneSceneTest, HeartsDoNotMoveACameraThatIsNamed) {
     mesh("stone.obj", make_cut("round-brilliant"));
     const Scene scene = read_scene(
@@ -158,7 +158,7 @@ TEST_F(StoneSceneTest, DesignsWithoutASizeAreDrawn6Point5MmWideAndItIsSaid) {
                     0, 0.005);
         }
     }
-    // A mesh of some millimetres is taken as it is.
+    // A mesh of some millimetres keeps its size.
     const Scene real = read_any_scene(mesh("real.obj", make_cut("oval")), {}, of("ruby_pale"));
     EXPECT_NEAR(width_along(real.stone.solid, {0, 1, 0}), width, 1e-9);
 }
@@ -213,7 +213,7 @@ TEST_F(StoneSceneTest, RefusalsAreOneLineThatSaysWhatToDo) {
     EXPECT_NE(one_line(refusal(stone, choices)).find("--width"), std::string::npos);
 }
 
-// The design says the index it was drawn for, 1.54: quartz's.
+// The design states the index it was drawn for, 1.54: quartz's.
 TEST_F(StoneSceneTest, ADesignThatSaysItsIndexIsOfferedMaterialsOfIt) {
     const std::string quartz =
         refusal(CULET_SOURCE_DIR "/tests/stone/designs/srb_class_angles.asc", {});
@@ -221,7 +221,7 @@ TEST_F(StoneSceneTest, ADesignThatSaysItsIndexIsOfferedMaterialsOfIt) {
     EXPECT_NE(quartz.find("amethyst"), std::string::npos) << quartz;
 }
 
-// Work is counted, not timed: a crystal that uses up what is allowed comes out the same on any
+// Work is counted, not timed: a crystal that exhausts its work limit comes out the same on any
 // number of threads.
 TEST_F(StoneSceneTest, WhatWorkAllowsDoesNotHangOnThreads) {
     Scene scene = read_any_scene(mesh("stone.obj", make_cut("step")), {"camera.size=[20,20]"},
@@ -235,10 +235,10 @@ TEST_F(StoneSceneTest, WhatWorkAllowsDoesNotHangOnThreads) {
     EXPECT_EQ(one.stats.allowed_tolerance, three.stats.allowed_tolerance);
 }
 
-// Every preset is ordinary lights, which every engine takes.
-// Beams are drawn to 2 % of the mean. Of 64 rays a pixel, 130 000 on the stone, at least 4 % see a
-// light of one: the mean is sure to 1.4 % (binomial), three times which is 4 %. Previews give each
-// beam one colour, however the light changes in it: they need only be there.
+// Every preset consists of ordinary lights, which every engine takes. Beams are drawn to 2 % of the
+// mean. With 64 rays per pixel, 130 000 on the stone, at least 4 % see a light of one: the mean is
+// known to 1.4 % (binomial), three times which is 4 %. Previews give each beam one colour, so they
+// need only exist.
 TEST_F(StoneSceneTest, PresetsAreDrawnByAllEnginesAndAgree) {
     const std::string stone = mesh("stone.obj", make_cut("step"));
     for (const LightPreset& preset : light_presets()) {
@@ -259,7 +259,7 @@ TEST_F(StoneSceneTest, PresetsAreDrawnByAllEnginesAndAgree) {
     }
 }
 
-// Of 1000 pixels of the stone 30 are bright; the brightest light beside the stone does not count.
+// Of 1000 pixels of the stone 30 are bright; the brighter light beside the stone does not count.
 TEST(Exposure, IsThatOfTheStone) {
     Picture picture;
     picture.width = 1100;

@@ -1,4 +1,4 @@
-// TIFFs of every arrangement, against OpenCV's decoder and against each other.
+// TIFFs of every layout, against OpenCV's decoder and against each other.
 
 #include <gtest/gtest.h>
 #include <tiffio.h>
@@ -45,7 +45,7 @@ double difference_of(const DecodedPixels& a, const DecodedPixels& b) {
                : 1;
 }
 
-// Of 8 bits with alpha OpenCV gives what libtiff shows: colours times alpha, rounded.
+// For 8 bits with alpha OpenCV returns what libtiff shows: colours times alpha, rounded.
 DecodedPixels as_shown(DecodedPixels pixels) {
     auto* const bytes = std::get_if<std::vector<std::uint8_t>>(&pixels.samples);
     if (pixels.channels != 4 || bytes == nullptr) return pixels;
@@ -56,8 +56,8 @@ DecodedPixels as_shown(DecodedPixels pixels) {
     return pixels;
 }
 
-// OpenCV refuses some arrangements that are none of its own: uncompressed tiles, colours of 16 bits
-// in separate planes. It reads the same samples packed in whole pixels.
+// OpenCV refuses some layouts that it does not write: uncompressed tiles, 16-bit colours in
+// separate planes. It reads the same samples packed in whole pixels.
 TEST(TiffCodec, ReadsEveryArrangement) {
     const TiffKind kinds[] = {{.bits = 8},
                               {.bits = 16},
@@ -105,7 +105,7 @@ TEST(TiffCodec, TurnsAsOpenCvDoes) {
     }
 }
 
-// Floating point predictors, and the library's logarithms: OpenCV's own choice for floats.
+// Floating point predictors, and libtiff's logarithms: OpenCV's own choice for floats.
 TEST(TiffCodec, ReadsPackedFloats) {
     const TiffKind plain{.bits = 32, .format = SAMPLEFORMAT_IEEEFP};
     TiffKind packed = plain;

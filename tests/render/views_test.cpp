@@ -62,7 +62,7 @@ const char* const k_quartz =
     "optic_axis = [1, 1, 0]\n[material]\noptic = \"uniaxial\"\nindex = { o = 1.544, e = 1.553 }\n";
 
 TEST_F(Views, PolariscopeShowsThePlatesRetardation) {
-    // The closed form of crystal_paths_test.cpp, through the whole renderer: 45 degrees, crossed.
+    // The closed form of crystal_paths_test.cpp through the whole renderer: 45 degrees, crossed.
     const double t_o = 4 * 1.544 / (2.544 * 2.544), t_e = 4 * 1.553 / (2.553 * 2.553);
     for (const double nm : {450.0, 589.3, 640.0}) {
         const double delta = 2 * std::numbers::pi * 0.009 * 1e6 / nm;
@@ -110,8 +110,8 @@ TEST_F(Views, CrossedPolarisersWithoutAStoneAreDarkAndAFullWavePlateColoursThem)
 }
 
 TEST_F(Views, DichroscopeShowsEachWavesAbsorption) {
-    // Axis along the picture's x. The left window passes x: the extraordinary wave; the right one
-    // the ordinary. Half of unpolarised light each: T exp(-K d) / 2, depth 2.
+    // Axis along the picture's x. The left window passes x, the extraordinary wave; the right one
+    // the ordinary wave. Each passes half of the unpolarised light: T exp(-K d) / 2, depth 2.
     const Scene seen =
         scene("preset = \"dichroscope\"\n" +
               plate("optic_axis = [1, 0, 0]\n[material]\noptic = \"uniaxial\"\n"
@@ -153,7 +153,7 @@ TEST_F(Views, AMatchingLiquidHidesTheStone) {
 }
 
 TEST_F(Views, PolarisedLightAtBrewstersAngleIsNotReflected) {
-    // tan B = n: p light enters without loss. Seen by the light's mirror direction, depth 1.
+    // tan B = n: p light enters without loss. Seen from the light's mirror direction, depth 1.
     const double n = 1.5, angle = std::atan(n);
     const Vec3 d{std::sin(angle), 0, -std::cos(angle)};
     for (const bool p : {true, false}) {
@@ -187,8 +187,8 @@ TEST_F(Views, SpectralPicturesCarryStokesParameters) {
                         s2 = result.picture.polarised[1][wave][i],
                         s3 = result.picture.polarised[2][wave][i];
             EXPECT_LE(s1 * s1 + s2 * s2 + s3 * s3, s0 * s0 * 1.0001f);
-            // The reflection vibrates along the face and across the plane of incidence, which
-            // holds the picture's x.
+            // The reflection vibrates in the face, perpendicular to the plane of incidence, which
+            // contains the picture's x.
             polarised = polarised || s1 < -0.01f * s0;
         }
     }
@@ -274,8 +274,8 @@ TEST_F(Views, MistakesAreNamed) {
 }
 
 TEST(Sampling, FiltersHaveTheirVarianceAndNoOffset) {
-    // Box r^2/3, tent r^2/6, gaussian cut off at two deviations: 0.773741 sigma^2 (its closed form,
-    // 1 - 4 phi(2)/(2 Phi(2) - 1)). 64 midpoints a side miss some of the warp's steep ends.
+    // Box r^2/3, tent r^2/6, gaussian truncated at two deviations: 0.773741 sigma^2 (its closed
+    // form, 1 - 4 phi(2)/(2 Phi(2) - 1)). 64 midpoints a side miss some of the warp's steep ends.
     const double phi = std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
     const double inside = std::erf(std::numbers::sqrt2);
     for (const auto& [filter, radius, variance] :

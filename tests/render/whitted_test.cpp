@@ -1,5 +1,5 @@
-// Whitted's rays: mirrors, glass, stones, shadows.
-// Source of the expectations: closed forms and conservation of energy, stated with each.
+// Whitted's rays: mirrors, glass, stones, shadows. Expectations: closed forms and conservation of
+// energy, stated with each test.
 
 #include "render/shaded/whitted.h"
 
@@ -19,8 +19,8 @@ using test::scene_of_objects;
 using test::sphere;
 using test::sun;
 
-// A mirror sphere shows at each point what stands in the mirror direction 2 (n.e) n - e: here a
-// lobe of radiance cos^4 about x, seen by the mirror's albedo.
+// A mirror sphere shows at each point what is in the mirror direction 2 (n.e) n - e: here a lobe of
+// radiance cos^4 about x, times the mirror's albedo.
 TEST(Whitted, AMirrorSphereReflectsTheEnvironment) {
     Scene scene = scene_of_objects({sphere(MirrorMaterial{SurfaceColour{0.8}})});
     scene.lights.sources.push_back(CosinePowerLight{{1, 0, 0}, 4, LightColour{1.0}});
@@ -32,9 +32,9 @@ TEST(Whitted, AMirrorSphereReflectsTheEnvironment) {
     }
 }
 
-// A glass ball on its axis between a light above (radiance 1) and none below: the front reflects R,
-// R = ((n - 1) / (n + 1))^2; inside, every second pass comes back up: T^2 R (1 + R^2 + R^4 + ...).
-// Light that passes falls on the dark below. With 12 faces what is left is below R^11.
+// A glass ball on its axis between a light above (radiance 1) and none below: the front reflects R
+// = ((n - 1) / (n + 1))^2; inside, every second pass returns upwards: T^2 R (1 + R^2 + R^4 + ...).
+// Transmitted light leaves into the dark below. With 12 faces the remainder is below R^11.
 TEST(Whitted, AGlassBallOnItsAxisSumsFresnel) {
     DielectricMaterial glass;
     glass.index = 2.4;
@@ -44,20 +44,20 @@ TEST(Whitted, AGlassBallOnItsAxisSumsFresnel) {
     const WhittedTracer tracer(scene, 12);
     const double r = std::pow(1.4 / 3.4, 2), t = 1 - r, left = std::exp(-0.1 * 2);
     const double expected = r + t * t * r * left * left / (1 - r * r * left * left);
-    // Cut where less than 1/2048 of the ray is left; three such ends at most.
+    // Pruned below 1/2048 of the ray, at most three times.
     EXPECT_NEAR(tracer.trace(down(0, 0), 0).colour[0], expected, 3.0 / 2048);
-    // A stone of the same index is the same physics: a plate, whose faces a ray meets squarely.
+    // A stone of the same index is the same physics: a plate that a ray meets perpendicularly.
     Scene stone = scene_of_objects({});
     stone.stone.solid = make_cut("step");
     stone.stone.material.index[0].n = 2.4;
     stone.lights = scene.lights;
     const WhittedTracer gem(stone, 1);
-    // One face: the table's reflexion alone.
+    // One face: the table's reflection alone.
     EXPECT_NEAR(gem.trace(down(0, 0), 0).colour[0], r, 1e-9);
 }
 
-// In a furnace of radiance 1 clear glass and stones show 1, but for what paths are left at their
-// end: conservation of energy.
+// In a furnace of radiance 1 clear glass and stones show 1, less the remainder of their paths:
+// conservation of energy.
 TEST(Whitted, ClearThingsVanishInAFurnace) {
     for (const char* cut : {"round-brilliant", "heart"}) {
         Scene scene = scene_of_objects({{SphereShape{{0, 0, -8}, 3}, DielectricMaterial{}}}, 9);
@@ -75,12 +75,12 @@ TEST(Whitted, ClearThingsVanishInAFurnace) {
             sum += 1 - seen.colour[1];
         }
         EXPECT_GT(met, 100) << cut;
-        // Total reflexions may go round for long; in the mean little is left.
+        // Total reflections may continue for long; on average little remains.
         EXPECT_LT(sum / met, 0.03) << cut;
     }
 }
 
-// Shadows: a disc under an opaque sphere is dark but for ambient light; under glass it is not.
+// A disc under an opaque sphere has only ambient light; under glass it has more.
 TEST(Whitted, OpaqueThingsThrowShadows) {
     for (const bool clear : {false, true}) {
         const SurfaceMaterial material =

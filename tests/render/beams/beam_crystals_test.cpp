@@ -9,7 +9,7 @@ namespace {
 
 using namespace culet;
 
-// Every kind of polarised light, an analyser and a plate before it.
+// Every kind of polarised light, with a retarder and an analyser.
 Scene polarised_scene() {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
@@ -22,7 +22,7 @@ Scene polarised_scene() {
     lobe.radiance.value = 2.0;
     lobe.radiance.polarisation = LinearPolarisation{{0, 1, 0}, {}, 0.7};
     scene.lights.sources.push_back(lobe);
-    // Behind a sheet: turned with its normal into each ray.
+    // Behind a sheet light whose normal is turned into each ray.
     DiscLight cap;
     cap.direction = glm::normalize(Vec3{-1, 0.3, 1});
     cap.to = 0.6;
@@ -45,8 +45,8 @@ void give_crystal(Scene& scene, const std::vector<double>& n,
     scene.stone.crystal.axes = {a, b, glm::cross(a, b)};
 }
 
-// Single rays carry the same Stokes parameters as the reference, but for single precision: what is
-// off are rays within its rounding of an edge of a facet or of a light.
+// Single rays carry the reference's Stokes parameters to single precision. Outliers are rays within
+// rounding error of an edge of a facet or light.
 TEST(PolarisedBeams, SeeWhatTheReferenceSeesThroughTheEyesOptics) {
     const Scene scene = polarised_scene();
     const Difference d = difference(with_engine(scene, "beams", 1).picture,
@@ -80,10 +80,10 @@ struct NamedCrystal {
     bool coherent;
 };
 
-// Merged waves go one way with the mean index. Over some six segments their rays leave that by
-// about |n1 - n2| in angle, 1e-5 here: a pixel is 0.02, so that only pixels within 1e-3 of one of
-// an edge may change, and coefficients change by 0.2 |n1 - n2| (notes on physics: Guy & Soler's
-// merging). What is coherent turns by the phase, to which a hundredth of a wave is next to nothing.
+// Merged waves follow one path with the mean index. Over some six segments the exact rays leave it
+// by about |n1 - n2| in angle, here 1e-5. A pixel is 0.02, so only pixels within 1e-3 pixels of an
+// edge may change, and coefficients change by 0.2 |n1 - n2| (notes on physics: Guy & Soler's
+// merging). Coherent light turns by the phase, for which a hundredth of a wave is negligible.
 TEST(MergedBeams, AreTheReferenceWhereTheSplitIsSmall) {
     const std::vector<NamedCrystal> crystals{
         {"positive", {1.76, 1.76001}, {0, 0}, false},
@@ -113,8 +113,8 @@ TEST(MergedBeams, AreTheReferenceWhereTheSplitIsSmall) {
     }
 }
 
-// SplitWaves waves are exact rays at a cell's middle and first order beside it. Powers are added,
-// as in the reference without coherence; nothing is left out but what is cut.
+// Split waves are exact rays at a cell's middle and first order beside it. Powers are added, as in
+// the reference without coherence; only pruned light is missing.
 TEST(SplitBeams, AreTheReferenceInCrystalsOfStrongSplit) {
     std::mt19937_64 random(20290);
     const std::vector<NamedCrystal> crystals{
@@ -132,8 +132,8 @@ TEST(SplitBeams, AreTheReferenceInCrystalsOfStrongSplit) {
         scene.settings.crystal_beams = CrystalBeams::split;
         const RenderResult beams = with_engine(scene, "beams", 1),
                            exact = with_engine(scene, "reference", 1);
-        // Off by more than a hundredth: pixels next to edges, which a map displaces by a hundredth
-        // of a pixel or so, and next to total reflection, where first order ends.
+        // Off by more than a hundredth: pixels next to edges, which a map displaces by about a
+        // hundredth of a pixel, and next to total reflection, where first order fails.
         const Difference d = difference(beams.picture, exact.picture, 1e-2);
         EXPECT_LE(d.share_off(), 0.04) << d;
         EXPECT_LE(d.mean, 5e-3) << d;
@@ -154,7 +154,7 @@ TEST(SplitBeams, SeePolarisedLightsAndAnalysers) {
     EXPECT_LE(d.mean, 1e-2) << d;
 }
 
-// In a constant light of 1 a pixel that the stone fills is 1 less what is still inside.
+// In a constant light of 1 a pixel that the stone fills shows 1 less the remainder.
 TEST(SplitBeams, BalanceInAFurnace) {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
@@ -162,7 +162,7 @@ TEST(SplitBeams, BalanceInAFurnace) {
     scene.settings.depth = 5;
     scene.settings.crystal_beams = CrystalBeams::split;
     const RenderStats stats = with_engine(scene, "beams", 16).stats;
-    // First order within a cell; weights next to total reflection bend.
+    // Maps are first order within a cell; weights are curved next to total reflection.
     EXPECT_NEAR(stats.mean_radiance + stats.remainder, 1, 2e-3);
 }
 

@@ -1,5 +1,5 @@
-// Expectations: the same bytes whatever the threads and the frames before; the reference renderer
-// with 256 samples a pixel; and what the error bound promises.
+// Expectations: the same bytes for any number of threads and any earlier frames; the reference with
+// 256 samples per pixel; and the stated error bound.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(Frames, OfAllChangedAtOnceAndTakenAwayAreThoseOfAFreshRenderer) {
     changed.lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 3, {"A", {}}});
     frames.show(changed);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
-    // A smaller picture, which is left where it is, and back to the first's size.
+    // Moves to a smaller picture and back to the first size.
     frames.show(scene);
     frames.draw();
     const RenderResult again = frames.take();
@@ -137,7 +137,7 @@ TEST(Frames, FromAnotherViewInTurnedLightsAreThoseOfAFreshRenderer) {
     moved.lights = turned_lights(scene.lights, rotation_of({20, 0, 70}), {0, 0, 0});
     frames.look_from(moved.camera, moved.lights);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(moved).draw().picture.rgb);
-    // Lights of another kind call for other wavelengths: they are chosen anew.
+    // Another kind of lights needs other wavelengths, which are chosen anew.
     moved.settings.wavelengths_nm.clear();
     FrameRenderer open(moved);
     Scene changed = moved;
@@ -158,7 +158,7 @@ TEST(Frames, ThatMustBeQuickHaveFewerBeamsAndSayWhatIsLeft) {
     RenderStats quick;
     for (int i = 0; i < 4; ++i) {
         quick = frames.draw().stats;
-        // Nothing is lost unseen.
+        // The balance holds.
         EXPECT_NEAR(quick.mean_radiance + quick.remainder, 1, 1e-5);
     }
     EXPECT_LT(quick.beams, whole.beams / 2);
@@ -169,7 +169,7 @@ TEST(Frames, ThatMustBeQuickHaveFewerBeamsAndSayWhatIsLeft) {
     EXPECT_EQ(again.remainder, whole.remainder);
 }
 
-// mean |difference| over the stone / mean, against 256 samples of the same depth.
+// Mean |difference| over the stone / mean, against 256 samples of the same depth.
 void expect_bound_holds(Scene scene, const std::string& engine, int samples) {
     scene.settings.samples = samples;
     scene.settings.engine = engine;
@@ -179,7 +179,7 @@ void expect_bound_holds(Scene scene, const std::string& engine, int samples) {
     const Difference d = difference(beams.picture, exact.picture);
     EXPECT_EQ(d.not_finite, 0);
     EXPECT_TRUE(std::isfinite(beams.stats.error_bound));
-    // The 256 samples are themselves a little off.
+    // The 256 samples have an error of their own.
     EXPECT_LE(d.mean, beams.stats.error_bound + exact.stats.sampling_error) << engine << ", " << d;
 }
 
@@ -228,7 +228,8 @@ TEST(ErrorBounds, HoldThroughALens) {
     }
 }
 
-// Peak to noise over the stone's pixels; the reference's own noise of 256 samples is in it.
+// Peak signal-to-noise ratio over the stone's pixels, including the reference's own noise at 256
+// samples.
 TEST(Averages, AreWithin50DBOf256SamplesInSmoothLight) {
     std::mt19937_64 random(20285);
     for (int i = 0; i < 3; ++i) {
@@ -246,8 +247,8 @@ TEST(Averages, AreWithin50DBOf256SamplesInSmoothLight) {
     }
 }
 
-// Seen straight through and mirrored in one big facet, where beams have no borders: only the
-// light's own edge needs to be smoothed.
+// Lights seen straight through and mirrored in one big facet, where beams have no borders: only the
+// light's own edge needs smoothing.
 TEST(Averages, SmoothTheEdgesOfLightsWithinAFacet) {
     for (const NamedChange& light : edged_lights()) {
         SCOPED_TRACE(light.name);
@@ -261,14 +262,14 @@ TEST(Averages, SmoothTheEdgesOfLightsWithinAFacet) {
         const RenderResult beams = with_engine(scene, "beams", 16),
                            exact = with_engine(scene, "reference", 256);
         const Difference d = difference(beams.picture, exact.picture, 0.05);
-        // 256 samples have a step of 1/256 across an edge at best, 1/16 where it runs along their
-        // rows.
+        // Across an edge 256 samples have a step of 1/256 at best, 1/16 where the edge runs along
+        // their rows.
         EXPECT_GE(d.psnr(), 40) << d;
         EXPECT_LE(d.share_off(), 5e-3) << d;
     }
 }
 
-// Pixels that several beams share: each sees another part of the lights.
+// Pixels that several beams share: each beam sees another part of the lights.
 TEST(Averages, InPixelsThatBeamsShareAreThoseOfTheParts) {
     for (const NamedChange& light : edged_lights()) {
         SCOPED_TRACE(light.name);
@@ -280,14 +281,14 @@ TEST(Averages, InPixelsThatBeamsShareAreThoseOfTheParts) {
                            exact = with_engine(scene, "reference", 1024);
         const Difference d = difference(beams.picture, exact.picture);
         RecordProperty(light.name, std::to_string(d.psnr()));
-        // The reference's own noise where an edge crosses a pixel is some 1024^(-3/4) of a step; of
-        // one such in every three pixels, a step of a third of the peak makes 59 dB, and the beams'
-        // borders may be off by as much again. With lights seen by whole pixels it is 41 to 53.
+        // Where an edge crosses a pixel the reference's noise is some 1024^(-3/4) of the step. With
+        // one such pixel in three and a step of a third of the peak this gives 59 dB, and the
+        // beams' borders may be off by as much again. Lights seen by whole pixels gave 41 to 53 dB.
         EXPECT_GE(d.psnr(), 55) << d;
     }
 }
 
-// A small sun that many pixels see a part of: shares of a circle, from 64 x 64 points each.
+// A small sun that many pixels see in part: circle segments, from 64 x 64 points each.
 TEST(Averages, OfASunManyPixelsWideArePartsOfACircle) {
     constexpr int k_pixels = 120, k_points = 64;
     constexpr double k_radius = 0.0047, k_fov = 0.012;
@@ -314,8 +315,8 @@ TEST(Averages, OfASunManyPixelsWideArePartsOfACircle) {
                                            static_cast<double>(inside) / (k_points * k_points)));
         }
     }
-    // Points in rows 1/64; a rim's curve over a pixel, its side squared over 8 radii; directions in
-    // single precision, 2 rounding units of 6e-8 over a pixel's angle.
+    // Points in rows: 1/64. Curvature of the rim over a pixel: its side squared over 8 radii.
+    // Directions in single precision: 2 rounding units of 6e-8 over a pixel's angle.
     EXPECT_LE(most, 1.0 / k_points + step / (8 * k_radius) + 1.2e-7 / step);
 }
 

@@ -1,5 +1,4 @@
-// Cases that are hard to get right, each by name. Expectations: the reference renderer, and what
-// the headers promise.
+// Hard cases, each by name. Expectations: the reference renderer, and the promises of the headers.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +20,8 @@ Scene hard_scene() {
     return scene;
 }
 
-// A ray that met other facets than its beam's is traced anew, with the stone's index over that of
-// what surrounds it.
+// A ray that meets other facets than its beam is retraced with the stone's index relative to the
+// surrounding medium.
 TEST(HardCases, RetracedRaysOfAnImmersedStoneAreTheReferences) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
@@ -35,7 +34,7 @@ TEST(HardCases, RetracedRaysOfAnImmersedStoneAreTheReferences) {
     EXPECT_LE(d.off, 2) << d;
 }
 
-// Voelker & Hamann's maps follow one ray a front facet, which may run outside the unfolded stone.
+// The maps of Voelker & Hamann follow one ray per front facet, which may leave the unfolded stone.
 TEST(HardCases, MapsOfFrontFacetsLoseAndDoubleNoArea) {
     for (const bool parallel_camera : {true, false}) {
         for (const Refraction kind : {Refraction::perspective, Refraction::parallel}) {
@@ -54,7 +53,7 @@ TEST(HardCases, MapsOfFrontFacetsLoseAndDoubleNoArea) {
     }
 }
 
-// Parallel rays stay parallel: all kinds of map are the same, and exact.
+// Parallel rays stay parallel: all kinds of map are equal and exact.
 TEST(HardCases, AllRefractionsDrawTheSameOrthographicPicture) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
@@ -68,8 +67,7 @@ TEST(HardCases, AllRefractionsDrawTheSameOrthographicPicture) {
     }
 }
 
-// A wrong sequence may lead a ray anywhere; it must not lead to no number, and a bound must not be
-// 0 because of one.
+// A wrong sequence may lead a ray anywhere, but it must not give NaN, and must not make a bound 0.
 TEST(HardCases, NearLightsSeenAlongWrongSequencesAreNumbers) {
     std::mt19937_64 random(20286);
     for (int i = 0; i < 12; ++i) {
@@ -107,8 +105,8 @@ TEST(HardCases, OrthographicPicturesInLightsWithEdgesAreNumbers) {
     }
 }
 
-// In a light of 1 from everywhere nothing is brighter than 1: a pixel that is has been painted
-// twice. Views from near by, and of symmetric stones, whose edges run through middles of pixels.
+// In a light of 1 from everywhere a pixel brighter than 1 was painted twice. Views from close by,
+// and of symmetric stones whose edges run through pixel centres.
 TEST(HardCases, NothingIsBrighterThanTheFurnace) {
     for (const int samples : {1, 16}) {
         for (const std::string cut : {"round-brilliant", "step", "princess"}) {
@@ -135,8 +133,8 @@ TEST(HardCases, NothingIsBrighterThanTheFurnace) {
     }
 }
 
-// Where a map does not quite lead a region onto the stone, facets must still share it, not each
-// take all of it; and the facet just left, and what the eye does not see from within, get nothing.
+// Where a map does not quite lead a region onto the stone, facets must still share it instead of
+// each taking all. The facet just left and facets seen from behind get nothing.
 TEST(HardCases, BeamsOfNearViewsDoNotOverlap) {
     std::mt19937_64 random(20287);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -157,7 +155,7 @@ TEST(HardCases, BeamsOfNearViewsDoNotOverlap) {
     }
 }
 
-// cos^0 is 1 on the lobe's side and 0 on the other, as in the reference.
+// cos^0 is 1 on the lobe's side and 0 on the other.
 TEST(HardCases, ALobeOfExponent0ShinesFromOneSide) {
     Scene scene = hard_scene();
     scene.lights = {};
@@ -168,7 +166,7 @@ TEST(HardCases, ALobeOfExponent0ShinesFromOneSide) {
     EXPECT_LE(d.off, 3) << d;
 }
 
-// What hides the stone is not the stone: coverage, and the means over the stone.
+// Coverage and means must not count what hides the stone.
 TEST(HardCases, ALightBeforeTheStoneIsNotCountedAsTheStone) {
     for (const int samples : {1, 16}) {
         Scene scene = hard_scene();
@@ -190,7 +188,7 @@ TEST(HardCases, ALightBeforeTheStoneIsNotCountedAsTheStone) {
     }
 }
 
-// Small pictures have small beams: what is cut of each must still add up to no more than asked for.
+// Small pictures have small beams; the sum of all cuts must still keep the tolerance.
 TEST(HardCases, TheToleranceIsKeptInSmallPictures) {
     for (const int side : {40, 96, 300}) {
         for (const double tolerance : {0.01, 2e-3}) {
@@ -204,7 +202,7 @@ TEST(HardCases, TheToleranceIsKeptInSmallPictures) {
     }
 }
 
-// A camera is more than a place: what a lens calls for is planned anew.
+// A camera is more than a place: a lens needs a new plan.
 TEST(HardCases, AFrameThroughALensIsThatOfAFreshRenderer) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
@@ -217,7 +215,7 @@ TEST(HardCases, AFrameThroughALensIsThatOfAFreshRenderer) {
     EXPECT_EQ(frames.draw().picture.rgb, render(scene).picture.rgb);
 }
 
-// From far away the cut that keeps the tolerance is another one than from near by.
+// From far away another cut keeps the tolerance than from close by.
 TEST(HardCases, AFrameFromElsewhereHasTheLimitsOfAFreshRenderer) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
@@ -234,9 +232,9 @@ TEST(HardCases, AFrameFromElsewhereHasTheLimitsOfAFreshRenderer) {
     EXPECT_EQ(moved.picture.rgb, fresh.picture.rgb);
 }
 
-// What a map sends from all directions, by its own resolution: a sun may be one texel. Bilinear
-// look-up spreads a texel over the ones around it with weights that add up to its own area, but
-// for how the sine of the colatitude bends over two rows.
+// The sum over all directions of what a map sends, at its own resolution; a sun may be one texel.
+// Bilinear look-up spreads a texel over its neighbours with weights that add up to its area, up to
+// the curvature of sin(colatitude) over two rows.
 TEST(HardCases, AnEnvironmentKeepsTheLightOfOneTexel) {
     const double pi = std::numbers::pi;
     std::mt19937_64 random(20288);
@@ -277,7 +275,7 @@ TEST(HardCases, AnEnvironmentKeepsTheLightOfOneTexel) {
     }
 }
 
-// A light smaller than a pixel sees of it: what it brings on the whole must stay.
+// A light smaller than a pixel must keep its total light.
 TEST(HardCases, ASunSmallerThanAPixelKeepsItsLight) {
     Scene scene = plain_scene(slab(1));
     scene.camera.width = scene.camera.height = 40;
@@ -286,7 +284,7 @@ TEST(HardCases, ASunSmallerThanAPixelKeepsItsLight) {
     scene.camera.fov = 0.9;
     scene.settings.depth = 3;
     scene.lights = {};
-    // A pixel is 0.024 wide; the sun's diameter is 0.0094, and it stands behind the camera.
+    // A pixel is 0.024 wide; the sun's diameter is 0.0094, and it is behind the camera.
     scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.0047, {1e4, {}}});
     const RenderResult beams = with_engine(scene, "beams", 16);
     const RenderResult exact = with_engine(scene, "reference", 1024);
@@ -299,11 +297,11 @@ TEST(HardCases, ASunSmallerThanAPixelKeepsItsLight) {
     EXPECT_NEAR(seen / expected, 1, 0.05);
 }
 
-// A beam whose middle ray alone is followed past its first inner facet may fill many pixels, of
-// which a sun lights some. The faces of a slab are parallel: whichever way light goes on between
-// them, it leaves as if the first had mirrored it. So the sun's image is a disc of (f tan a)^2 pi
-// pixels, f the distance of the picture in pixels and a the sun's radius, and of a radiance of
-// R + (1 - R)^2 R (1 + R^2 + ..) = 2 R / (1 + R) of the sun's.
+// A beam of which only the middle ray is followed past its first inner facet may fill many pixels,
+// and a sun lights some of them. The faces of a slab are parallel, so light leaves as if the first
+// face had reflected it. The sun's image is a disc of (f tan a)^2 pi pixels, with f the picture's
+// distance in pixels and a the sun's radius; its radiance is R + (1 - R)^2 R (1 + R^2 + ..) = 2 R /
+// (1 + R) of the sun's.
 TEST(HardCases, ABeamFollowedByOneRayShowsTheSunWhereItIs) {
     Scene scene = plain_scene(slab(0.5));
     const double n = 1.1, sun = 0.05;
@@ -323,13 +321,14 @@ TEST(HardCases, ABeamFollowedByOneRayShowsTheSunWhereItIs) {
     const RenderResult& beams = frames.draw(false);
     double seen = 0;
     for (std::size_t i = 0; i < beams.picture.pixels(); ++i) seen += luminance_at(beams.picture, i);
-    // A pixel's share is that of a straight edge, which for a disc is too much by a share of
-    // 1 / (12 r^2) of it: the mean square of a pixel's points from its middle is 1/12 a side.
+    // A pixel's share is that of a straight edge. For a disc of radius r this is too much by 1 /
+    // (12 r^2), because the mean square distance of a pixel's points from its middle is 1/12 per
+    // axis.
     EXPECT_NEAR(seen / expected, 1, 2 / (12 * radius * radius))
         << "a disc of radius " << radius << " pixels, " << beams.stats.beams << " beams";
 }
 
-// The same of a near light that is small in the picture.
+// The same for a near light that is small in the picture.
 TEST(HardCases, ALampSmallerThanAPixelKeepsItsLight) {
     Scene scene = plain_scene(slab(1));
     scene.camera.width = scene.camera.height = 40;

@@ -1,5 +1,5 @@
 #pragma once
-// One of each kind of light, and scenes of each kind of optics.
+// One light of each kind, and scenes of each kind of optics.
 
 #include <functional>
 #include <string>
@@ -31,7 +31,7 @@ inline std::shared_ptr<const EnvironmentMap> smooth_environment(int width = 64) 
     return map;
 }
 
-/// Lights that change little from pixel to pixel.
+/// Lights that change slowly from pixel to pixel.
 inline std::vector<NamedChange> smooth_lights() {
     const auto dark = [](Scene& s) { s.lights = {}; };
     return {
@@ -58,7 +58,7 @@ inline std::vector<NamedChange> smooth_lights() {
          }},
     };
 }
-/// Lights that end at once.
+/// Lights with sharp edges.
 inline std::vector<NamedChange> edged_lights() {
     const auto dark = [](Scene& s) { s.lights = {}; };
     return {
@@ -118,7 +118,7 @@ inline std::vector<NamedChange> edged_lights() {
     };
 }
 
-/// What may be done to a scene beside its lights.
+/// Changes to a scene other than its lights.
 inline std::vector<NamedChange> optics() {
     const auto coloured = [](Scene& s) {
         s.stone.material.absorption_per_mm[0] = Spectrum({400, 550, 700}, {0.9, 0.2, 0.05});

@@ -15,14 +15,14 @@
 
 namespace culet {
 
-/// A round brilliant of diameter 2 with its middle near the origin, table up.
+/// A round brilliant of diameter 2, centred near the origin, table up.
 inline Solid round_brilliant(int mains = 8, double culet_percent = 0) {
     return make_cut(
         "round-brilliant",
         {{"diameter", 2.0}, {"mains", static_cast<double>(mains)}, {"culet", culet_percent}});
 }
 
-/// A random stone with a few planes that shave next to nothing off its corners and edges.
+/// A random stone with a few planes that shave slivers off its corners and edges.
 inline Solid stone_with_slivers(std::mt19937_64& random, int planes) {
     const Solid whole = random_stone(random, planes);
     std::vector<NamedPlane> list;
@@ -59,7 +59,7 @@ inline Scene plain_scene(const Solid& solid) {
     return scene;
 }
 
-/// Looks at the origin from `distance` along `from`, with a field that holds a sphere of `radius`.
+/// Looks at the origin from `distance` along `from`. The field of view holds a sphere of `radius`.
 inline void look(Scene& scene, const Vec3& from, double distance, double radius = 1.05) {
     Camera& camera = scene.camera;
     camera.position = distance * glm::normalize(from);
@@ -80,9 +80,9 @@ inline double luminance_at(const Picture& picture, std::size_t pixel) {
                       static_cast<double>(picture.rgb[3 * pixel + 2])});
 }
 
-/// How two pictures of one scene differ over the pixels that the second says the stone touches.
+/// How two pictures differ over the pixels that the second assigns to the stone.
 struct Difference {
-    int pixels = 0, off = 0, not_finite = 0;  ///< off: by more than the tolerance
+    int pixels = 0, off = 0, not_finite = 0;  ///< off: differ by more than the tolerance
     double mean = 0;                          ///< |difference| over the mean of the second
     double rms = 0, peak = 0, brightness = 0;
     int worst_x = 0, worst_y = 0;
@@ -108,8 +108,8 @@ inline Difference difference(const Picture& a, const Picture& b, double relative
         sum += std::abs(first - second);
         squares += (first - second) * (first - second);
         total += second;
-        // Of the brightest pixel: dark ones are sums of what cancels nothing, but float has its
-        // rounding unit of the terms.
+        // Relative to the brightest pixel: dark pixels are sums of large terms, whose rounding
+        // error they keep.
         if (!(off <= relative * d.peak)) ++d.off;
         if (off > d.worst) {
             d.worst = off;

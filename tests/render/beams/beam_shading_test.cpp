@@ -13,9 +13,9 @@ namespace {
 
 using namespace culet;
 
-// One ray through the middle of each pixel, as the reference with one sample. Single precision has
-// a rounding unit of 6e-8; a path turns it into a direction off by some 1e-6 after six facets,
-// which lobes of exponent 120 make 1e-4 of. `most_off`: pixels within that of an edge of a facet or
+// One ray through the middle of each pixel, like the reference with one sample. Single precision
+// has a rounding unit of 6e-8. After six facets the direction is off by some 1e-6, and lobes of
+// exponent 120 make this 1e-4. `most_off`: the share of pixels that close to an edge of a facet or
 // light.
 void expect_as_reference(Scene scene, double most_off = 1e-3) {
     const RenderResult beams = with_engine(scene, "beams", 1),
@@ -24,7 +24,7 @@ void expect_as_reference(Scene scene, double most_off = 1e-3) {
     ASSERT_GT(d.pixels, 500);
     EXPECT_EQ(d.not_finite, 0) << d;
     EXPECT_LE(d.off, std::max(2.0, std::ceil(most_off * d.pixels))) << d;
-    // What stays inside is that of the same rays; the odd pixel at an edge has another way.
+    // The remainder is that of the same rays; a few pixels at edges take another path.
     EXPECT_NEAR(beams.stats.remainder, reference.stats.remainder + reference.stats.cut, 2e-4) << d;
     EXPECT_NEAR(beams.stats.absorbed, reference.stats.absorbed, 2e-4);
     EXPECT_NEAR(beams.stats.mean_radiance / reference.stats.mean_radiance, 1, 2e-3) << d;
@@ -86,8 +86,8 @@ TEST(SingleRays, AreTheReferencesInAnEnvironment) {
                                reference = with_engine(scene, "reference", 1);
             const Difference d = difference(beams.picture, reference.picture, 1e-2);
             EXPECT_EQ(d.not_finite, 0);
-            // The octahedral map interpolates between other points than the lat-long one: off by
-            // the square of a texel times the curvature, about 1/8 (2 pi / width)^2.
+            // The octahedral map interpolates between other points than the lat-long one: the error
+            // is the square of a texel times the curvature, about 1/8 (2 pi / width)^2.
             const double texel = 2 * 3.1416 / width;
             EXPECT_LE(d.mean, 0.25 * texel * texel + 2e-4) << d;
         }
@@ -100,7 +100,7 @@ TEST(SingleRays, AreTheReferencesAtEveryDepth) {
         Scene scene = shaded_scene();
         smooth_lights()[1].make(scene);
         scene.settings.depth = depth;
-        // Every facet met adds borders between ways, and rounding.
+        // Every facet met adds borders between paths, and rounding error.
         expect_as_reference(scene, 1e-3 * std::max(1, depth / 6));
     }
 }
@@ -140,8 +140,8 @@ TEST(SingleRays, AreTheReferencesWhereOnlyAPartIsSeen) {
     expect_as_reference(scene);
 }
 
-// A constant light of 1: what is seen, what was absorbed and what is left add up to 1. The mean
-// radiance is a luminance, the others are means over wavelengths: one wavelength says all.
+// In a constant light of 1 the light seen, absorbed and remaining adds up to 1. The mean radiance
+// is a luminance, the others are means over wavelengths; with one wavelength they agree.
 TEST(Furnace, SendsBackWhatGoesIn) {
     std::mt19937_64 random(20283);
     for (const std::string engine : {"beams", "preview"}) {
@@ -184,11 +184,12 @@ protected:
     void TearDown() override { use_shading_target(shading_targets().front()); }
 };
 
-// The same operations in another width; fused multiply-adds round once instead of twice. What
-// leaves near the critical angle turns by the root of a rounding unit, 3e-4, and of an edged light
-// a pixel may see a tenth of a radian there: 3e-3 of the light, for few pixels. The middle of a
-// part of a pixel is off by rounding of its moments over its area, 2e-5 pixels in regions 50 wide,
-// and a map changes by several times its mean over a pixel of what leaves steeply: 1e-4.
+// The same operations at another vector width; fused multiply-adds round once instead of twice.
+// Near the critical angle the exit direction turns by the root of a rounding unit, 3e-4. There a
+// pixel may see a tenth of a radian of a light with an edge: 3e-3 of the light, for few pixels. The
+// centroid of a part of a pixel is off by the rounding error of its moments over its area, 2e-5
+// pixels in regions 50 wide; for light that leaves at grazing angles a map changes by several times
+// its mean over a pixel: 1e-4.
 TEST_F(Targets, OfEveryInstructionSetDrawTheSamePicture) {
     std::vector<NamedChange> lights = edged_lights();
     const std::size_t edged = lights.size();

@@ -1,5 +1,5 @@
-// Expectations: beams tile what they are split from, so that their areas add up to the front
-// facets'; every ray of a beam, traced by itself with exact refraction, meets the beam's facets.
+// Expectations: beams tile what they are split from, so their areas add up to those of the front
+// facets; every ray of a beam, traced with exact refraction, meets the beam's facets.
 
 #include "render/beams/beam_tree.h"
 
@@ -17,7 +17,7 @@ namespace {
 using namespace culet;
 
 constexpr double k_n = 2.417;
-constexpr double k_lost = 4e-5;  // what the design allows in any view
+constexpr double k_lost = 4e-5;  // the design's limit for any view
 
 struct View {
     std::string name;
@@ -25,8 +25,8 @@ struct View {
     Camera camera;
 };
 
-// Views that make trouble: many corners in one point, edges through the middles of pixels, facets
-// seen edge on, eyes close by.
+// Difficult views: many corners in one point, edges through pixel centres, facets seen edge-on,
+// eyes close by.
 std::vector<View> hard_views() {
     std::vector<View> views;
     const auto add = [&](const std::string& name, const Solid& solid,
@@ -117,8 +117,8 @@ TEST(BeamTrees, OfHardViewsLoseNoArea) {
     }
 }
 
-// Leaves that overlap could hide lost area: a point must be in one leaf if its ray meets the stone,
-// and else in none.
+// Overlapping leaves could hide lost area: a point must be in exactly one leaf if its ray meets the
+// stone, else in none.
 TEST(BeamTrees, OfHardViewsHaveOneLeafAtEachPoint) {
     std::mt19937_64 random(20275);
     for (const View& view : hard_views()) {
@@ -153,12 +153,12 @@ TEST(BeamTrees, OfHardViewsHaveOneLeafAtEachPoint) {
                 body.entry(screen.origin(p), glm::normalize(screen.towards(p))).has_value();
             wrong += in != (hits ? 1 : 0);
         }
-        // A point in lost area is as rare as that.
+        // The chance that a point falls into lost area is as small as that.
         EXPECT_EQ(wrong, 0) << "of " << k_points;
     }
 }
 
-// Facets that the ray through `p` meets, by exact refraction.
+// The facets that the ray through `p` meets, by exact refraction.
 std::vector<int> traced(const ConvexBody& body, const ScreenView& view, const ScreenPoint& p,
                         std::size_t depth) {
     const EyeRay ray{view.origin(p), glm::normalize(view.towards(p))};
@@ -178,7 +178,7 @@ std::vector<int> traced(const ConvexBody& body, const ScreenView& view, const Sc
     return met;
 }
 
-// Share of the stone's area whose rays do not meet the facets of their beam.
+// The share of the stone's area whose rays do not meet the facets of their beam.
 double wrong_share(const View& view, const BeamTree& tree, const ScreenView& screen, int every,
                    std::mt19937_64& random) {
     const ConvexBody body(view.solid);
@@ -233,13 +233,13 @@ TEST(BeamTrees, OfParallelRaysNameTheFacetsThatEachRayMeets) {
             limits.depth = 7;
             limits.refraction = kind;
             const BeamTree tree = tree_of(net, screen, limits);
-            // Points within rounding of a beam's border fall on either side.
+            // Points within rounding error of a beam's border may fall on either side.
             EXPECT_LE(wrong_share(parallel, tree, screen, 7, random), 1e-8);
         }
     }
 }
 
-// The design's figures for a round brilliant, before verification, of 800 pixels at depth 8.
+// The design's figures for a round brilliant of 800 pixels at depth 8, before verification.
 TEST(BeamTrees, OfARoundBrilliantNameTheFacetsOfAlmostEveryRay) {
     std::mt19937_64 random(20277);
     for (const auto& [distance, most] : {std::pair{12.0, 0.0015}, {5.0, 0.006}}) {
@@ -260,9 +260,9 @@ TEST(BeamTrees, OfARoundBrilliantNameTheFacetsOfAlmostEveryRay) {
     }
 }
 
-// Halving by map error keeps the share small in hard views, too. Borders are off by at most
-// `map_error` pixels at the corners of what they bound; a beam of 400-pixel pictures has some
-// hundred square pixels per ten pixels of border.
+// Splitting by map error keeps the share small in difficult views too. Borders are off by at most
+// `map_error` pixels at their corners; a beam in 400-pixel pictures has some hundred square pixels
+// per ten pixels of border.
 TEST(BeamTrees, OfHardViewsNameTheFacetsOfMostRays) {
     std::mt19937_64 random(20278);
     for (const View& view : hard_views()) {
@@ -302,7 +302,7 @@ TEST(BeamTrees, OfDepth1AreTheFrontFacetsAndOfDepth2MeetOneMore) {
     }
 }
 
-// A beam that is cut stays a leaf, whole.
+// A pruned beam stays one whole leaf.
 TEST(BeamTrees, ThatAreCutKeepTheirArea) {
     const Solid solid = round_brilliant();
     const FacetNet net(solid);
@@ -327,7 +327,7 @@ TEST(BeamTrees, ThatAreCutKeepTheirArea) {
     EXPECT_LT(before, all / 10);
 }
 
-// What is built into used memory does not know of what was there.
+// Reused memory must not influence the result.
 TEST(BeamTrees, BuiltIntoUsedMemoryAreTheSame) {
     std::mt19937_64 random(20279);
     BeamTree used;

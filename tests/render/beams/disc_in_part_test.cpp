@@ -30,7 +30,7 @@ TEST(ShareInCircle, OfASquareHasClosedForms) {
     EXPECT_NEAR(share(square_at(1, 0), 0.5), pi * 0.25 / 8, 1e-14) << "half, at a side";
     EXPECT_NEAR(share(square_at(1, 1), 0.5), pi * 0.25 / 16, 1e-14) << "a quarter, at a corner";
     EXPECT_EQ(share(square_at(3, 0), 0.5), 0) << "beside it";
-    // Four segments less: each r^2 acos(d / r) - d sqrt(r^2 - d^2).
+    // Less four segments, each r^2 acos(d / r) - d sqrt(r^2 - d^2).
     const double r = 1.2, segment = r * r * std::acos(1 / r) - std::sqrt(r * r - 1);
     EXPECT_NEAR(share(square_at(0, 0), r), (pi * r * r - 4 * segment) / 4, 1e-14);
 }
@@ -63,8 +63,8 @@ TEST(ShareInCircle, OfRandomPolygonsIsThatOfPointsAndOfTheirMirrorImages) {
             in += within && std::hypot(p.x, p.y) < radius;
         }
         const double found = share(polygon, radius);
-        // Points are 0.005 apart: along borders of some 10, every second may be on the other side
-        // at worst, by chance their root.
+        // Points are 0.005 apart. Along borders of length 10, every second point may be on the
+        // wrong side at worst; by chance it is their square root.
         if (all > 1000) {
             EXPECT_NEAR(found, static_cast<double>(in) / all, 100.0 / all);
         }

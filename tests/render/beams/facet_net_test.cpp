@@ -1,5 +1,5 @@
-// Expectations: Euler's formula, V - E + F = 2 for one closed surface without holes; counts of the
-// cuts by their definition.
+// Expectations: Euler's formula, V - E + F = 2, for one closed surface without holes; and counts
+// from the definitions of the cuts.
 
 #include "render/beams/facet_net.h"
 
@@ -54,7 +54,7 @@ Counts expect_closed(const FacetNet& net) {
     return counts;
 }
 
-// Corners lie on the planes of their facets, but for what joined corners are moved.
+// Corners lie on the planes of their facets, except where joining moved them.
 void expect_on_planes(const FacetNet& net) {
     const double most = 4 * std::sqrt(2.3e-16) * net.size();
     for (int f = 0; f < net.facets(); ++f) {
@@ -98,8 +98,8 @@ TEST(Net, OfRandomStonesAndSliversIsClosed) {
     }
 }
 
-// The same brilliant with every plane moved by up to `miss`: meets become short edges, down to
-// where they are one corner again.
+// The same brilliant with every plane moved by up to `miss`: meets become short edges, until they
+// merge into one corner again.
 TEST(Net, OfNearMissMeetsIsClosed) {
     std::mt19937_64 random(20269);
     std::uniform_real_distribution<double> move(-1, 1);

@@ -15,14 +15,14 @@ using namespace culet;
 
 constexpr double k_stone = 2.417;
 
-// A ray through the stone: where it is at its last facet.
+// A ray through the stone, and its position at its last facet.
 struct Walk {
     Vec3 point, direction;
     std::vector<int> facets;
 };
 
 Vec3 snell(const Vec3& v, const Vec3& outwards, double n) {
-    // By its parts along and across the normal: the part across shrinks by n.
+    // Along the normal and across it: the part across shrinks by n.
     const double along = glm::dot(v, outwards);
     const Vec3 across = (v - along * outwards) / n;
     return across - std::sqrt(1 - glm::dot(across, across)) * outwards;
@@ -32,7 +32,7 @@ Vec3 onto(const Vec3& from, const Vec3& d, const Plane& plane) {
     return from - height_above(plane, from) / glm::dot(plane.normal, d) * d;
 }
 
-// Along given facets, as if their planes were mirrors without end.
+// Along given facets, as if their planes were infinite mirrors.
 Walk walk_along(const EyeRay& ray, const std::vector<Plane>& planes, double n) {
     Walk walk;
     walk.point = onto(ray.origin, ray.direction, planes.front());
@@ -47,7 +47,7 @@ Walk walk_along(const EyeRay& ray, const std::vector<Plane>& planes, double n) {
     return walk;
 }
 
-// Facets that the ray meets, front first.
+// The facets that the ray meets, front first.
 std::vector<Plane> planes_met(const Solid& solid, const EyeRay& ray, int depth, double n) {
     double entry = -1e300;
     const Plane* last = nullptr;
@@ -78,7 +78,7 @@ std::vector<Plane> planes_met(const Solid& solid, const EyeRay& ray, int depth, 
     return met;
 }
 
-// The map that the tree would use of the ray's last facet.
+// The tree's map at the ray's last facet.
 PencilMap map_at(const ScreenView& view, const ScreenPoint& at, const std::vector<Plane>& met,
                  double n, Refraction refraction, const Pencil& about) {
     Folding folding;
@@ -102,7 +102,7 @@ ScreenPoint seen(const PencilMap& map, const Vec3& p) {
     return {image.x / image.z, image.y / image.z};
 }
 
-// The map's image of where the rays `step` pixels beside the middle one arrive moves by as much.
+// Rays `step` pixels from the middle one must arrive where the map says.
 void expect_exact_to_first_order(const Camera& camera, const Solid& solid, const ScreenPoint& at,
                                  int depth, double step, double most) {
     const ScreenView view = screen_view(camera);
@@ -123,8 +123,8 @@ void expect_exact_to_first_order(const Camera& camera, const Solid& solid, const
     }
 }
 
-// Central differences are off by the third derivative times the step squared; beside it there is
-// rounding, of pixels' coordinates and of the path's, over the step.
+// Central differences are off by the third derivative times the step squared, plus the rounding
+// error of pixel coordinates and of the path over the step.
 TEST(PencilMaps, FollowRefractedAndReflectedRaysToFirstOrder) {
     std::mt19937_64 random(20270);
     std::uniform_real_distribution<double> pixel(150, 250);
@@ -156,7 +156,7 @@ TEST(PencilMaps, AtNormalIncidenceHaveNoDirectionOfTheirOwn) {
     const Solid solid = round_brilliant();
     Scene scene = plain_scene(solid);
     scene.camera.width = scene.camera.height = 401;
-    // Straight through the table's middle onto the culet; and a little beside it.
+    // Straight through the table's middle onto the culet; and slightly beside it.
     look(scene, {0, 0, 1}, 6);
     for (const double off : {0.0, 1e-12, 1e-9, 1e-6, 1e-3}) {
         SCOPED_TRACE(off);
@@ -166,7 +166,7 @@ TEST(PencilMaps, AtNormalIncidenceHaveNoDirectionOfTheirOwn) {
         EXPECT_NEAR(glm::length(pencil.tangential), 1, 1e-12);
         EXPECT_NEAR(glm::length(pencil.sagittal), 1, 1e-12);
         EXPECT_NEAR(glm::dot(pencil.tangential, table.normal), 0, 1e-10);
-        // The limit of Coddington's two image distances: both n times the eye's.
+        // The limit of Coddington's two image distances: both are n times the eye's.
         EXPECT_NEAR(pencil.k_t / pencil.k_s, 1, 1e-6);
         expect_exact_to_first_order(scene.camera, solid, {200.5 + off, 200.5}, 2, 1e-3, 1e-5);
     }
@@ -183,13 +183,13 @@ TEST(PencilMaps, AtGrazingIncidenceFollowTheRaysToFirstOrder) {
         scene.camera.look_at = {0, 0, 0};
         scene.camera.up = {0, 0, 1};
         scene.camera.fov = 1e-3 * height;
-        // The step is small against what is left of the angle.
+        // The step is small compared with the remaining angle.
         expect_exact_to_first_order(scene.camera, solid, {200.5, 200.5}, 2, 1e-2, 1e-4);
         expect_exact_to_first_order(scene.camera, solid, {200.5, 200.5}, 3, 1e-2, 1e-4);
     }
 }
 
-// Parallel rays stay parallel at planes: every kind of map is exact everywhere, not only about its
+// Parallel rays stay parallel at planes: every kind of map is exact everywhere, not only around its
 // middle ray.
 TEST(PencilMaps, OfAParallelCameraAreExactOfEveryKind) {
     std::mt19937_64 random(20271);
@@ -217,7 +217,7 @@ TEST(PencilMaps, OfAParallelCameraAreExactOfEveryKind) {
     }
 }
 
-// From a distance the eye is as good as parallel: the three kinds differ by a map's depth over the
+// From a distance rays are nearly parallel: the three kinds differ by a map's depth over the
 // distance, times the offset in pixels.
 TEST(PencilMaps, OfAllKindsAgreeFromFarAway) {
     std::mt19937_64 random(20272);
@@ -236,15 +236,15 @@ TEST(PencilMaps, OfAllKindsAgreeFromFarAway) {
         for (const Refraction kind :
              {Refraction::astigmatic, Refraction::perspective, Refraction::parallel}) {
             const ScreenPoint p = seen(map_at(view, at, met, k_stone, kind, pencil), point);
-            // Depths of some 10 over 1e6, of 30 pixels; the grazing front facets of some stones
-            // make it ten times more.
+            // Depths of some 10 over 1e6, at 30 pixels; grazing front facets of some stones make it
+            // ten times more.
             EXPECT_NEAR(p.x, 230, 1e-2);
             EXPECT_NEAR(p.y, 180, 1e-2);
         }
     }
 }
 
-// Mirroring is its own inverse, and leaves the mirror's points where they are.
+// A reflection is its own inverse and keeps the mirror's points in place.
 TEST(Foldings, MirrorBackAndForth) {
     std::mt19937_64 random(20273);
     for (int i = 0; i < 20; ++i) {

@@ -1,5 +1,5 @@
-// Expectations: each pixel's square clipped by the polygon (Sutherland & Hodgman 1974, in double),
-// and that what tiles the picture fills each pixel once.
+// Expectations: each pixel's square clipped by the polygon (Sutherland & Hodgman 1974, in double);
+// and a tiling of the picture fills each pixel once.
 
 #include "render/beams/pixel_coverage.h"
 
@@ -27,7 +27,7 @@ double area_of(const Polygon& p) {
     return 0.5 * sum;
 }
 
-// What of the polygon is where a x + b y + c >= 0.
+// The part of the polygon where a x + b y + c >= 0.
 Polygon clipped(const Polygon& p, double a, double b, double c) {
     Polygon kept;
     for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) {
@@ -52,7 +52,7 @@ double area_in_pixel(const Polygon& p, int x, int y) {
     return kept.size() < 3 ? 0 : area_of(kept);
 }
 
-// Mean place and covariances, of a polygon's triangles about its first corner.
+// Centroid and covariances, from the polygon's triangles about its first corner.
 struct Spread {
     double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
@@ -78,7 +78,7 @@ Spread spread_of(const Polygon& p) {
     return s;
 }
 
-// Positively oriented (from x to y): corners of an ellipse, turned.
+// Positively oriented (from x to y): corners of a rotated ellipse.
 Polygon random_polygon(std::mt19937_64& random, double cx, double cy, double rx, double ry) {
     std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);
     std::uniform_int_distribution<int> sides(3, 9);
@@ -95,9 +95,9 @@ Polygon random_polygon(std::mt19937_64& random, double cx, double cy, double rx,
     return polygon;
 }
 
-// Coordinates are rounded to single precision in a corner of the polygon, `extent` pixels wide: an
-// area is off by a rounding unit of that for each edge in the pixel, and the running sum of a row
-// adds one of 1 for each column.
+// Coordinates relative to a corner of the polygon, `extent` pixels wide, are rounded to single
+// precision: an area is off by a rounding unit of that per edge in the pixel, and the running sum
+// of a row adds one of 1 per column.
 double tolerance(double extent) {
     return 8 * 6e-8 * (extent + 2);
 }
@@ -144,14 +144,14 @@ protected:
                     std::max(missed, std::abs(found[static_cast<std::size_t>(y * k_width + x)] -
                                               area_in_pixel(polygon, x, y)));
         }
-        // Shares that rounding alone keeps from 0 or 1 are 0 and 1.
+        // Shares that differ from 0 or 1 by rounding error only become 0 and 1.
         ASSERT_LE(missed, most + 4e-6)
             << polygon.size() << " corners, rows " << row_begin << ".." << row_end << ", from ("
             << polygon[0].x << ", " << polygon[0].y << ")";
     }
 };
 
-// Moments of a part are off by as much as its area, which divides them.
+// Moments of a part are off by as much as its area, by which they are divided.
 void expect_parts(const Polygon& polygon, const CoveredPixels& found, int width, double most) {
     int looked_at = 0;
     for (const PixelRun& run : found.runs) {
@@ -169,7 +169,7 @@ void expect_parts(const Polygon& polygon, const CoveredPixels& found, int width,
                          yy = static_cast<double>(found.yy[at]);
             ASSERT_NEAR(static_cast<double>(found.x[at]), exact.x, off) << area;
             ASSERT_NEAR(static_cast<double>(found.y[at]), exact.y, off) << area;
-            // The square's are 1/12 and 0; a mean's square is off by twice the mean.
+            // Those of the square are 1/12 and 0; a mean's square is off by twice the mean.
             ASSERT_NEAR(xx * xx / 12, exact.xx, 2 * off) << area;
             ASSERT_NEAR(xx * yx / 12, exact.xy, 2 * off) << area;
             ASSERT_NEAR((yx * yx + yy * yy) / 12, exact.yy, 2 * off) << area;
@@ -197,7 +197,7 @@ TEST_P(Coverage, HasTheMiddlesAndWidthsOfItsParts) {
 }
 
 TEST_P(Coverage, OfPartsWithoutWidthStaysInThePixel) {
-    // A diagonal and an upright sliver, of which single precision knows little or nothing.
+    // A diagonal and an upright sliver, near or below the resolution of single precision.
     for (const double width : {1e-3, 1e-5, 1e-7, 1e-9}) {
         for (const Polygon& sliver : {Polygon{{3.1, 4.2}, {7.1 + width, 8.2}, {7.1, 8.2}},
                                       Polygon{{3.5, 4.2}, {3.5 + width, 4.2}, {3.5, 9.7}}}) {
@@ -256,8 +256,8 @@ TEST_P(Coverage, WithCornersOnPixelBordersIsWhatClippingSays) {
     for (int i = 0; i < 1500; ++i) {
         SCOPED_TRACE("seed 20264, polygon " + std::to_string(i));
         Polygon polygon = random_polygon(random, x(random), y(random), r(random), r(random));
-        // Halves: borders and middles. A rounded polygon may be concave by its own rounding; its
-        // areas are what clipping says all the same, as long as it does not cross itself.
+        // Halves: borders and centres. Rounding may make a polygon concave; clipping still gives
+        // its areas unless it intersects itself.
         for (ScreenPoint& p : polygon) {
             p.x = std::round(2 * p.x) / 2;
             if (i % 2 == 0) p.y = std::round(2 * p.y) / 2;
@@ -280,7 +280,7 @@ TEST_P(Coverage, OfSomeRowsIsThatOfTheWhole) {
     }
 }
 
-// Regions end at the picture's borders, as those of beams do.
+// Regions end at the picture's borders, like beams.
 TEST_P(Coverage, AtThePicturesBordersIsWhatClippingSays) {
     std::mt19937_64 random(20266);
     std::uniform_real_distribution<double> x(-5, k_width + 5), y(-5, k_height + 5), r(0.5, 19);
@@ -307,7 +307,7 @@ TEST_P(Coverage, NearTheBorderIsWithinTheMargin) {
         if (!polygon.empty()) polygon = clipped(polygon, -1, 0, k_width);
         if (polygon.size() < 3) continue;
         if (i % 5 == 0) {
-            // A level side on a row of middles.
+            // A horizontal side on a row of pixel centres.
             polygon = clipped(polygon, 0, 1, -(std::floor(polygon[0].y) - 2.5));
             if (polygon.size() < 3) continue;
         }
@@ -337,7 +337,7 @@ TEST_P(Coverage, NearTheBorderIsWithinTheMargin) {
                 nearest = std::min(nearest,
                                    (dx * (py - polygon[a].y) - dy * (px - polygon[a].x)) / length);
             }
-            // Off a rounding unit of the places, a middle is near the border or it is not.
+            // Up to a rounding unit, a centre is either near the border or not.
             if (std::abs(nearest - m) > 1e-9) {
                 ASSERT_EQ(split[k].second, nearest < m);
             }
@@ -348,8 +348,8 @@ TEST_P(Coverage, NearTheBorderIsWithinTheMargin) {
 INSTANTIATE_TEST_SUITE_P(OnEach, Coverage, testing::ValuesIn(shading_targets()),
                          [](const auto& target) { return target.param; });
 
-// The picture cut by lines, each cell by each line in turn; a line is evaluated alike for both
-// sides, and a crossing is computed alike for both.
+// The picture cut by lines, each cell by each line in turn. Both sides use the same evaluation of
+// the line and the same crossings.
 std::vector<Polygon> subdivision(double width, double height,
                                  const std::vector<std::array<double, 3>>& lines) {
     std::vector<Polygon> cells{{{0, 0}, {width, 0}, {width, height}, {0, height}}};
@@ -412,8 +412,8 @@ TEST(Tiling, ByRandomLinesFillsEachPixelOnce) {
     }
 }
 
-// Upright, level and diagonal lines through middles of pixels, as an odd-sized picture of a
-// symmetric stone has them: crossings and middles are exact in double.
+// Vertical, horizontal and diagonal lines through pixel centres, as in an odd-sized picture of a
+// symmetric stone: crossings and centres are exact in double.
 TEST(Tiling, ByLinesThroughPixelMiddlesTakesEachMiddleOnce) {
     const double m = 20.5;
     std::vector<std::array<double, 3>> lines{{1, 0, -m}, {0, 1, -m}, {1, -1, 0}, {1, 1, -2 * m}};

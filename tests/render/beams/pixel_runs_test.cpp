@@ -1,4 +1,4 @@
-// Against the loops that they stand for, on every instruction set that this processor has.
+// Compares the vectorised loops with plain ones on every instruction set of this processor.
 
 #include "render/beams/pixel_runs.h"
 
@@ -23,7 +23,7 @@ protected:
     void SetUp() override { ASSERT_TRUE(use_shading_target(GetParam())); }
     void TearDown() override { use_shading_target(shading_targets().front()); }
 
-    // One run in every row, of any length, with values beyond the runs that must not be used.
+    // One run of any length in every row; values beyond the runs must not be used.
     void make_runs(std::mt19937_64& random) {
         std::uniform_int_distribution<int> column(0, k_width);
         std::uniform_real_distribution<float> value(0, 1);
@@ -104,7 +104,7 @@ TEST_P(Runs, AreSummed) {
             of_shares += static_cast<double>(shares_[at]);
             of_products += static_cast<double>(shares_[at]) * static_cast<double>(values_[at]);
         }
-        // A rounding for each number added, of a sum that is no larger than their count.
+        // One rounding per number added, of a sum no larger than their count.
         const double rounding = 6e-8 * count_ * count_;
         EXPECT_NEAR(static_cast<double>(sum_of_shared(nullptr, shares_.data(), count_)), of_shares,
                     rounding);
@@ -116,7 +116,7 @@ TEST_P(Runs, AreSummed) {
 TEST_P(Runs, TellOfWholePixelsWithoutAMark) {
     for (int count : {0, 1, 5, 16, 17, 40}) {
         const std::size_t size = static_cast<std::size_t>(count + k_shading_room);
-        // Beyond the count all would be found.
+        // Beyond the count every entry would match.
         std::vector<float> marks(size, 0.0f), shares(size, 1.0f);
         std::fill_n(marks.begin(), count, 1.0f);
         EXPECT_FALSE(any_unmarked_whole(marks.data(), shares.data(), count));

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int k_side = 40;
 constexpr double k_tolerance = 0.05;
-// Of the mean radiance: a fifth of the tolerance. What differs less was not asked for, and other
-// processors may round a ray at an edge to its other side.
+// Relative to the mean radiance: a fifth of the tolerance. The tolerance permits smaller
+// differences, and other processors may round a ray at an edge to the other side.
 constexpr double k_floor = k_tolerance / 5;
 
 }  // namespace
@@ -88,7 +88,7 @@ double squared_difference(const Picture& picture, const GoldenPicture& golden) {
     double squares = 0, expected = 0;
     for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
         const double off = double(picture.rgb[i]) - double(golden.mean.rgb[i]);
-        // The mean of `count` is off by chance too.
+        // The mean of `count` pictures has its own variance.
         const double variance = golden.variance[i] * (1 + 1.0 / golden.count) + floor * floor;
         squares += off * off;
         expected += variance;

@@ -1,6 +1,6 @@
-// Scenes of samples/effects against pictures that are kept. Expectations: the mean of 16 pictures
-// with other seeds, and their variance. Most of them do not depend on the seed. Where a change is
-// meant to change a picture, look at the old and the new one and run build/make_golden.
+// Scenes of samples/effects against stored pictures. Expectations: the mean of 16 pictures with
+// other seeds, and their variance. Most pictures do not depend on the seed. If a change is meant to
+// change a picture, look at the old and the new one and run build/make_golden.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,8 @@ namespace {
 
 class Golden : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
-// What it was, what it is, and ten times how far it is off about grey; where they lie.
+// Writes the old picture, the new one, and ten times their difference about grey. Returns where
+// they are.
 std::string left_behind(const Picture& picture, const GoldenPicture& golden,
                         const std::string& name) {
     Picture off = picture;
@@ -30,7 +31,7 @@ std::string left_behind(const Picture& picture, const GoldenPicture& golden,
     return (folder / (name + "-*.png")).string();
 }
 
-// Five standard deviations of what the kept pictures are against each other.
+// Five standard deviations of the stored pictures' differences from each other.
 double most_of(const GoldenPicture& golden) {
     return std::max(1.0, golden.ratio_mean + 5 * golden.ratio_sigma);
 }
@@ -53,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, Golden,
                              return name;
                          });
 
-// The test can fail: a stone a twentieth brighter in one corner is noticed.
+// A counter-test: a stone a twentieth brighter in one corner is noticed.
 TEST(GoldenPictures, ASmallChangeIsNoticed) {
     const std::string scene = "garnet-depth", engine = "reference";
     const GoldenPicture golden = read_golden(golden_file(scene, engine));

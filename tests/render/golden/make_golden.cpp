@@ -1,5 +1,5 @@
-// Makes the pictures anew that golden_test.cpp holds others against. Look at them before they are
-// committed. Arguments: only these scenes.
+// Redraws the pictures that golden_test.cpp compares with. Look at them before they are committed.
+// Arguments: only these scenes.
 
 #include <fmt/format.h>
 

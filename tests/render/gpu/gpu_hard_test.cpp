@@ -1,4 +1,4 @@
-// The GPU kernel where it is hard, and what it must conserve.
+// Hard cases for the GPU kernel, and what it must conserve.
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 namespace culet {
 namespace {
 
-// A picture of one sample with its account of the light, as the canvas has them.
+// A picture of one sample with its energy balance, as on the canvas.
 struct Accounts {
     std::vector<float> sum, balance;
 };
@@ -34,8 +34,8 @@ Accounts drawn(const Scene& scene) {
     return {canvas.read(0), canvas.read(1)};
 }
 
-// Conservation: of a constant light of 1 a pixel shows all but what the account says was lost. Each
-// face adds roundings of 6e-8; some ten faces, each with a few operations.
+// Conservation: in a constant light of 1 a pixel shows all light except the reported losses. Each
+// face adds roundings of 6e-8; there are some ten faces with a few operations each.
 constexpr float k_rounding = 5e-6f;
 
 void expect_balance(const Scene& scene, int least) {
@@ -68,7 +68,7 @@ TEST_F(GpuHard, AFurnaceShowsNothingButItself) {
         scene.settings.effects.fill(true);
         scene.settings.effects[static_cast<std::size_t>(Effects::polarization)] = polarised;
         expect_balance(scene, 3000);
-        // Down to nothing left: exactly white.
+        // Until nothing remains: exactly white.
         scene.settings.depth = 400;
         const Accounts all = drawn(scene);
         for (std::size_t i = 0; i < all.sum.size(); i += 4)
@@ -92,8 +92,8 @@ TEST_F(GpuHard, LightIsSeenAbsorbedOrLeft) {
 }
 
 TEST_F(GpuHard, RaysThroughEdgesAndCorners) {
-    // A cube whose edges and corners lie on the rays of pixels, to the bit: seen along an edge's
-    // bisector, the edge is the picture's middle column.
+    // A cube whose edges and corners lie exactly on pixel rays: seen along an edge's bisector, the
+    // edge is the picture's middle column.
     std::vector<NamedPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
         for (const int sign : {-1, 1}) {
@@ -113,9 +113,9 @@ TEST_F(GpuHard, RaysThroughEdgesAndCorners) {
 }
 
 TEST_F(GpuHard, TotalReflectionBeginsWhereItMust) {
-    // Seen from within a prism's reach: the far face of a slab at angles about the critical one.
-    // Next to the critical angle what passes goes with the root of the distance to it, so that 1e-7
-    // turns into 3e-4 of a face's power.
+    // Seen through a prism: the far face of a slab at angles about the critical one. There
+    // transmission goes as the square root of the distance from the critical angle, so 1e-7 becomes
+    // 3e-4 of a face's power.
     std::vector<NamedPlane> planes{{"entry", {glm::normalize(Vec3{1, 0, 1}), 1}},
                                    {"far", {{0, 0, -1}, 0.2}},
                                    {"side", {{-1, 0, 0}, 2}},

@@ -1,12 +1,11 @@
 // The GPU kernel against the reference, along the same rays.
 //
-// Bounds. Outside pixels at edges of the path pattern 2e-3 of the mean is what is asked for; single
-// precision must reach far less where lights are smooth: a path of seven faces turns a rounding of
-// 6e-8 of the stone's size into some 1e-6 in place and angle, after the spreading of the inner
-// reflections, and the light's slope over radians is of order 1 to 10.
-// Of all pixels some may be decided otherwise: those whose ray passes an edge, of a facet or of a
-// light, by less than that rounding. A pixel is some 1/80 of the stone here, so that this is 1e-4
-// of a pixel beside an edge; with some ten edges through every pixel it is one pixel in a thousand.
+// Bounds: the requirement is 2e-3 of the mean, outside pixels at edges of the path pattern. Single
+// precision must be far better in smooth lights: a path of seven faces turns a rounding error of
+// 6e-8 of the stone's size into some 1e-6 in place and angle, and the light's slope per radian is
+// of order 1 to 10. Some pixels may take another path: those whose ray passes an edge of a facet or
+// light by less than that rounding error. A pixel is some 1/80 of the stone, so this is 1e-4 of a
+// pixel beside an edge; with some ten edges through every pixel it is one pixel in a thousand.
 
 #include "tests/render/gpu/gpu_scenes.h"
 
@@ -44,7 +43,7 @@ PixelErrors gpu_against(const Scene& scene, const std::string& engine) {
                      inner_pixels(scene));
 }
 
-// `pixels`: that are left beside edges, at least; what is measured there would else say little.
+// `pixels`: at least this many must remain away from edges, else the measurement says little.
 void expect_near(const PixelErrors& errors, double bound, int pixels) {
     EXPECT_LE(errors.inner_rms, bound) << errors;
     EXPECT_GE(errors.inner, pixels) << errors;
@@ -132,7 +131,7 @@ TEST_F(GpuKernel, DrawsRandomStonesOfAnyView) {
     }
 }
 
-// Every kind of polarised light, an analyser and a plate before it.
+// Every kind of polarised light, with a retarder and an analyser.
 Scene polarised_scene() {
     Scene scene = facing(round_brilliant());
     scene.camera.optics.analyzer = 0.5;
@@ -182,7 +181,7 @@ TEST_F(GpuKernel, HasAllFourStokesParameters) {
                 off += !(std::abs(static_cast<double>(gpu.polarised[k][node][i]) - exact) < 5e-4);
                 largest = std::max(largest, std::abs(exact));
             }
-            // Rays within rounding of an edge of a facet or of a light.
+            // Rays within rounding error of an edge of a facet or light.
             EXPECT_LE(off, 10) << "S" << k + 1 << " at node " << node;
             EXPECT_GT(largest, 0.05) << "S" << k + 1;
         }
@@ -236,7 +235,7 @@ TEST_F(GpuKernel, AveragesSamplesAndPupilsAsTheReferenceDoes) {
     scene.settings.filter_radius = 1;
     const Difference plain = difference(with_engine(scene, "gpu", 9).picture,
                                         with_engine(scene, "reference", 9).picture);
-    // One ray of nine, here and there, on the other side of an edge.
+    // Occasionally one ray of nine is on the other side of an edge.
     EXPECT_LE(plain.off, 3) << plain;
     EXPECT_LE(plain.mean, 1e-4) << plain;
     scene.camera.aperture_radius = 0.4;

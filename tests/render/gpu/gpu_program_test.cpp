@@ -1,4 +1,4 @@
-// What the program promises to who drives it, and the engine.
+// The promises of the GPU program to its caller, and of the engine.
 
 #include <gmock/gmock.h>
 
@@ -62,7 +62,7 @@ TEST(GpuProgram, NamesUniformsThatItsSourceHas) {
               static_cast<std::size_t>(4 * program.textures[0].width * program.textures[0].height));
 }
 
-// What a person changes live must not cost a compilation.
+// What a person changes live must not require a compilation.
 TEST(GpuProgram, IsTheSameSourceWhateverChangesLive) {
     const Scene scene = lit_scene();
     const std::string source = program_of(scene).kernel;
@@ -156,7 +156,7 @@ TEST_F(GpuEngine, SaysWhatItDid) {
     for (const char c : gpu.notes.back()) EXPECT_TRUE(c >= ' ' && c <= '~');
 }
 
-// Depth and cut follow from the tolerance as the reference's do.
+// Depth and cut follow from the tolerance as in the reference.
 TEST_F(GpuEngine, CutsWhatTheToleranceAllows) {
     Scene scene = lit_scene();
     scene.settings.depth = 0;
@@ -190,7 +190,7 @@ TEST_F(GpuEngine, StopsWhenAskedTo) {
     EXPECT_GT(draw(scene).stats.mean_radiance, 0);
 }
 
-// u_light_turn, and lights that stand turned.
+// u_light_turn against lights that were turned.
 TEST_F(GpuEngine, TurnsLightsByOneUniform) {
     Scene scene = lit_scene();
     scene.lights.environment = smooth_environment();
@@ -199,8 +199,8 @@ TEST_F(GpuEngine, TurnsLightsByOneUniform) {
     const OpticalSetup setup = make_optical_setup(scene);
     const WavelengthSet colours(setup.wavelengths_nm);
     const GpuProgram program = program_of(scene);
-    // The stone and the eye turned by a quarter about z through the stone's middle, the lights
-    // left: the same picture as the stone left and the lights turned back, where the planes are.
+    // Stone and eye turned by a quarter about z through the stone's middle with fixed lights give
+    // the same picture as a fixed stone with the lights turned back, the planes included.
     const auto quarter = [](const Vec3& v) { return Vec3{-v.y, v.x, v.z}; };
     Scene turned = scene;
     turned.camera.position = program.middle + quarter(scene.camera.position - program.middle);
@@ -236,7 +236,7 @@ TEST_F(GpuEngine, TurnsLightsByOneUniform) {
     EXPECT_GT(lit, 5000);
 }
 
-// The display pass against what a PNG gets.
+// The display pass against the bytes of a PNG.
 TEST_F(GpuEngine, ShowsLightAsPngsDo) {
     Picture ramp;
     ramp.width = 64;
@@ -267,7 +267,7 @@ TEST_F(GpuEngine, ShowsLightAsPngsDo) {
         const std::vector<float> expected = as_shown(ramp, look);
         for (std::size_t i = 0; i < 64; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
-                // A hundredth of a step of eight bits: pow of a driver.
+                // A hundredth of an eight-bit step: the driver's pow.
                 EXPECT_NEAR(static_cast<double>(shown[4 * i + c]),
                             srgb_encoded(static_cast<double>(expected[3 * i + c])), 4e-5)
                     << i;

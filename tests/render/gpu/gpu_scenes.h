@@ -10,7 +10,7 @@
 
 namespace culet {
 
-/// Why there is no driver here; empty: there is one.
+/// Why there is no driver here; empty if there is one.
 inline std::string missing_driver() {
     try {
         const GlContext context;
@@ -20,7 +20,7 @@ inline std::string missing_driver() {
     }
 }
 
-/// Tests that draw: skipped, with a message, only where no driver is installed.
+/// Tests that draw. They are skipped, with a message, only where no driver is installed.
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {

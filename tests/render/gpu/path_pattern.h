@@ -1,5 +1,5 @@
 #pragma once
-// Which pixels are at an edge of the path pattern, and how two pictures differ beside these.
+// Finds the pixels at an edge of the path pattern, and compares two pictures elsewhere.
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace culet {
 
-/// The facets that the path of a pixel's ray meets at one band, in their order; of a ray that
-/// misses the stone none.
+/// The facets that the path of a pixel's ray meets at one band, in order; empty for a ray that
+/// misses.
 struct PathFacets {
     std::vector<int> facets;
     void path_exits(const Vec3&, const Vec3&, const NodeWeights&, const PathTrace&) {}
@@ -23,9 +23,9 @@ struct PathFacets {
     void cut(const NodeWeights&) {}
 };
 
-/// Pixels that are not at an edge of the path pattern: they and their eight neighbours meet the
-/// same facets in the same order on the whole path, at every band of wavelengths (the mean index in
-/// a crystal). Sequences are the reference's, in double precision, one ray through each pixel's
+/// Pixels away from edges of the path pattern: they and their eight neighbours meet the same facets
+/// in the same order on the whole path, at every band of wavelengths (with the mean index in a
+/// crystal). Sequences are the reference's in double precision, one ray through each pixel's
 /// middle.
 inline std::vector<bool> inner_pixels(const Scene& scene) {
     const OpticalSetup setup = make_optical_setup(scene);
@@ -72,14 +72,14 @@ inline std::vector<bool> inner_pixels(const Scene& scene) {
 /// and the same over all of the stone's pixels.
 struct PixelErrors {
     int inner = 0, stone = 0, not_finite = 0;
-    int off = 0;  ///< pixels of the stone that are off by more than a hundredth of the mean
+    int off = 0;  ///< pixels of the stone that differ by more than a hundredth of the mean
     double inner_rms = 0, whole_rms = 0, inner_worst = 0;
 };
 inline PixelErrors errors_of(const Picture& picture, const Picture& truth,
                              const std::vector<bool>& inner) {
     PixelErrors errors;
     double inner_squares = 0, inner_sum = 0, whole_squares = 0, whole_sum = 0, worst = 0;
-    std::vector<double> differences;  // largest of each pixel
+    std::vector<double> differences;  // the largest of each pixel
     for (std::size_t i = 0; i < truth.pixels(); ++i) {
         if (!(truth.coverage[i] > 0)) continue;
         ++errors.stone;

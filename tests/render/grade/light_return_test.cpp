@@ -44,8 +44,8 @@ Solid block() {
     return intersect_half_spaces(planes).solid;
 }
 
-// Straight down into a block, R at every face: out of the bottom goes T (1 + R^2 + ...) T, out of
-// the top T R T (1 + R^2 + ...), and what was reflected first.
+// Straight down into a block, R at every face: the bottom emits T (1 + R^2 + ...) T, the top T R T
+// (1 + R^2 + ...) and the first reflection.
 TEST(LightReturn, OfABlockIsTheGeometricSeries) {
     const EyeLight light =
         EyeLightTracer(block()).trace({0, 0, 1}, 1.5, {.faces = 20, .cut_weight = 0});
@@ -60,7 +60,7 @@ TEST(LightReturn, OfABlockIsTheGeometricSeries) {
     EXPECT_NEAR(sum_of(balance), 1, 1e-14);
 }
 
-// The standard round brilliant that GemRay comes with as SRB.asc (Strickland): its angles and
+// The standard round brilliant SRB.asc that comes with GemRay (Strickland): its angles and
 // distances.
 Solid gemrays_round_brilliant() {
     struct Tier {
@@ -121,10 +121,10 @@ TEST(LightReturn, IsGemrays) {
     EXPECT_NEAR(100 * diamond[2], 41.84, 0.7);
 }
 
-// GemRay's sign (docs/grade.md): a positive tilt about x lifts the edge at -y towards the eye, one
-// about y the edge at +x. A stone that shows one sloping facet alone and whose slope faces that
-// edge is seen straight on at its slope's tilt, and at twice that angle at the opposite tilt: the
-// outside reflects what Fresnel's equations say of 0 and of twice the slope.
+// GemRay's sign convention (docs/grade.md): a positive tilt about x lifts the edge at -y towards
+// the eye, one about y the edge at +x. A stone that shows a single sloping facet facing that edge
+// is seen perpendicularly at a tilt equal to the slope, and at twice that angle at the opposite
+// tilt: the outside reflection is Fresnel's for 0 and for twice the slope.
 TEST(LightReturn, PositiveTiltsLiftTheEdgeThatGemraysDo) {
     const double slope = radians(20), n = 1.54;
     const auto reflected = [&](double angle) {
@@ -151,7 +151,7 @@ TEST(LightReturn, PositiveTiltsLiftTheEdgeThatGemraysDo) {
     }
 }
 
-// Conservation of energy, whatever the cut, the index and the tilt.
+// Conservation of energy for any cut, index and tilt.
 TEST(LightReturn, BalancesSumToOne) {
     for (const CutKind& kind : cut_kinds()) {
         if (!kind.convex) continue;
@@ -169,7 +169,7 @@ TEST(LightReturn, BalancesSumToOne) {
 }
 
 // gemstone-optimizer's published sweep of the pavilion (docs/VALIDATION.md), Tolkowsky's crown,
-// 3200 rays: useful return in per cent, the head included, as it counts.
+// 3200 rays: useful return in per cent, including the head, as that program counts.
 TEST(LightReturn, FollowsThePublishedSweepOfThePavilion) {
     struct Published {
         double pavilion, useful;
@@ -189,8 +189,8 @@ TEST(LightReturn, FollowsThePublishedSweepOfThePavilion) {
     }
 }
 
-// Its fire of the same stone: 65.08 with 12800 faces' and 3200 spectral rays; a diamond of 2.417
-// and 0.044 between 430.8 and 686.7 nm, by Cauchy's formula.
+// Its fire of the same stone: 65.08 with 12800 rays for faces and 3200 spectral ones; a diamond of
+// 2.417 with a dispersion of 0.044 between 430.8 and 686.7 nm, by Cauchy's formula.
 TEST(LightReturn, HasThePublishedFire) {
     const double b = 0.044 / (1 / (430.8 * 430.8) - 1 / (686.7 * 686.7));
     std::array<double, 3> colours{};
@@ -218,7 +218,7 @@ TEST(LightReturn, OfSymmetricDesignsIsSymmetric) {
                 const auto m = static_cast<std::size_t>(model);
                 EXPECT_NEAR(curve.returns[i].whole[m], curve.returns[6 - i].whole[m], 1e-9);
                 EXPECT_NEAR(curve.returns[i].table[m], curve.returns[6 - i].table[m], 1e-9);
-                // And about x as about y, a quarter of the turn of eight.
+                // By the eightfold symmetry the tilt about x equals that about y.
                 EXPECT_NEAR(curve.returns[i].whole[m], grade.curves[0].returns[i].whole[m], 1e-9);
             }
         }
@@ -250,7 +250,7 @@ TEST(LightReturn, WeightedAsGiasFollowsItsTrends) {
               weighted({.table = 56, .pavilion = 45, .lower = 77}));
 }
 
-// A figure of exact areas is as smooth as the areas: halving a small step halves its effect.
+// A figure from exact areas is as smooth as the areas: half a small step has half its effect.
 TEST(LightReturn, IsContinuousInTheAngles) {
     const auto iso = [](double pavilion) {
         const EyeLight light =

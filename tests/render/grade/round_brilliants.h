@@ -1,7 +1,7 @@
 #pragma once
 // Round brilliants by the formulas of gemstone-optimizer (J. Rembold, docs/SCIENCE.md 1), so that
-// its figures can be compared: radius 1, star and lower lengths by its conventions, 16 girdle
-// facets. Facets T, C1.., S1.., U1a.., P1.., L1a.., G0...
+// figures are comparable: radius 1, its conventions for star and lower lengths, 16 girdle facets.
+// Facets T, C1.., S1.., U1a.., P1.., L1a.., G0...
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -60,7 +60,7 @@ inline Solid round_brilliant(const RoundProportions& p = {}) {
     return contract_near_meets(intersect_half_spaces(planes).solid, 1e-9).solid;
 }
 
-/// With one facet turned about its middle, steeper by so many degrees.
+/// With one facet made steeper by so many degrees, about its middle.
 inline Solid with_error(const Solid& solid, const std::string& name, double steeper_deg) {
     std::vector<NamedPlane> planes;
     for (const Facet& facet : solid.facets) {

@@ -19,7 +19,7 @@ using test::with_error;
 
 // Diamond at the sodium line.
 constexpr double k_diamond_d = 2.4176;
-// Proportions in the middle of the trade's window for hearts and arrows.
+// The middle of the trade's proportions for hearts and arrows.
 const RoundProportions k_ideal{.table = 56, .lower = 77};
 
 struct Found {
@@ -36,9 +36,9 @@ Found found_in(const Solid& solid) {
                 scope_map(tracer.trace({0, 0, 1}, k_diamond_d, limits), reflector_bands(), 600))};
 }
 
-// Light straight down through the table is reflected by two opposite mains and leaves under
-// n sin(180 - 4 p) to the vertical: 45 degrees, where ASET's red ends, at p = 40.75 of diamond
-// (AGS: 40.76). Steeper mains send it nearer to the vertical, into red.
+// Light straight down through the table is reflected by two opposite mains and leaves at n sin(180
+// - 4 p) to the vertical: 45 degrees, where ASET's red ends, at p = 40.75 for diamond (AGS: 40.76).
+// Steeper mains send it closer to the vertical, into red.
 TEST(Scopes, TheTablesAsetColourFlipsAtAPavilionOf40Point76) {
     const auto reflection_at = [](double pavilion) {
         const Solid solid = round_brilliant({.table = 57, .pavilion = pavilion, .lower = 77});
@@ -56,7 +56,7 @@ TEST(Scopes, TheTablesAsetColourFlipsAtAPavilionOf40Point76) {
         const double out = std::asin(k_diamond_d * std::sin(radians(180 - 4 * pavilion)));
         EXPECT_NEAR(reflection_at(pavilion).elevation, radians(90) - out, 1e-9) << pavilion;
     }
-    // The table's share of green goes at once, by what that reflection has: it is one beam.
+    // The table's share of green changes at once by that of this reflection, which is one beam.
     const double share = reflection_at(40.71).share;
     EXPECT_GT(share, 0.05);
     EXPECT_NEAR(green_at(40.71) - green_at(40.81), share, 0.01);
@@ -72,13 +72,13 @@ TEST(Scopes, SharesSumToOne) {
         }
         const ScopeShares scope = ideal_scope_shares(light);
         EXPECT_NEAR(scope.red + scope.dark + scope.white, 1, 1e-9);
-        // What the dark field shows leaks.
+        // What the dark field shows is leakage.
         EXPECT_LE(dark_field_share(light), scope.white + 1e-12);
     }
 }
 
-// A stone of eight has eight of each, all alike but for the map's points: an area of 1.3 % of the
-// silhouette is 2800 points, of which the outline's 200 are in or out by half a point each.
+// A stone of eight has eight of each, all equal up to the map's resolution: an area of 1.3 % of the
+// silhouette is 2800 points, of which the 200 on the outline are off by half a point each.
 TEST(Scopes, EightHeartsAndEightArrowsAreFound) {
     const Found found = found_in(round_brilliant(k_ideal));
     EXPECT_EQ(found.hearts.count, 8);
@@ -98,7 +98,7 @@ TEST(Scopes, EightHeartsAndEightArrowsAreFound) {
     }
 }
 
-// Half a degree on one facet shows in one figure or other, far beyond the map's points (0.005).
+// Half a degree on one facet shows in some figure, far beyond the map's resolution (0.005).
 TEST(Scopes, HalfADegreeOnOneFacetIsSeen) {
     const Solid ideal = round_brilliant(k_ideal);
     for (const char* facet : {"P3", "C3", "L3a", "S3"}) {
@@ -109,7 +109,7 @@ TEST(Scopes, HalfADegreeOnOneFacetIsSeen) {
             EXPECT_LT(worst, 0.993) << facet << " " << error;
         }
     }
-    // A pavilion main moves its arrows and hearts themselves.
+    // A pavilion main moves its own arrows and hearts.
     for (const double error : {0.5, -0.5}) {
         const Found found = found_in(with_error(ideal, "P3", error));
         EXPECT_LT(std::min(found.hearts.evenness, found.arrows.evenness), 0.95);
@@ -117,14 +117,14 @@ TEST(Scopes, HalfADegreeOnOneFacetIsSeen) {
 }
 
 TEST(Scopes, NoHeartsAreFoundInAStepCutPavilionWithoutAny) {
-    // Flat mains: no light of the reflector comes back through the pavilion as it would.
+    // Flat mains: the pavilion returns no light of the reflector.
     const Found found = found_in(round_brilliant({.pavilion = 25}));
     EXPECT_NE(found.arrows.count, 8);
 }
 
-// Small errors go through by the figure's slope: a draw's scatter is the slope times sigma, to the
-// scatter of a scatter of 30 draws (1/sqrt(2 x 29) = 13 %), three times.
-// A table, and eight facets each of crown, girdle and pavilion: quickly graded.
+// Small errors propagate by the figure's slope: the standard deviation of draws is the slope times
+// sigma, to three times the error of a standard deviation from 30 draws (1/sqrt(2 x 29) = 13 %). A
+// table, and eight facets each of crown, girdle and pavilion grade quickly.
 Solid plain_eight() {
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.35}}};
     for (int i = 0; i < 8; ++i) {
@@ -154,11 +154,11 @@ TEST(GradeSigma, IsTheSlopeTimesSigma) {
     const GradeSigma found = grade_sigma(solid, index, options, uncertainty, 30);
     EXPECT_EQ(found.draws, 30);
     EXPECT_EQ(found.left_out, 0);
-    // Untilted, a curve is the figure face up, of the very same stones.
+    // Without tilt a curve is the face-up figure of the same stones.
     ASSERT_EQ(found.curves.size(), 2u);
     const auto cosine = static_cast<std::size_t>(LightModel::cos);
     for (const TiltCurve& curve : found.curves)
-        // Both are rounded at 1e-16 of the return, which is ten thousand times the sigma.
+        // Both have rounding errors of 1e-16 of the return, ten thousand times less than sigma.
         EXPECT_NEAR(100 * curve.returns[1].whole[cosine], found.figures.at("cos"),
                     1e-10 * found.figures.at("cos"));
 
@@ -189,7 +189,7 @@ TEST(GradeSigma, IsTheSlopeTimesSigma) {
     EXPECT_GT(found.figures.at("cos"), 0);
 }
 
-// Facets that err together count together: eight mains by the same amount do not average out.
+// Correlated errors add: the same error of eight mains does not average out.
 TEST(GradeSigma, KnowsCorrelatedErrors) {
     const Solid solid = plain_eight();
     StoneUncertainty apart, together;
@@ -211,8 +211,8 @@ TEST(GradeSigma, KnowsCorrelatedErrors) {
     const GradeSigma all = grade_sigma(solid, index, {}, together, 24);
     EXPECT_FALSE(alone.correlated);
     EXPECT_TRUE(all.correlated);
-    // Of eight equal slopes s: s sqrt(8) against 8 s, a ratio of 2.8; each of the two is known to
-    // 1/sqrt(2 x 23) = 15 %, their ratio to 21 %: three of that are 1.8.
+    // For eight equal slopes s: s sqrt(8) against 8 s, a ratio of 2.8. Each is known to 1/sqrt(2 x
+    // 23) = 15 %, the ratio to 21 %; less three of these is 1.8.
     const double ratio = all.figures.at("cos") / alone.figures.at("cos");
     EXPECT_NEAR(ratio, std::sqrt(8.0), 1.8);
     EXPECT_GT(ratio, 1);
@@ -234,7 +234,7 @@ TEST(PathSection, ShowsTheTextbooksPath) {
     const PathSection section = path_section(round_brilliant(), k_diamond_d, radians(10));
     EXPECT_GE(section.outline.size(), 7u);
     ASSERT_EQ(section.paths.size(), 13u);
-    // Through the table beside the middle: two mains, then out of the crown.
+    // Through the table off centre: two mains, then out of the crown.
     int returned = 0, leaked = 0;
     for (const SectionPath& path : section.paths) {
         returned += path.end == SectionEnd::returned || path.end == SectionEnd::head;
@@ -249,15 +249,15 @@ TEST(PathSection, ShowsTheTextbooksPath) {
     EXPECT_LT(leaked, 3);
 }
 
-// What a program that adds a facet's error writes: meets that miss, outlines that cross themselves
-// by rounding.
+// As written by a program that adds errors to facets: meets that miss, outlines that intersect
+// themselves by rounding error.
 TEST(Grade, TakesStonesWhoseMeetsMiss) {
     Solid flawed = with_error(round_brilliant(k_ideal), "P3", -0.5);
     for (Vec3& v : flawed.vertices) v += 1e-7 * Vec3{std::sin(1e7 * v.x), std::sin(1e7 * v.y), 0};
     GradeOptions options;
     options.coarse = true;
     EXPECT_GT(grade_stone(flawed, {k_diamond_d, {}}, options).balance.useful, 0.5);
-    // A dent is none of these.
+    // A dent is not such an error.
     Solid dented = round_brilliant(k_ideal);
     for (Vec3& v : dented.vertices)
         if (v.z < -0.8) v.z = -0.2;

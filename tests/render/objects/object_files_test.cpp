@@ -23,7 +23,7 @@ protected:
         write("scene.toml", k_camera_and_light + text);
         return read_scene(folder_ / "scene.toml");
     }
-    // The message of what is refused.
+    // The message of the InputError; empty if there is none.
     std::string refusal(const std::string& text) const {
         try {
             read(text);
@@ -55,7 +55,7 @@ TEST_F(ObjectFiles, ShapesAndMaterials) {
     EXPECT_EQ(box.center, Vec3(1, 0, 0));
 }
 
-// A matrix says the same as its steps.
+// A matrix equals its steps.
 TEST_F(ObjectFiles, TransformsAreStepsOrMatrices) {
     const auto placed = [&](const std::string& transform) {
         return std::get<SphereShape>(read("[[object]]\nshape = \"sphere\"\ncenter = [1, 0, 0]\n"
@@ -121,7 +121,8 @@ TEST_F(ObjectFiles, SeveralStonesStandWhereTheyArePut) {
         "transform = { rotate = [0, 0, 90], translate = [2, 0, 0] }\n");
     ASSERT_EQ(scene.more_stones.size(), 1u);
     const Stone& second = scene.more_stones[0];
-    // Centimetres, counted in the first stone's millimetres, after it was put there in its own.
+    // Centimetres, converted to the first stone's millimetres after the stone was placed in its own
+    // unit.
     double far = 0;
     for (const Vec3& v : second.solid.vertices) far = std::max(far, v.x);
     EXPECT_NEAR(far, 20, 1e-12);
@@ -138,7 +139,7 @@ TEST_F(ObjectFiles, SeveralStonesStandWhereTheyArePut) {
               "");
 }
 
-// All that a picture depends on.
+// The fingerprint covers all that a picture depends on.
 TEST_F(ObjectFiles, FingerprintsTellObjectsApart) {
     write("t.obj", k_tetrahedron);
     const auto print = [&](const std::string& text) {
@@ -167,7 +168,7 @@ TEST_F(ObjectFiles, ATurntableTurnsEverything) {
                 0, 1e-12);
 }
 
-// A polygon with a notch, from the notch's far side: a fan would cover what is not there.
+// A polygon with a notch, starting at the notch's far side: a fan would cover area outside of it.
 TEST_F(ObjectFiles, PolygonsWithNotchesBecomeTrianglesOfTheirArea) {
     write("notch.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 2 3 4 5 1\n");
     const TriangleMesh mesh = read_triangle_mesh(folder_ / "notch.obj");
@@ -220,7 +221,7 @@ TEST_F(ObjectFiles, DamagedGltfIsOneLine) {
         write("bad.gltf", text);
         EXPECT_THROW(read_triangle_mesh(folder_ / "bad.gltf"), InputError) << text;
     }
-    // Every byte changed, one at a time: read or refused, never worse.
+    // Changes every byte, one at a time: the file is read or refused, nothing worse.
     for (std::size_t i = 0; i < good.size(); ++i) {
         std::string changed = good;
         changed[i] = static_cast<char>(changed[i] ^ 0x15);

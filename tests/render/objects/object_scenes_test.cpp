@@ -1,6 +1,6 @@
-// Scenes with objects and several stones, against closed forms and against the same things said in
-// another way. Means of many random rays lie within five of their standard errors, which the
-// pictures' own pixels or seeds tell.
+// Scenes with objects and several stones, against closed forms and against equivalent scenes. Means
+// of many random rays lie within five of their standard errors, estimated from the pictures' own
+// pixels or seeds.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ Stone stone_of(Solid solid, double index) {
 struct Estimate {
     double mean = 0, error = 0;
 };
-// Of pixels that all show the same.
+// Over pixels that all show the same.
 Estimate mean_of(const Scene& scene) {
     const RenderResult result = render(scene);
     double sum = 0, squares = 0;
@@ -54,7 +54,7 @@ Estimate mean_of(const Scene& scene) {
     return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
 }
 
-// Means of each pixel over pictures of several seeds.
+// Means of each pixel over pictures with several seeds.
 std::vector<Estimate> pixels_of(Scene scene, int seeds) {
     std::vector<double> sum, squares;
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -76,13 +76,13 @@ std::vector<Estimate> pixels_of(Scene scene, int seeds) {
     return pixels;
 }
 
-// Pixel by pixel, and on average, where the errors are smaller by the root of their number.
+// Pixel by pixel, and on average, where the error is smaller by the root of their number.
 void expect_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
     ASSERT_EQ(a.size(), b.size());
     double apart = 0, variance = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const double error = std::hypot(a[i].error, b[i].error);
-        // Estimated from few seeds, an error is itself uncertain: seven for the worst of many.
+        // An error estimated from few seeds is uncertain itself: seven for the worst of many.
         EXPECT_NEAR(a[i].mean, b[i].mean, 7 * error + 1e-6) << i;
         apart += a[i].mean - b[i].mean;
         variance += error * error;
@@ -90,8 +90,8 @@ void expect_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
     EXPECT_NEAR(apart, 0, 5 * std::sqrt(variance) + 1e-6 * static_cast<double>(a.size()));
 }
 
-// Conservation of energy: where the same light comes from everywhere and nothing absorbs, all
-// things look like it.
+// Conservation of energy: where the same light comes from everywhere and nothing absorbs,
+// everything looks like that light.
 TEST(ObjectScenes, VanishInAFurnace) {
     Scene scene = empty_scene(48, 64);
     scene.lights.constant = 1;
@@ -127,7 +127,7 @@ TEST(ObjectScenes, ADiffusePlaneUnderACap) {
     EXPECT_LT(seen.error, 0.01 * seen.mean);
 }
 
-// A sphere of radius r at distance d gives pi L (r/d)^2 cos: as a light, and as an emitter.
+// A sphere of radius r at distance d gives pi L (r/d)^2 cos, both as a light and as an emitter.
 TEST(ObjectScenes, ADiffusePlaneUnderASphereThatShines) {
     const Vec3 center{3, 0, 4};
     const double wanted = 0.5 * 7 * std::pow(1.5 / 5, 2) * 4 / 5;
@@ -146,7 +146,7 @@ TEST(ObjectScenes, ADiffusePlaneUnderASphereThatShines) {
     }
 }
 
-// In the full shadow of a sphere there is no light.
+// There is no light in the full shadow of a sphere.
 TEST(ObjectScenes, ThingsCastShadows) {
     Scene scene = empty_scene(8, 4);
     scene.camera.position = {0, -20, 20};
@@ -159,8 +159,8 @@ TEST(ObjectScenes, ThingsCastShadows) {
     EXPECT_GT(mean_of(scene).mean, 0);
 }
 
-// Polarised at polished surfaces: an analyser across the plane of incidence sees R_s / 2 of an even
-// light, along it R_p / 2 (Born & Wolf, 14.2).
+// Polished surfaces polarise: in even light an analyser across the plane of incidence passes R_s /
+// 2, along it R_p / 2 (Born & Wolf, 14.2).
 TEST(ObjectScenes, AMetalPolarisesWhatItReflects) {
     const double n = 1.2, k = 7.26, angle = 1.2;
     Scene scene = empty_scene(2, 1);
@@ -182,7 +182,8 @@ TEST(ObjectScenes, AMetalPolarisesWhatItReflects) {
     EXPECT_NEAR(mean_of(scene).mean, 0.25 * (R_s + R_p), 1e-6);
 }
 
-// A plate of glass in normal light: (1 - R)^2 a / (1 - R^2 a^2), the sum of all its reflections.
+// A plate of glass at normal incidence: (1 - R)^2 a / (1 - R^2 a^2), the sum of all its
+// reflections.
 TEST(ObjectScenes, APlateOfColouredGlass) {
     Scene scene = empty_scene(32, 64);
     scene.camera.orthographic_width = 0.1;
@@ -206,8 +207,8 @@ Scene between_two_lights(int side, int samples) {
     return scene;
 }
 
-// The same cube as a stone, by the tree of all its paths, and as an object, by chance: two
-// implementations of one thing. With an analyser, so that all four Stokes parameters matter.
+// The same cube as a stone, by the tree of all its paths, and as an object, by random paths: two
+// implementations. With an analyser, so that all four Stokes parameters matter.
 TEST(ObjectScenes, ACubeOfGlassIsAStone) {
     std::vector<NamedPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
@@ -235,8 +236,8 @@ TEST(ObjectScenes, ACubeOfGlassIsAStone) {
     }
 }
 
-// Which of two stones a scene is about changes nothing of what is seen; nor does a thing that
-// nothing sees.
+// The picture does not depend on which of two stones is the scene's own, nor on an object that no
+// ray meets.
 TEST(ObjectScenes, StonesSeeEachOther) {
     std::mt19937_64 random(5);
     Stone a = stone_of(random_stone(random, 20), 1.7), b = stone_of(random_stone(random, 20), 2.2);
@@ -260,7 +261,6 @@ TEST(ObjectScenes, AThingOutOfSightChangesNothing) {
     expect_same(pixels_of(has_objects, 12), pixels_of(alone, 2));
 }
 
-// Same input, same bytes.
 TEST(ObjectScenes, AreTheSameWhateverTheThreads) {
     std::mt19937_64 random(7);
     Scene scene = between_two_lights(40, 4);
@@ -275,7 +275,7 @@ TEST(ObjectScenes, AreTheSameWhateverTheThreads) {
     EXPECT_NE(render(scene).picture.rgb, one.picture.rgb);
 }
 
-// What cannot draw objects says so; nothing is left out in silence.
+// Engines that cannot draw objects say so; nothing is left out silently.
 TEST(ObjectScenes, AreRefusedByEnginesThatDoNotDrawThem) {
     Scene scene = between_two_lights(8, 1);
     std::mt19937_64 random(8);
@@ -303,8 +303,8 @@ TEST(ObjectScenes, RefuseStonesAndCamerasInsideGlass) {
     EXPECT_NO_THROW(render(scene));
 }
 
-// Through both arms of a U to a light behind them, and a black ball between the arms, which a ray
-// that leaves the first arm meets before the second.
+// Through both arms of a U to a light behind them. A ray that leaves the first arm meets the black
+// ball between the arms before the second arm.
 TEST(ObjectScenes, ThingsStandBetweenAStoneAndItself) {
     Scene scene = empty_scene(16, 16);
     scene.stone = stone_of(carved::u_prism(), 1.5);
@@ -314,9 +314,10 @@ TEST(ObjectScenes, ThingsStandBetweenAStoneAndItself) {
     scene.camera.up = {0, 0, 1};
     scene.camera.orthographic_width = 0.2;
     scene.lights.sources = {DiscLight{{1, 0, 0}, 0, 0.01, {1.0}}};
-    // Far away: the scene has objects, and nothing sees it.
+    // Far away and invisible, but it makes this a scene with objects.
     scene.objects = {{SphereShape{{0, 90, 0}, 1e-3}, DiffuseMaterial{{0.0}}}};
-    // A pile of m plates of reflectance R a face passes (1 - R) / (1 + (2 m - 1) R) (Stokes 1862).
+    // A pile of m plates of reflectance R per face transmits (1 - R) / (1 + (2 m - 1) R) (Stokes
+    // 1862).
     const double R = 0.04;
     const Estimate open = mean_of(scene);
     EXPECT_NEAR(open.mean, (1 - R) / (1 + 3 * R), 5 * open.error + 1e-4);
@@ -324,7 +325,7 @@ TEST(ObjectScenes, ThingsStandBetweenAStoneAndItself) {
     EXPECT_EQ(mean_of(scene).mean, 0);
 }
 
-// What a bound on indirect light takes away is told by the bound: nothing where it is not reached.
+// A bound on indirect light reports what it removes: nothing where it is not reached.
 TEST(ObjectScenes, ClampedLightIsAtMostTheBound) {
     Scene scene = empty_scene(16, 16);
     scene.camera.position = {0, -20, 20};
@@ -338,8 +339,8 @@ TEST(ObjectScenes, ClampedLightIsAtMostTheBound) {
     EXPECT_NE(render(scene).picture.rgb, whole.picture.rgb);
 }
 
-// Work allows rays, and the standard error of random rays falls with the root of their number, here
-// with that of the work: a ball on the ground, no stone, so that rays share no wavelengths.
+// The work limit sets the number of rays, and the standard error falls with its square root. A ball
+// on the ground, no stone, so that rays share no wavelengths.
 TEST(ObjectScenes, MoreWorkAllowedIsLessNoise) {
     Scene scene = empty_scene(64, 0);
     scene.camera.position = {0, -20, 20};
@@ -354,17 +355,17 @@ TEST(ObjectScenes, MoreWorkAllowedIsLessNoise) {
         return render(scene);
     };
     const RenderResult little = drawn(5e7, 1), much = drawn(8e8, 1);
-    // A grid's side is a whole number: a little less than is allowed.
+    // A grid's side is an integer: slightly less than the limit.
     EXPECT_NEAR(much.stats.standard_error / little.stats.standard_error, 1.0 / 4, 0.08);
     EXPECT_EQ(drawn(8e8, 2).picture.rgb, much.picture.rgb);
-    // As many as bring the noise to the tolerance, however many are allowed.
+    // As many rays as bring the noise to the tolerance, however many are allowed.
     scene.settings.tolerance = 0.02;
     const RenderResult enough = drawn(1e12, 1);
     EXPECT_LE(enough.stats.sampling_error / k_halves_over_noise, 1.25 * 0.02);
     EXPECT_GE(enough.stats.sampling_error / k_halves_over_noise, 0.5 * 0.02);
 }
 
-// Alpha is where things stand, where the film asks for it.
+// Alpha is where objects are, if the film asks for it.
 TEST(ObjectScenes, AlphaIsWhereThingsStand) {
     Scene scene = empty_scene(16, 4);
     scene.camera.orthographic_width = 4;

@@ -29,7 +29,8 @@ TEST(Shapes, SpheresAreMetFromOutsideAndInside) {
     EXPECT_FALSE(nearest_on(sphere, {0, 0, 8}, {0, 0, 1}, -1));
 }
 
-// A start on the surface is not met again, whatever rounding made of it; the far side is.
+// A ray that starts on the surface does not meet its starting point again, whatever the rounding
+// error; it meets the far side.
 TEST(Shapes, ARayFromASphereMeetsItsFarSideAlone) {
     std::mt19937_64 random(1);
     const SphereShape sphere{{0.3, -0.2, 0.1}, 1.7};
@@ -52,14 +53,14 @@ TEST(Shapes, PlanesAndDiscs) {
     const auto hit = nearest_on(plane, {0, 0, 3}, down, -1);
     ASSERT_TRUE(hit);
     EXPECT_DOUBLE_EQ(hit->distance, 5);
-    EXPECT_FALSE(nearest_on(plane, {0, 0, 3}, {1, 0, 0}, -1));  // along it
-    EXPECT_FALSE(nearest_on(plane, {0, 0, -1}, down, 0));       // from it
+    EXPECT_FALSE(nearest_on(plane, {0, 0, 3}, {1, 0, 0}, -1));  // parallel to it
+    EXPECT_FALSE(nearest_on(plane, {0, 0, -1}, down, 0));       // away from it
     EXPECT_TRUE(nearest_on(plane, {0, 0, -2}, {0, 0, 1}, -1));  // from below
     EXPECT_TRUE(nearest_on(DiscShape{{3, 0, -1}, {0, 0, 1}, 0.01}, {0, 0, 3}, down, -1));
     EXPECT_FALSE(nearest_on(DiscShape{{3, 0.02, -1}, {0, 0, 1}, 0.01}, {0, 0, 3}, down, -1));
 }
 
-// An independent method: the same box as a solid of planes, met without an epsilon.
+// An independent method: the same box as a solid of planes, intersected without an epsilon.
 TEST(Shapes, BoxesAreMetAsTheSolidOfTheirPlanes) {
     std::mt19937_64 random(2);
     BoxShape box;
@@ -84,12 +85,12 @@ TEST(Shapes, BoxesAreMetAsTheSolidOfTheirPlanes) {
         ++hits;
         EXPECT_NEAR(hit->distance, wanted->distance, 1e-13);
         EXPECT_NEAR(glm::length(hit->normal - body.normal(wanted->facet)), 0, 1e-14);
-        // Inwards from there, and out: as the solid is left.
+        // Inwards from there, and out again at the solid's exit.
         const Vec3 at = on_surface(box, ray.origin + hit->distance * ray.direction, hit->part);
         const auto out = nearest_on(box, at, ray.direction, hit->part);
         ASSERT_TRUE(out);
         EXPECT_NEAR(out->distance, body.exit(at, ray.direction).distance, 1e-13);
-        // Off the face it is not met again.
+        // Reflected off the face, the ray does not meet the box again.
         const Vec3 away = ray.direction - 2 * glm::dot(ray.direction, hit->normal) * hit->normal;
         EXPECT_FALSE(nearest_on(box, at, away, hit->part));
     }
@@ -107,7 +108,7 @@ std::shared_ptr<const TriangleMesh> mesh_of(const Solid& solid) {
 }
 
 // An independent method: the same surface as a watertight polyhedron. Single precision finds the
-// triangle: next to an edge it may find its neighbour, as far off as its rounding.
+// triangle; next to an edge it may find the neighbour instead, to within its rounding error.
 TEST(Meshes, AreMetAsThePolyhedronOfTheirFaces) {
     std::mt19937_64 random(3);
     const Solid solid = random_stone(random, 40);
@@ -132,7 +133,7 @@ TEST(Meshes, AreMetAsThePolyhedronOfTheirFaces) {
         EXPECT_LT(off, same ? 1e-9 * wanted->distance : k_single);
     }
     EXPECT_GT(hits, 8000);
-    // Rays that pass an edge of the outline (some 10 long, within 1e-6) are so few.
+    // So few rays pass within 1e-6 of an edge of the outline, which is some 10 long.
     EXPECT_LE(differ, 2);
 }
 

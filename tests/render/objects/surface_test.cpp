@@ -1,4 +1,4 @@
-// What surfaces of objects do to light, and how lights are aimed at.
+// What surfaces of objects do to light, and importance sampling of lights.
 
 #include "render/objects/surface.h"
 
@@ -32,7 +32,7 @@ TEST(Metals, ReflectAtNormalIncidenceWhatTheirIndexSays) {
         const double wanted = ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
         EXPECT_NEAR(r.mean, wanted, 1e-15);
         EXPECT_NEAR(r.difference, 0, 1e-15);
-        // A mirror's image: s and p frames turn against each other.
+        // A mirror image: the frames of s and p have opposite handedness.
         EXPECT_NEAR(r.re, -wanted, 1e-15);
         EXPECT_NEAR(r.im, 0, 1e-15);
     }
@@ -40,7 +40,7 @@ TEST(Metals, ReflectAtNormalIncidenceWhatTheirIndexSays) {
         EXPECT_NEAR(metal_of(f0, 0).reflection(0, 1).mean, f0, 1e-15);
 }
 
-// Without phases: the same by real numbers alone.
+// Without phases: the same in real numbers.
 TEST(Metals, ReflectTheMeanOfSAndP) {
     for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}, {1.5, 0.0}}) {
         const ReadySurface surface = metal(n, k);
@@ -75,9 +75,9 @@ TEST(Metals, KeepAbelesRelationAt45Degrees) {
     }
 }
 
-// Definitions: what a direction sees of the microfacets is its own projection,
-// integral of D G1 max(0, m.v) dm = v.z (Heitz 2014, eq. 15). What a chosen direction weighs is the
-// share of its light that leaves unshadowed, G2 / G1.
+// By definition, the projected area of the visible microfacets equals that of the surface: integral
+// of D G1 max(0, m.v) dm = v.z (Heitz 2014, eq. 15). The weight of a sampled direction is the share
+// of its light that leaves unshadowed, G2 / G1.
 TEST(Microfacets, FillWhatIsSeenOfThem) {
     constexpr int k_heights = 20000, k_azimuths = 200;
     for (const double alpha : {0.1, 0.3, 0.8}) {
@@ -94,8 +94,8 @@ TEST(Microfacets, FillWhatIsSeenOfThem) {
                     seen += ggx::density(alpha, half) * ggx::masking(alpha, from) * along * angle;
                 }
             }
-            // The midpoint rule is off by (step / width)^2 / 24; microfacets are alpha^2 / 2 wide
-            // in height, and those that turn away make kinks in azimuth.
+            // The midpoint rule has an error of (step / width)^2 / 24; microfacets are alpha^2 / 2
+            // wide in height, and back-facing ones make kinks in azimuth.
             EXPECT_NEAR(seen, cosine, 1e-4);
             Random random(7);
             double weight = 0;
@@ -104,7 +104,7 @@ TEST(Microfacets, FillWhatIsSeenOfThem) {
                 const Vec3 to = ggx::sample(alpha, from, random.uniform(), random.uniform());
                 if (to.z <= 0) continue;
                 const Vec3 h = glm::normalize(from + to);
-                // f cos / density = G2 / G1 of a surface that reflects all.
+                // f cos / density = G2 / G1 for a surface that reflects all light.
                 const double f = ggx::density(alpha, h) *
                                  ggx::masking_and_shadowing(alpha, from, to) / (4 * cosine);
                 const double ratio = f / ggx::sample_density(alpha, from, to);
@@ -118,8 +118,8 @@ TEST(Microfacets, FillWhatIsSeenOfThem) {
     }
 }
 
-// Conservation: a rough metal that reflects all shows an even light as it is. The mean of n samples
-// lies within 5 standard errors, and the table of albedos within 1e-3.
+// Conservation: a rough metal that reflects all light shows an even light unchanged. The mean of n
+// samples lies within 5 standard errors, the table of albedos within 1e-3.
 TEST(Microfacets, LoseNothingBetweenThem) {
     Random random(3);
     for (const double roughness : {0.2, 0.5, 1.0}) {
@@ -143,7 +143,7 @@ TEST(Microfacets, LoseNothingBetweenThem) {
     }
 }
 
-// Flatter than the rounding of directions: polished, and never a number that is none.
+// Flatter than the rounding error of directions: polished, and never NaN.
 TEST(Microfacets, OfNoSlopeAreAPolishedSurface) {
     for (const double roughness : {1e-200, 1e-80, 1e-9, 1e-4}) {
         const ReadySurface surface = metal_of(0.9, roughness);
@@ -165,8 +165,8 @@ TEST(Microfacets, OfNoSlopeAreAPolishedSurface) {
     }
 }
 
-// What is reflected one way is reflected back, but for what is made up for (Turquin's gain is of
-// one direction alone): 4 cos cos f is symmetric.
+// Reciprocity: 4 cos cos f is symmetric, without the energy compensation (Turquin's gain depends on
+// one direction alone).
 TEST(Microfacets, ReflectBothWaysAlike) {
     const ReadySurface surface = metal(1.2, 7.26, 0.5);
     const Vec3 a = glm::normalize(Vec3{0.3, -0.5, 0.7}), b = glm::normalize(Vec3{-0.8, 0.1, 0.4});
@@ -186,8 +186,8 @@ Scene lit_by(Light light) {
     return scene;
 }
 
-// Densities are one over all directions, and what is aimed at is what they say: the mean of
-// 1 / density over aimed directions is the solid angle of the light.
+// Densities integrate to one over all directions, and samples follow them: the mean of 1 / density
+// over samples is the light's solid angle.
 void expect_sampled(const Scene& scene, double solid_angle) {
     const LightSampler sampler(scene);
     ASSERT_FALSE(sampler.empty());
@@ -232,7 +232,7 @@ TEST(LightSampler, AimsAtEmitters) {
     expect_sampled(scene, 2 * std::numbers::pi * (1 - 2 / std::sqrt(5.0)));
 }
 
-// A sky that is bright in one place: aimed at there. The density is one over the sphere.
+// A sky with one bright place: samples go there. The density integrates to one over the sphere.
 TEST(LightSampler, AimsAtWhatIsBrightInAnEnvironment) {
     auto map = std::make_shared<EnvironmentMap>();
     map->width = 64;

@@ -38,7 +38,7 @@ TEST(LargestInside, OfACubeInAnOctahedronTouchesItsFacetsWithItsCorners) {
         const Vec3 normal = Vec3{i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1} / std::sqrt(3.0);
         planes.push_back({"f", {normal, 1 / std::sqrt(3.0)}});
     }
-    // |x| + |y| + |z| <= 1 holds the cube of half edge 1/3.
+    // |x| + |y| + |z| <= 1 holds a cube of half edge 1/3.
     const LargestInside inside =
         largest_inside(box({0, 0, 0}, {1, 1, 1}), intersect_half_spaces(planes).solid);
     EXPECT_NEAR(inside.scale, 1.0 / 3, 1e-14);
@@ -53,7 +53,7 @@ TEST(LargestInside, OfASolidInItselfIsItself) {
     EXPECT_NEAR(inside.volume, volume(solid), 1e-12);
 }
 
-// The scale of the largest copy whose centroid stands at `place`: what the nearest plane allows.
+// The scale of the largest copy with its centroid at `place`, limited by the nearest plane.
 double scale_at(const Vec3& place, const Solid& cut, const Solid& stone) {
     double scale = std::numeric_limits<double>::infinity();
     const Vec3 middle = centroid(cut);
@@ -67,8 +67,8 @@ double scale_at(const Vec3& place, const Solid& cut, const Solid& stone) {
     return scale;
 }
 
-// The scale is a concave function of the place: where no step leads up, it is the largest. Most of
-// a brilliant's planes touch the copy at once, which misleads a careless simplex method.
+// The scale is a concave function of the place: a local maximum is the global one. Most of a
+// brilliant's planes touch the copy at once, which misleads a careless simplex method.
 TEST(LargestInside, OfBrilliantsInABrilliantGrowsInNoDirection) {
     const Solid stone = make_cut("round-brilliant");
     std::mt19937 random(1);

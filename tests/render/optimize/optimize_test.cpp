@@ -1,5 +1,5 @@
-// Better angles: meets are held against the planes that make them, merits against a second
-// reckoning.
+// Better angles: meets are compared with the planes that make them, merits with a second
+// calculation.
 
 #include "render/optimize/optimize.h"
 
@@ -17,7 +17,7 @@
 namespace culet {
 namespace {
 
-// Six crown and six pavilion facets that meet in an apex each, round an upright girdle from
+// Six crown and six pavilion facets, each set meeting in an apex, round an upright girdle from
 // -thickness to +thickness at distance 1.
 Solid double_pyramid(double crown, double pavilion, double thickness) {
     std::vector<NamedPlane> planes;
@@ -52,7 +52,7 @@ TEST(TierDesign, OfADoublePyramidKeepsItsApexes) {
         }
         const std::optional<Solid> solid = design.with(steeper);
         ASSERT_TRUE(solid) << more;
-        // The girdle stays, so that the apex is that of a pyramid over it.
+        // The girdle stays, so the apex is that of a pyramid over it.
         EXPECT_NEAR(highest(*solid), 0.05 + std::tan(radians(35 + more)), 1e-12) << more;
     }
 }
@@ -74,7 +74,7 @@ TEST(TierDesign, OfABrilliantKeepsMeetsAzimuthsAndGirdle) {
     for (std::size_t f = 0; f < start.facets.size(); ++f) {
         const Facet &was = start.facets[f], &is = solid->facets[f];
         EXPECT_EQ(is.corners, was.corners);
-        // Corners are reckoned from planes whose numbers are of the size of the stone.
+        // Corners are computed from planes whose numbers have the size of the stone.
         for (const int c : is.corners)
             EXPECT_NEAR(height_above(is.plane, solid->vertices[static_cast<std::size_t>(c)]), 0,
                         1e-12 * diameter(start));
@@ -86,7 +86,7 @@ TEST(TierDesign, OfABrilliantKeepsMeetsAzimuthsAndGirdle) {
         } else if (turn[f] != 0) {
             const double from = std::atan2(std::hypot(a.x, a.y), std::abs(a.z));
             const double to = std::atan2(std::hypot(b.x, b.y), std::abs(b.z));
-            // The nearest cut with these meets: the angles wanted but for what meets tie.
+            // The nearest cut with these meets: the wanted angles, except where meets tie them.
             EXPECT_NEAR(to - from, turn[f], radians(0.2)) << is.name;
         }
     }
@@ -96,7 +96,7 @@ TEST(TierDesign, IsRefusedWhereFacetsWouldVanish) {
     const Solid start = make_cut("round-brilliant");
     const TierDesign design(start);
     for (std::size_t t = 0; t < design.tiers().size(); ++t) {
-        // Mains as flat as stars, stars as steep as mains: the outline of facets changes.
+        // Mains as flat as stars, stars as steep as mains: facets change their outline.
         std::vector<double> steeper(design.tiers().size(), 0);
         steeper[t] = radians(45);
         const std::optional<Solid> solid = design.with(steeper);
@@ -120,7 +120,7 @@ TEST(Optimize, IsAtLeastItsStartAndTheSearchWithTwoFactors) {
     EXPECT_TRUE(result.found);
     EXPECT_GE(result.by_two_factors.total, result.at_start.total);
     EXPECT_GE(result.at_better.total, result.by_two_factors.total);
-    // The merit again, by grade: cosine light over the same tilts.
+    // Computes the merit again with grade: cosine light over the same tilts.
     GradeOptions grade;
     grade.coarse = true;
     for (int deg = -30; deg <= 30; deg += 10) grade.tilts.push_back(radians(deg));
@@ -133,8 +133,8 @@ TEST(Optimize, IsAtLeastItsStartAndTheSearchWithTwoFactors) {
     EXPECT_NEAR(result.at_better.total, 100 * sum / 7, 1e-9);
 }
 
-// Left and right lower halves under two names, as designs have them (P3, P21): one angle by the
-// symmetry of the drawing, eightfold with mirrors.
+// Left and right lower halves under two names, as designs have them (P3, P21): they share one angle
+// by the drawing's symmetry, eightfold with mirrors.
 Solid brilliant_of_two_names() {
     Solid solid = make_cut("round-brilliant");
     int number = 0;
@@ -158,12 +158,12 @@ TEST(Optimize, KeepsSymmetryAndEveryFacet) {
     EXPECT_EQ(kept.group.name(), "C8v");
     for (const FacetOrbit& orbit : orbits_of(kept.group, start.facets.size())) {
         for (const int f : orbit.facets) {
-            // Meets are closed to rounding of numbers of the stone's size.
+            // Meets close to rounding error at the stone's size.
             EXPECT_NEAR(result.better.facets[std::size_t(f)].plane.normal.z,
                         result.better.facets[std::size_t(orbit.facets[0])].plane.normal.z, 1e-11);
         }
     }
-    // As a design it reads back whole: nothing is so small that a reader takes it for a near miss.
+    // It reads back whole as a design: nothing is so small that a reader takes it for a near miss.
     const double least = 0.005 * diameter(start);
     for (const Facet& facet : result.better.facets) {
         for (std::size_t i = 0; i < facet.corners.size(); ++i) {
@@ -224,7 +224,7 @@ TEST(Optimize, CutsAStoneAnewInsideWhatIsThere) {
     EXPECT_NEAR(volume(result.better) / volume(stone), result.volume_ratio, 1e-12);
     EXPECT_GE(result.volume_ratio, 0.8);
     EXPECT_GE(result.at_better.total, result.at_start.total);
-    // The girdle stays where it is on the axis, its middle at height 0, but for the copy's scale.
+    // The girdle keeps its place on the axis, its middle at height 0, up to the copy's scale.
     double low = 0, high = 0;
     const Solid design = about_its_axis(result);
     for (const Facet& facet : design.facets) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Whole trees of light paths in crystals, in 50-digit arithmetic, by a way that shares nothing with culet:
-the four waves at a face are the roots of det(N N^T - N^2 I + eps) = 0 as a quartic in q, N = K + q n; their fields
-are null vectors of that matrix; a face is the 4x4 system of continuous tangential E and H; rays run along the
-Poynting vector to the nearest plane ahead. Makes ray_trees.json, which ray_trees_test.cpp reads:
+"""Whole trees of light paths in crystals, in 50-digit arithmetic, by a method that shares nothing
+with culet. The four waves at a face are the roots of det(N N^T - N^2 I + eps) = 0 as a quartic
+in q, N = K + q n; their fields are null vectors of that matrix; a face is the 4x4 system of
+continuous tangential E and H; rays run along the Poynting vector to the nearest plane ahead.
+Makes ray_trees.json for ray_trees_test.cpp:
 
     apt-get install python3-mpmath
     python3 ray_trees.py > ray_trees.json
@@ -30,7 +31,7 @@ def unit(a):
 
 
 def permittivity(indices, axes):
-    """Axes are doubles; the first is kept, the others are put at right angles to it exactly."""
+    """Axes are doubles. The first is kept; the others are made exactly perpendicular to it."""
     a = unit([mp.mpf(x) for x in axes[0]])
     b = [mp.mpf(x) for x in axes[1]]
     b = unit([y - dot(a, b) * x for x, y in zip(a, b)])
@@ -97,7 +98,7 @@ def outside_waves(K, n, sign):
 
 
 def amplitudes(incident, same_side, far_side, K, n):
-    """Of the waves on both sides that `incident` makes: tangential E and H are continuous."""
+    """The waves that `incident` makes on both sides: tangential E and H are continuous."""
     t2 = unit(K)
     t1 = cross(t2, n)
     tangential = lambda w: [dot(t1, w["E"]), dot(t2, w["E"]), dot(t1, w["H"]), dot(t2, w["H"])]
@@ -116,7 +117,8 @@ def tangential_part(N, n):
 
 
 def trace(planes, eps, origin, direction, depth, light):
-    """Radiance, remainder and number of hits of the tree to `depth`; waves' powers are added."""
+    """Radiance, remainder and number of hits of the tree down to `depth`; the powers of waves
+    add."""
     x = [mp.mpf(v) for v in origin]
     d = unit([mp.mpf(v) for v in direction])
     t, n = max(((off - dot(m, x)) / dot(m, d), m) for m, off in planes if dot(m, d) < 0)

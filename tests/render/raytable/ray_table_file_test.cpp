@@ -1,4 +1,4 @@
-// The file of a ray table: what is written comes back, and what is damaged is refused in one line.
+// Files of ray tables: they read back as written, and damaged ones are refused in one line.
 // Expectations: exact round trips; docs/ray-tables.md; CRC-32 finds every burst of up to 32 bits
 // (Peterson & Brown 1961); the bound of octahedral_codes.h.
 
@@ -25,12 +25,12 @@ class RayTableFile : public test::FolderTest {
 protected:
     std::filesystem::path file() const { return folder_ / "t.rays"; }
 
-    // Of a small table.
+    // The bytes of a small table.
     std::string bytes() {
         test::table_of(test::brilliant(12)).write(file());
         return read_text(file());
     }
-    // One line that names the file; "" when it opens.
+    // The error, one line that names the file; "" when it opens.
     std::string refusal(const std::string& content) {
         std::ofstream(file(), std::ios::binary) << content;
         try {
@@ -114,7 +114,7 @@ TEST_F(RayTableFile, TellsAnyFlippedBit) {
     const std::string content = bytes();
     ASSERT_EQ(refusal(content), "");
     std::mt19937_64 random(1);
-    // Every byte of the header and the first of the lists, then some in each stretch of the rest.
+    // Every byte of the header and the first of the lists, then some in each part of the rest.
     std::vector<std::size_t> places;
     for (std::size_t at = 0; at < 512; ++at) places.push_back(at);
     for (std::size_t at = 512; at < content.size(); at += 97) places.push_back(at);
@@ -150,7 +150,7 @@ TEST_F(RayTableFile, TellsWhatIsNoTable) {
     EXPECT_NE(refusal(newer).find("version 2"), std::string::npos);
 }
 
-// As somebody might make it who knows the checksum.
+// As forged by someone who knows the checksum.
 TEST_F(RayTableFile, IsCheckedWholeThoughItsChecksumIsRight) {
     const std::string content = bytes();
     using Change = std::function<void(RayTableHeader&)>;
@@ -179,7 +179,7 @@ TEST_F(RayTableFile, IsCheckedWholeThoughItsChecksumIsRight) {
                                       [](RayTableHeader& h) { h.file_bytes = 256; }};
     for (std::size_t i = 0; i < changes.size(); ++i)
         EXPECT_NE(refusal(with_header(content, changes[i])), "") << "change " << i;
-    // In each list, a number that does not belong there: its place as the reader finds it.
+    // In each list an invalid number, with its place as the reader finds it.
     std::ofstream(file(), std::ios::binary) << content;
     const RayTable table = RayTable::open(file());
     const auto& parts = table.parts();
@@ -200,7 +200,7 @@ TEST_F(RayTableFile, IsCheckedWholeThoughItsChecksumIsRight) {
     EXPECT_NE(put(parts.weight, 2, std::nanf("")), "");
     EXPECT_NE(put(parts.weight, 2, -0.5f), "");
     EXPECT_NE(put(parts.facet, 7, static_cast<std::uint16_t>(73)), "");
-    // Any direction and any point of a facet's frame is one.
+    // Any direction and any point of a facet's frame is valid.
     EXPECT_EQ(put(parts.direction[0], 7, std::int32_t{-2147483647 - 1}), "");
     EXPECT_EQ(put(parts.point[0], 7, std::uint16_t{65535}), "");
 }
@@ -210,7 +210,7 @@ TEST(OctahedralCodes, KeepDirectionsToABillionth) {
     std::vector<Vec3> directions{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}};
     for (int i = 0; i < 100000; ++i) directions.push_back(random_direction(random));
     for (int i = 0; i < 1000; ++i) {
-        // Next to the fold.
+        // Next to the octahedron's fold.
         Vec3 d = random_direction(random);
         d.z *= 1e-9;
         directions.push_back(glm::normalize(d));

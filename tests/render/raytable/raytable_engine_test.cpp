@@ -1,4 +1,4 @@
-// The engine "raytable": which scenes it refuses, and how it keeps its tables.
+// The engine "raytable": which scenes it refuses, and how it stores its tables.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST_F(RayTableEngine, WritesItsTableWhereThereIsNoneAndReadsItAfterwards) {
     EXPECT_EQ(relit.stats.seconds_build, 0);
     EXPECT_NE(relit.picture.rgb, first.picture.rgb);
     EXPECT_EQ(read_text(file_), bytes);
-    // Without a file the same picture.
+    // The same picture without a file.
     other.settings.ray_table.clear();
     EXPECT_EQ(render(other).picture.rgb, relit.picture.rgb);
 }
@@ -89,7 +89,7 @@ TEST_F(RayTableEngine, SaysWhatOfAnotherSceneDoesNotFit) {
     other = scene();
     other.settings.wavelengths_nm = {450, 550, 650};
     expect(other, "one refractive index for all wavelengths");
-    // None of these touched the table.
+    // None of these changed the table.
     EXPECT_EQ(refusal(scene()), "");
 }
 

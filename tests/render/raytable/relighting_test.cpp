@@ -1,6 +1,5 @@
-// Pictures from ray tables against the reference, along the same rays.
-//
-// Expectations: the reference, within the bounds of rounding_bounds.h.
+// Pictures from ray tables against the reference along the same rays, within the bounds of
+// rounding_bounds.h.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +38,7 @@ TEST(Relighting, InSmoothLightIsTheReferenceWithinTheBound) {
     const Apart plain =
         apart(relit_by(table, scene, ExitPrecision::double_precision).picture, truth);
     EXPECT_LT(plain.worst, 1e-9 * slope_of_lobes() + k_rounding * 7.8);
-    // The figure that the issue asks for.
+    // The issue's requirement.
     EXPECT_LT(fast.mean, 1e-3);
 }
 
@@ -86,7 +85,7 @@ TEST(Relighting, SeesNearLightsOneBeforeTheOtherAndBeforeTheStone) {
     lights.constant = 0.1;
     lights.sources.push_back(SphereLight{Vec3{-size, size, 2 * size}, 0.5 * size, {4.0}});
     lights.sources.push_back(SphereLight{Vec3{-2 * size, 2 * size, 4 * size}, 1.5 * size, {1.0}});
-    // Half before the stone, as the eye sees it.
+    // Half in front of the stone, as seen by the eye.
     lights.sources.push_back(
         SphereLight{2.0 * size * bench_view() + Vec3{0.3 * size, 0, 0}, 0.2 * size, {0.5}});
     PlaneLight panel;
@@ -97,14 +96,14 @@ TEST(Relighting, SeesNearLightsOneBeforeTheOtherAndBeforeTheStone) {
     panel.radiance = {2.0};
     lights.sources.push_back(panel);
     expect_equal_but_for_rounding(lit(scene, lights), table, 5);
-    // The ball does hide some of it.
+    // The ball hides some of it.
     const Picture picture = relit_by(table, lit(scene, lights)).picture;
     const Picture bare = relit_by(table, scene).picture;
     EXPECT_LT(std::accumulate(picture.coverage.begin(), picture.coverage.end(), 0.0),
               std::accumulate(bare.coverage.begin(), bare.coverage.end(), 0.0) - 20);
 }
 
-// Lights that are too many for the vectors are asked for one by one.
+// Lights beyond the vectors' capacity are evaluated one by one.
 TEST(Relighting, SeesAnyNumberOfNearLights) {
     const Scene scene = brilliant(24);
     const RayTable table = table_of(scene);
@@ -134,9 +133,9 @@ TEST(Relighting, SeesAnEnvironmentAsTheReferenceDoes) {
     const Scene now = lit(scene, lights);
     const Apart off = apart(relit_by(table, now).picture, by_reference(now).picture);
     EXPECT_GT(off.brightest, 0.5);
-    // Neighbours differ by at most 1, texels are 2 pi / 64 wide at the equator, and a column's
-    // place is off by the direction over the sine of the polar angle, where the first row of texel
-    // centres has sin(pi / 64); the row of a point next to a pole may round by half a digit.
+    // Neighbouring texels differ by at most 1 and are 2 pi / 64 wide at the equator. A column's
+    // position is off by the direction's error over the sine of the polar angle; the first row of
+    // texel centres has sin(pi / 64). The row of a point next to a pole may be off by half a digit.
     EXPECT_LT(off.worst, 4 * (k_direction + 4 * 0x1p-24 * std::numbers::pi) * 64 /
                              (2 * std::numbers::pi) / std::sin(std::numbers::pi / 64));
 }

@@ -1,4 +1,4 @@
-// Stones of every kind from ray tables, with other body colours and other weights.
+// Stones of every kind from ray tables, with other body colours and weights.
 //
 // Expectations: the reference along the same rays, within the bounds of rounding_bounds.h; closed
 // forms of series; conservation of energy.
@@ -25,7 +25,6 @@ using test::lit;
 using test::relit_by;
 using test::table_of;
 
-// Conservation of energy.
 TEST(RelitStones, FurnaceShowsOneButForWhatTheTableLeavesOut) {
     Lights furnace;
     furnace.constant = 1;
@@ -38,7 +37,7 @@ TEST(RelitStones, FurnaceShowsOneButForWhatTheTableLeavesOut) {
         EXPECT_NEAR(stats.mean_radiance + stats.remainder + stats.cut, 1, k_rounding);
         EXPECT_EQ(stats.absorbed, 0);
     }
-    // Where hardly anything is left out each pixel is 1, as the air around it.
+    // Where almost nothing is left out each pixel is 1, like the air around it.
     Scene deep = scenes[0];
     deep.settings.depth = 400;
     const RenderResult result = relit_by(table_of(deep), deep);
@@ -61,8 +60,8 @@ TEST(RelitStones, TakesAnotherBodyColourWithoutTracing) {
     const double length = 0.5 * table.header().length_step;
     EXPECT_LT(off.worst, bound_of_lobes() + strongest * length * 7.8);
     EXPECT_GT(apart(result.picture, relit_by(table, clear).picture).worst, 0.1);
-    // What is absorbed, and on average what leaves: the reference keeps the same accounts, but
-    // counts what stays inside at the depth limit after absorption, as absorbed.
+    // The absorbed light, and on average the exits, equal the reference's. But the reference counts
+    // what stays inside at the depth limit after absorption, as absorbed.
     EXPECT_GE(result.stats.remainder, truth.stats.remainder);
     EXPECT_NEAR(result.stats.remainder + result.stats.absorbed,
                 truth.stats.remainder + truth.stats.absorbed, 1e-5);
@@ -102,11 +101,11 @@ TEST(RelitStones, OfTreesIsTheReference) {
     }
     Scene liquid = in_material(brilliant(20), "topaz_imperial");
     liquid.immersion = 1.5;
-    // Seen through, with the light behind it.
+    // Transmitted light, with the light behind the stone.
     expect_equal_but_for_rounding(lit(liquid, *light_preset("lightbox")), table_of(liquid), 6);
 }
 
-// What a table leaves out of a big tree is bounded by what it says.
+// A table's stated bound covers what it leaves out of a big tree.
 TEST(RelitStones, OfTreesThatWereCutIsWithinTheBoundThatItStates) {
     Scene scene = in_material(brilliant(16), "zircon_high");
     scene.settings.depth = 9;
@@ -117,7 +116,7 @@ TEST(RelitStones, OfTreesThatWereCutIsWithinTheBoundThatItStates) {
         const RayTable table = table_of(scene);
         const RenderResult result = relit_by(table, scene);
         EXPECT_GT(result.stats.cut, 0);
-        // Beside paths that the depth ends, in both pictures.
+        // In addition to paths that the depth ends, in both pictures.
         const double bound = result.stats.cut * 7.8 / result.stats.mean_radiance;
         EXPECT_LT(apart(result.picture, truth).mean, bound);
         EXPECT_GE(result.stats.error_bound, 0.9 * bound);
@@ -133,7 +132,7 @@ TEST(RelitStones, WithDispersionKeepsEachWavelengthApart) {
     const Scene now = lit(scene, *light_preset("lightbox"));
     const RenderResult result = relit_by(table, now);
     Scene plain = now;
-    plain.settings.spectral = false;  // S0 alone is the shorter way
+    plain.settings.spectral = false;  // S0 alone takes the shorter code path
     EXPECT_LT(apart(result.picture, by_reference(plain).picture).worst, k_rounding * 6);
     ASSERT_EQ(result.picture.spectral.size(), 4u);
     const Picture spectral = by_reference(now).picture;
@@ -163,8 +162,8 @@ TEST(RelitStones, GoesByEveryCamera) {
     }
 }
 
-// Lee's factors: a ray with m leaves sends R out at once, T T R^(k - 1) at its k-th inner face that
-// lets light out; with R + T = 1 the whole series sums to R + T T / (1 - R) = 1.
+// Lee's factors: a ray with m exits sends R out at once and T T R^(k - 1) at its k-th inner face
+// that lets light out; with R + T = 1 the whole series is R + T T / (1 - R) = 1.
 TEST(RelitStones, TakesConstantFactorsForFresnels) {
     Scene scene = lit(brilliant(32), {});
     scene.lights.constant = 1;

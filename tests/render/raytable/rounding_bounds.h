@@ -1,10 +1,10 @@
 #pragma once
-// How far a picture of a ray table may be from the reference's along the same rays.
+// How far a ray table's picture may be from the reference's along the same rays.
 //
-// What is rounded (docs/ray-tables.md): weights to 2^-24 of themselves, directions to 1e-9, or 4e-7
-// where they are read in single precision, lengths by half a step, points by half a 65535th of
-// their facet's extent. A sum of leaves in single precision is off by some 2^-24 for each of its
-// few operations: k_rounding allows for 16.
+// Rounding (docs/ray-tables.md): weights to 2^-24 of themselves; directions to 1e-9, or 4e-7 where
+// they are read in single precision; lengths to half a step; points to half a 65535th of their
+// facet's extent. A sum of exits in single precision is off by some 2^-24 for each of its few
+// operations: k_rounding allows for 16.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ inline Scene lit(Scene scene, const Lights& lights) {
     return scene;
 }
 
-// Of smooth_lights: how fast their radiance changes with direction. The lobe L cos^e has the
-// slope L sqrt(e) exp(-1/2) at most, and an exponent makes e times the rounding of a cosine.
+// The slope of smooth_lights' radiance with direction. The lobe L cos^e has a slope of at most L
+// sqrt(e) exp(-1/2), and an exponent multiplies the rounding error of a cosine by e.
 inline double slope_of_lobes() {
     return std::exp(-0.5) * (4.7 * std::sqrt(16) + 2 * std::sqrt(8) + std::sqrt(4));
 }
@@ -30,9 +30,9 @@ inline double bound_of_lobes() {
     return k_direction * slope_of_lobes() + k_rounding * (0.1 + 4.7 * 16 + 2 * 8 + 4) / 4;
 }
 
-// Where every leaf sees the same side of each edge of a light, nothing is off but by rounding. An
-// edge is where single precision may decide otherwise: so many of some thousand pixels at most,
-// each in lights of so many edges: pixels x edges x 4e-7 radians over the least angle between
+// Where every exit sees the same side of each edge of a light, only rounding errors remain. At an
+// edge single precision may decide otherwise. This bounds how many of some thousand pixels may
+// differ in lights with so many edges: pixels x edges x 4e-7 radians over the least angle between
 // neighbours' directions is far below one.
 inline void expect_equal_but_for_rounding(const Scene& scene, const RayTable& table,
                                           double largest) {

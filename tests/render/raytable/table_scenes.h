@@ -15,8 +15,8 @@
 
 namespace culet::test {
 
-/// The round brilliant of bench_scenes.h in diamond: depth 6, one wavelength, polarised, one ray a
-/// pixel, nothing cut.
+/// The round brilliant of bench_scenes.h in diamond: depth 6, one wavelength, polarised, one ray
+/// per pixel, nothing pruned.
 inline Scene brilliant(int pixels = 48) {
     Scene scene = base_scene(pixels);
     set_polarised(scene, true);

@@ -61,8 +61,9 @@ FacetUncertainty& facet(StoneUncertainty& uncertainty, const Solid& solid, const
 constexpr std::size_t k_middle = 4 * 8 + 4;
 
 // A plate of thickness d that absorbs a per length and reflects R at each face: incoherent
-// reflections sum to L = (1 - R)^2 t / (1 - R^2 t^2), t = exp(-a d), whose logarithm falls by
-// a (1 + R^2 t^2) / (1 - R^2 t^2) per length. A table off by sigma makes that times L times sigma.
+// reflections sum to L = (1 - R)^2 t / (1 - R^2 t^2), t = exp(-a d), whose logarithm falls by a (1
+// + R^2 t^2) / (1 - R^2 t^2) per length. A table position error of sigma gives that times L times
+// sigma.
 TEST(PictureUncertainty, OfAPlateIsSlopeTimesSigma) {
     const Scene scene = plate_scene();
     StoneUncertainty uncertainty = exact(scene.stone.solid);
@@ -77,8 +78,8 @@ TEST(PictureUncertainty, OfAPlateIsSlopeTimesSigma) {
     const double t = std::exp(-k_absorption * k_depth), rt = reflected * reflected * t * t;
     const double light = std::pow(1 - reflected, 2) * t / (1 - rt);
     const double expected = light * k_absorption * (1 + rt) / (1 - rt) * sigma;
-    // Standard errors of a mean and of a standard deviation, four of each. The curvature of the
-    // exponential adds (a sigma)^2 / 2 = 1e-5, relatively.
+    // Four standard errors of a mean and of a standard deviation. The curvature of the exponential
+    // adds a relative (a sigma)^2 / 2 = 1e-5.
     EXPECT_NEAR(double(found.mean[3 * k_middle]), light, 4 * expected / std::sqrt(draws));
     EXPECT_NEAR(double(found.sigma_luminance[k_middle]) / expected, 1,
                 4 / std::sqrt(2.0 * (draws - 1)));
@@ -87,9 +88,9 @@ TEST(PictureUncertainty, OfAPlateIsSlopeTimesSigma) {
                     1e-3 * expected);
 }
 
-// The light falls evenly with the thickness, so that its levels are those of a normal distribution.
-// The standard error of a level is sqrt(p (1 - p) / n) over the density there: 0.107 sigma for one
-// sigma and 0.195 for two of 200 draws.
+// The light falls monotonically with the thickness, so its quantiles are those of a normal
+// distribution. A quantile's standard error is sqrt(p (1 - p) / n) over the density there: for 200
+// draws 0.107 sigma at one sigma and 0.195 at two.
 TEST(PictureUncertainty, BandsOfANormalDistribution) {
     const Scene scene = plate_scene();
     StoneUncertainty uncertainty = exact(scene.stone.solid);
@@ -104,8 +105,8 @@ TEST(PictureUncertainty, BandsOfANormalDistribution) {
             << k;
 }
 
-// Table and floor that move together leave the thickness: their sum's variance is
-// 2 sigma^2 (1 + correlation).
+// If table and floor move together the thickness stays: their sum's variance is 2 sigma^2 (1 +
+// correlation).
 TEST(PictureUncertainty, KnowsCorrelatedFacets) {
     const Scene scene = plate_scene();
     const Solid& solid = scene.stone.solid;
@@ -124,7 +125,7 @@ TEST(PictureUncertainty, KnowsCorrelatedFacets) {
     };
     const double apart = sigma_with(0);
     EXPECT_NEAR(sigma_with(1) / apart, std::sqrt(2.0), 4 * std::sqrt(2.0) * 0.071);
-    // To rounding of single precision in the picture.
+    // To single precision of the picture.
     EXPECT_LT(sigma_with(-1), 1e-4 * apart);
 }
 
@@ -138,13 +139,13 @@ TEST(PictureUncertainty, IsNothingInAFurnace) {
     StoneUncertainty uncertainty = exact(scene.stone.solid);
     for (FacetUncertainty& f : uncertainty.facets) f = {0.01, 0.01, 0.01};
     const PictureUncertainty found = picture_uncertainty(scene, as_it_is(scene), uncertainty, 10);
-    // Cut and remaining light is within the tolerance of the settings.
+    // Pruned and remaining light is within the tolerance of the settings.
     EXPECT_NEAR(double(found.mean[3 * k_middle]), 1, scene.settings.tolerance);
     EXPECT_LT(double(found.sigma_luminance[k_middle]), scene.settings.tolerance);
 }
 
-// The table of a stone that lies on its side is turned about its own up direction: the picture of
-// the turned scene is that of the upright one.
+// A stone on its side turns about its own up direction: the picture of the turned scene is that of
+// the upright one.
 TEST(PictureUncertainty, GoesWithTheStonesOwnUp) {
     const Scene upright = plate_scene();
     Scene lying = upright;
