@@ -57,9 +57,9 @@ TEST(Compare, APictureComparedWithItselfScoresPerfect) {
 }
 
 // The truth is the drawing's own transform. One outline point is good to about a quarter of a pixel
-// (the stairs of the mask after smoothing) and every fourth is independent, so that with 300 points
-// the centre is good to 0.03 px, the scale to 0.03 / radius, the turn to 0.03 / (0.1 radius),
-// 0.1 being the root mean square lever of this outline; four standard deviations are allowed.
+// (the steps of the mask after smoothing) and every fourth is independent. So 300 points give the
+// centre to 0.03 px, the scale to 0.03 / radius, the turn to 0.03 / (0.1 radius), where 0.1 is the
+// root mean square lever of this outline. Four standard deviations are allowed.
 TEST(Compare, AKnownMoveIsRecoveredFromTheCoverage) {
     StonePicture still = small();
     still.with_coverage = true;
@@ -73,7 +73,7 @@ TEST(Compare, AKnownMoveIsRecoveredFromTheCoverage) {
     EXPECT_EQ(r.photo_outline, "coverage");
     EXPECT_NEAR(r.scale, 1 / 1.04, 4 * 0.03 / 50);
     EXPECT_NEAR(radians(r.turn_deg), -0.1, 4 * 0.03 / 5);
-    // Where the drawing's centre goes.
+    // The new place of the drawing's centre.
     const double arm_x = moved.centre_x - r.centre_px[0], arm_y = moved.centre_y - r.centre_px[1];
     const double a = radians(r.turn_deg), co = r.scale * std::cos(a), si = r.scale * std::sin(a);
     EXPECT_NEAR(r.centre_px[0] + r.shift_px[0] + co * arm_x - si * arm_y, still.centre_x, 4 * 0.03);
@@ -83,9 +83,9 @@ TEST(Compare, AKnownMoveIsRecoveredFromTheCoverage) {
     EXPECT_GT(*score(c, "zncc").value, 0.99);
 }
 
-// Segmented on different grounds the outlines may each be off by half a pixel all round.
-// Another picture in the render's place lies where one that was aligned itself would: both outlines
-// are the coverage's.
+// Outlines segmented on different grounds may each be off by half a pixel all round. Another
+// picture in the render's place must lie as if it had been aligned itself: both outlines come from
+// the coverage.
 TEST(AlignedPair, TakesAnotherPictureOfTheRendersOutline) {
     StonePicture still = small();
     still.with_coverage = true;
@@ -116,13 +116,12 @@ TEST(Compare, AKnownMoveIsRecoveredFromTheBackground) {
     EXPECT_EQ(c.verdict, Verdict::match);
 }
 
-// A disc's outline is a disc: its centre is where it was drawn to a tenth of a pixel, its diameter
-// to a pixel.
+// A disc's outline: its centre is right to a tenth of a pixel, its diameter to a pixel.
 TEST(Compare, TheOutlineFromTheBackgroundIsWhereTheStoneIs) {
     StonePicture round = small();
     round.flatness = 1;
     round.sides = 0;
-    round.diameter = 90;  // the outline ends at sqrt(1.1) of it
+    round.diameter = 90;  // the outline ends at sqrt(1.1) times this
     round.centre_x = 73.5;
     const Registration r = compare(draw(round), draw(round)).registration;
     EXPECT_NEAR(r.centre_px[0], 73.5, 0.1);
@@ -152,7 +151,7 @@ TEST(Compare, GainOfEachChannelIsRecovered) {
     photo.gain[1] = 0.8;
     photo.gain[2] = 1.1;
     const Comparison c = compare(draw(photo), draw(small()));
-    // Exact but for the few cells that the third gain drives into clipping, which are left out.
+    // Exact, except for the few cells that the third gain drives into clipping, which are left out.
     EXPECT_NEAR(c.gain[0], 0.5, 1e-6);
     EXPECT_NEAR(c.gain[1], 0.8, 1e-6);
     EXPECT_NEAR(c.gain[2], 1.1, 1e-6);
@@ -167,8 +166,7 @@ TEST(Compare, ClippedPixelsDoNotPullTheGain) {
     for (const double gain : c.gain) EXPECT_NEAR(gain, 3, 1e-3);
 }
 
-// What a camera adds: a blur of 0.7 pixels, shot and read noise, 8 bits. The pose must hold and the
-// verdict with it.
+// A camera adds a blur of 0.7 pixels, shot and read noise, and 8 bits. Pose and verdict must hold.
 TEST(Compare, NoiseAndBlurOfACameraDoNotUpsetIt) {
     StonePicture turned = small();
     turned.turn = 0.05;
@@ -185,7 +183,7 @@ TEST(Compare, NoiseAndBlurOfACameraDoNotUpsetIt) {
     EXPECT_EQ(c.verdict, Verdict::match);
     EXPECT_GT(c.registration.iou, 0.96);
     EXPECT_NEAR(radians(c.registration.turn_deg), -0.05, 0.03);
-    // The outline is then good to about a pixel, half of the blur of this score.
+    // The outline is then good to about a pixel, half of this score's blur.
     EXPECT_GT(*score(c, "zncc").value, 0.85);
     EXPECT_NEAR(c.registration.scale, 1, 0.02);
 }
@@ -230,7 +228,7 @@ TEST(Compare, AQuarterTurnIsRefusedWithAHint) {
     EXPECT_EQ(c.verdict, Verdict::refused);
     EXPECT_FALSE(c.usable());
     EXPECT_THAT(c.reason, HasSubstr("clockwise by 90 degrees"));
-    // The report shows both outlines over one another.
+    // The report overlays both outlines.
     EXPECT_FALSE(c.pictures.photo_outline.values.empty());
     EXPECT_FALSE(c.pictures.render_outline.values.empty());
 }
@@ -296,7 +294,7 @@ TEST(Compare, ABlackRenderInsideItsCoverageHoldsNoEvidence) {
     for (const double gain : c.gain) EXPECT_EQ(gain, 1);
 }
 
-// A pattern of rings is the same however it is turned: the null must not be made of copies.
+// A pattern of rings looks the same at any turn: turned copies are no null distribution.
 TEST(Compare, ARenderThatLooksTheSameTurnedGivesNoNull) {
     StonePicture round = small();
     round.flatness = 1;
@@ -327,7 +325,7 @@ TEST(Compare, AMaskOfThreePixelsIsRefused) {
     EXPECT_THAT(c.reason, HasSubstr("pixels across"));
 }
 
-// All but three pixels left out; and all but a corner, which is compared as if nothing were wrong.
+// With all but three pixels ignored; and with all but a corner, which is compared as usual.
 TEST(Compare, WhatIsToBeIgnoredIsLeftOutOfEveryScore) {
     StonePicture p;
     p.with_coverage = true;

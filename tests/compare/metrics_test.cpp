@@ -41,8 +41,8 @@ cv::Mat flat(double r, double g, double b, int size = 48) {
     return cv::Mat(size, size, CV_32FC3, cv::Scalar(r, g, b));
 }
 
-// An independent implementation: OpenCV's, which takes 8-bit pictures (on floats its constants are
-// wrong). Rounding to 8 bits on both sides is all that may differ.
+// An independent implementation: OpenCV's, which takes 8-bit pictures (its constants are wrong for
+// floats). The two may differ only by rounding to 8 bits.
 TEST(Ssim, AgreesWithOpencvOn8Bits) {
     const cv::Mat photo = noise(96, 1), render = 0.7 * photo + 0.3 * noise(96, 2);
     cv::Mat photo_bytes, render_bytes;
@@ -54,12 +54,12 @@ TEST(Ssim, AgreesWithOpencvOn8Bits) {
     cv::Mat map;
     cv::quality::QualitySSIM::compute(photo_bytes, render_bytes, map);
     const ScoreMap ours = ssim(pictures, cv::Mat(photo.size(), CV_8U, cv::Scalar(255)));
-    // Away from the border, where the two continue the picture differently.
+    // Away from the border, which the two extrapolate differently.
     const cv::Rect middle(8, 8, 80, 80);
     EXPECT_LT(cv::norm(ours.map(middle), map(middle), cv::NORM_INF), 2e-3);
 }
 
-// The trap of SSIM's constants: on 0..1 floats without scaling this would come out near 0.99.
+// A pitfall of SSIM's constants: on 0..1 floats without scaling this would be near 0.99.
 TEST(Ssim, ACopyAtHalfBrightnessIsFarFromPerfect) {
     const cv::Mat photo = noise(96, 1);
     const cv::Mat half = 0.25 * photo;
@@ -90,7 +90,7 @@ TEST(Psnr, OfAKnownError) {
 
 TEST(Zncc, OfANegativeIsMinusOneAndOfFlatIsNothing) {
     cv::Mat photo = noise(64, 3), negative;
-    // sqrt of the negative is 1 - sqrt of the positive.
+    // The root of the negative is 1 - root of the positive.
     cv::Mat root;
     cv::sqrt(luminance(photo), root);
     cv::Mat opposite = 1 - root;
@@ -124,15 +124,15 @@ TEST(Gain, IsExactForAScaledCopyAndRobustToReflexes) {
     const cv::Mat mask(photo.size(), CV_8U, cv::Scalar(255));
     EXPECT_NEAR(solve_gain(photo, render, mask)[0], 0.5, 1e-7);
     EXPECT_NEAR(solve_gain(photo, render, mask)[1], 2, 1e-6);
-    // A fiftieth of the picture is a reflex that the render has not.
+    // A fiftieth of the picture is a reflection that the render lacks.
     photo(cv::Rect(5, 5, 9, 9)).setTo(cv::Scalar(40, 40, 40));
     EXPECT_NEAR(solve_gain(photo, render, mask)[0], 0.5, 0.01);
     const auto dark = solve_gain(photo, cv::Mat::zeros(photo.size(), CV_32FC3), mask);
     EXPECT_EQ(dark[0], 1);
 }
 
-// Andersson et al. (2020): equal pictures 0; green against blue is the largest difference, 1; black
-// against white 0.967 by equations 4 to 6 (HyAB 100).
+// Andersson et al. (2020): 0 for equal pictures; green against blue is the largest difference, 1;
+// black against white is 0.967 by equations 4 to 6 (HyAB 100).
 TEST(Flip, HasThePublishedEndsOfItsScale) {
     const auto at_middle = [](const cv::Mat& a, const cv::Mat& b) {
         return flip_map(a, b).at<float>(a.rows / 2, a.cols / 2);
@@ -166,7 +166,7 @@ TEST(CwSsim, IsOneForEqualPicturesAndForgivesASmallShift) {
     EXPECT_LT(value(wrong), 0.75);
 }
 
-// CW-SSIM as it is written down: every wavelet's answer at every pixel.
+// CW-SSIM by its definition: every wavelet's response at every pixel.
 double cw_ssim_everywhere(const MatchedPictures& pictures) {
     const ShownPictures pair = shown(pictures);
     const auto spectrum_of = [&](const cv::Mat& luma) {
@@ -238,13 +238,13 @@ TEST(CwSsim, AtFewPlacesIsThatAtEveryPixel) {
         pictures.diameter = 120;
         const double value = cw_ssim(shown(pictures), pictures.mask,
                                      wavelet_bank(pictures.mask.size(), pictures.diameter));
-        // What a hundredth of a wavelet's weight at the ends of its band may do.
+        // The possible effect of a hundredth of a wavelet's weight at the ends of its band.
         EXPECT_NEAR(value, cw_ssim_everywhere(pictures), 0.005) << other;
     }
 }
 
-// Expected: all scores look at the stone alone, so that a part of the frame that holds it is
-// enough. Wavelets run round the frame's ends, which a part brings nearer.
+// Scores use the stone alone, so a part of the frame that contains it is enough. Wavelets wrap
+// round at the ends of the frame, which are closer in a part.
 TEST(ScoredPart, OfTheFrameGivesTheWholeFramesScores) {
     MatchedPictures whole = pair_of(noise(200, 12, 2), noise(200, 13, 2));
     whole.render = 0.5 * whole.photo + 0.5 * whole.render;
@@ -270,8 +270,7 @@ TEST(ScoredPart, OfTheFrameGivesTheWholeFramesScores) {
     }
 }
 
-// Expected: keys are names in the JSON, and the variance-stabilising transform of a better score is
-// not lower.
+// Keys are names in the JSON, and a perfect score transforms to more than any other.
 TEST(ScoreTable, HasEachKeyOnceAndSaysWhichWayIsBetter) {
     std::set<std::string> keys;
     for (const ScoreKind& kind : score_kinds()) {
@@ -283,7 +282,7 @@ TEST(ScoreTable, HasEachKeyOnceAndSaysWhichWayIsBetter) {
     EXPECT_EQ(score_kind("none"), nullptr);
 }
 
-// A stone that fills the frame: nothing is asked for beyond it.
+// A stone that fills the frame: nothing beyond it is requested.
 TEST(ScoredPart, EndsWhereTheFrameDoes) {
     const MatchedPictures pictures = pair_of(noise(64, 1), noise(64, 2));
     EXPECT_EQ(part_to_score(pictures), cv::Rect(0, 0, 64, 64));
@@ -297,8 +296,8 @@ cv::Mat spots(const std::vector<cv::Point>& middles, int radius = 3) {
     return picture;
 }
 
-// Four spots of 200 pixels; the render has the first two, one of them 2 pixels (1 % of the
-// diameter) away, the third 10 pixels away (too far), and one of its own.
+// Four spots of 200 pixels. The render has the first two, one of them 2 pixels (1 % of the
+// diameter) away; the third 10 pixels away (too far); and one of its own.
 TEST(Reflexes, AreCountedAndMatched) {
     const auto match = match_reflexes(pair_of(spots({{40, 40}, {150, 40}, {40, 150}, {150, 150}}),
                                               spots({{40, 40}, {152, 40}, {50, 150}, {100, 100}})));

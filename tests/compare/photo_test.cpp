@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 class PhotoFiles : public test::FolderTest {
 protected:
-    // Behind the file's name, which might hold the very words that are looked for.
+    // Without the file's name, which might contain the expected words.
     std::string complaint(const std::string& name) const {
         try {
             read_photo(file(name));
@@ -82,7 +82,7 @@ TEST_F(PhotoFiles, AlphaIsTheStonesCoverage) {
     EXPECT_EQ(photo.coverage[1], 1);
 }
 
-// EXIF orientation 6: the camera was turned, the picture is shown a quarter turn clockwise.
+// EXIF orientation 6: the camera was turned, so the picture is shown a quarter turn clockwise.
 TEST_F(PhotoFiles, AJpegIsTurnedUpright) {
     cv::Mat wide(16, 48, CV_8UC3, cv::Scalar(0, 0, 0));
     wide.colRange(0, 16).setTo(cv::Scalar(255, 255, 255));
@@ -133,7 +133,7 @@ TEST_F(PhotoFiles, BrokenPicturesAreNamed) {
     }
 }
 
-// A header of 4 billion pixels and no data must not be believed.
+// A header that claims 4 billion pixels without data.
 TEST_F(PhotoFiles, AbsurdSizesAreRefusedBeforeAnythingIsAllocated) {
     std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\1\0\0\0\1\0\0\x08\2\0\0\0\xe3\xe6\xa7\xb4",
                     33);

@@ -1,5 +1,5 @@
-// The camera of a photograph: formulas against each other, and simulated photographs whose camera
-// is known. The full figures are measured by bench_pose (docs/registration.md).
+// The camera of a photograph: formulas against each other, and simulated photographs from a known
+// camera. bench_pose measures the full figures (docs/registration.md).
 
 #include <gtest/gtest.h>
 
@@ -52,8 +52,7 @@ std::vector<Camera> several_cameras(const Solid& solid) {
     return cameras;
 }
 
-// Expected: the ray that the renderer sends through the picture point passes the point of the
-// stone.
+// The renderer's ray through the picture point passes through the point of the stone.
 TEST(StoneView, SeesPointsWhereTheRendererDoes) {
     const Solid solid = make_cut("oval");
     for (const Camera& camera : several_cameras(solid)) {
@@ -82,7 +81,7 @@ TEST(StoneView, AndCameraAreTheSameThing) {
     }
 }
 
-// Expected: a camera's picture cut out of a larger one's, pixel for pixel.
+// A camera's picture equals the crop of a larger one's, pixel for pixel.
 TEST(PrincipalPoint, CutsAPartOutOfALargerPicture) {
     for (const bool orthographic : {false, true}) {
         Camera large;
@@ -107,7 +106,7 @@ TEST(PrincipalPoint, CutsAPartOutOfALargerPicture) {
     }
 }
 
-// Expected: the orders of the cuts' point groups (C8v, C2v, Cs, C3v).
+// Expectation: the orders of the cuts' point groups (C8v, C2v, Cs, C3v).
 TEST(Symmetry, OfAModelIsFoundToTheLastTurn) {
     EXPECT_EQ(symmetries_of(WireSolid(make_cut("round-brilliant"))).size(), 16u);
     EXPECT_EQ(symmetries_of(WireSolid(make_cut("step"))).size(), 4u);
@@ -121,7 +120,7 @@ TEST(Symmetry, IsGoneWhenFacetsAreOff) {
     EXPECT_EQ(symmetries_of(WireSolid(solid)).size(), 1u);
 }
 
-// Expected: the place of the step, which is put in in linear light and blurred by a known Gaussian.
+// Expectation: the step's position, drawn in linear light and blurred by a known Gaussian.
 TEST(EdgeSearch, FindsAStepToATwentiethOfAPixel) {
     for (const double place : {20.0, 20.21, 20.5, 20.83}) {
         cv::Mat picture(40, 40, CV_32FC3);
@@ -150,7 +149,7 @@ TEST(EdgeSearch, FindsNothingInAPlainPicture) {
     EXPECT_TRUE(edges_across(EdgePicture(picture, 1), point, 6).empty());
 }
 
-// Expected: the changed view's own projection, and its differences.
+// Expectation: the changed view's own projection, and its differences.
 TEST(ChangedView, SeesPointsAsTheViewDoesAndKnowsHowTheyMove) {
     const Solid solid = make_cut("oval");
     const ViewChange change{0.02, -0.03, 0.05, 2, -3, 0.04, 0.1, 1.5, -0.5};
@@ -165,7 +164,7 @@ TEST(ChangedView, SeesPointsAsTheViewDoesAndKnowsHowTheyMove) {
         };
         EXPECT_NEAR(seen.at.x, at(change, point).x, 1e-9);
         EXPECT_NEAR(seen.at.y, at(change, point).y, 1e-9);
-        // Central differences are good to h squared and to rounding over h.
+        // Central differences are good to h squared and to rounding error over h.
         constexpr double h = 1e-5;
         for (std::size_t k = 0; k < change.size(); ++k) {
             ViewChange more = change, less = change;
@@ -185,7 +184,7 @@ TEST(ChangedView, SeesPointsAsTheViewDoesAndKnowsHowTheyMove) {
     }
 }
 
-// Expected: both changed planes hold the moved point; its slopes are its differences.
+// Both changed planes contain the moved point; its slopes are its differences.
 TEST(MovedEdge, IsWhereTheChangedFacetsMeet) {
     const WireSolid wire(make_cut("step"));
     const std::array<FacetChange, 2> changes{FacetChange{0.02, -0.03, 0.01},
@@ -216,7 +215,7 @@ TEST(MovedEdge, IsWhereTheChangedFacetsMeet) {
     }
 }
 
-// A share of nothing is no share: most of the places elsewhere have no point of a single edge.
+// A share of zero points must not be NaN: most other places have no point on a single edge.
 TEST(EdgeSupport, OfOnePointIsANumber) {
     const cv::Mat picture(60, 60, CV_32FC3, cv::Scalar(0.3, 0.3, 0.3));
     WirePoint point;
@@ -228,7 +227,7 @@ TEST(EdgeSupport, OfOnePointIsANumber) {
     EXPECT_TRUE(std::isfinite(support.z));
 }
 
-// Expected: the view whose own projection gave the edges.
+// Expectation: the view whose own projection gave the edges.
 TEST(PoseSolver, ReturnsToTheViewThatEdgesComeFrom) {
     const WireSolid wire(make_cut("pear"));
     for (const double diameters : {0.0, 8.0}) {
@@ -253,8 +252,8 @@ TEST(PoseSolver, ReturnsToTheViewThatEdgesComeFrom) {
     }
 }
 
-// Expected: size and place of the view that the mask was painted from. A mask's pixels are known to
-// half a pixel each, and 72 tangents average that.
+// Expectation: size and place of the view from which the mask was painted. A mask's pixels are
+// known to half a pixel each, and 72 tangents average that.
 TEST(OutlineShape, GivesSizeAndPlace) {
     const WireSolid wire(make_cut("oval"));
     const Camera camera = synthetic::camera_at(wire.solid, standpoint(15, 0, 400));
@@ -325,7 +324,7 @@ double shift_to_truth(const Shot& made, const FoundPose& pose) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// Expected: the camera that took the picture, within the 99 % that the pose itself promises.
+// Expectation: the camera that took the picture, within the 99 % that the pose states.
 TEST(FindPose, FindsTheCameraOfABrilliantFrom25DegreesAway) {
     const Shot made = shot("round-brilliant", 0.2, 20, 12, "overcast", 320, 11);
     PoseOptions options;
@@ -336,7 +335,7 @@ TEST(FindPose, FindsTheCameraOfABrilliantFrom25DegreesAway) {
         find_pose(made.photo, made.model, rough_start(made, 25, 1.18, 3), options);
     EXPECT_TRUE(pose.usable()) << pose.trouble;
     EXPECT_FALSE(pose.mirrored);
-    EXPECT_FALSE(pose.chirality_known);  // a brilliant looks alike in a mirror
+    EXPECT_FALSE(pose.chirality_known);  // a brilliant equals its mirror image
     EXPECT_EQ(pose.others.size(), 15u + static_cast<std::size_t>(std::count_if(
                                             pose.others.begin(), pose.others.end(),
                                             [](const TriedPose& p) { return p.lead != 0; })));
@@ -345,7 +344,8 @@ TEST(FindPose, FindsTheCameraOfABrilliantFrom25DegreesAway) {
     EXPECT_LT(pose.sigmas.angle_99, radians(1));
 }
 
-// Facets that are off by 0.2 degrees hide the view by more than 0.1 degrees: said, not hidden.
+// Facets with errors of 0.2 degrees leave the view uncertain by more than 0.1 degrees: the result
+// says so.
 TEST(FindPose, RefusesWhatItCannotPromise) {
     const Shot made = shot("trillion", 0.2, 4, 8, "dome", 240, 12);
     PoseOptions options;
@@ -357,7 +357,7 @@ TEST(FindPose, RefusesWhatItCannotPromise) {
     EXPECT_FALSE(pose.remedy.empty());
 }
 
-// Expected of a photograph from below: no pose of the crown, whose outline is the same.
+// A photograph from below gives no pose of the crown, although the outline is the same.
 TEST(FindPose, RefusesAPhotographOfTheOtherSide) {
     Shot made = shot("round-brilliant", 0.2, 175, 12, "overcast", 320, 17);
     const Camera start = synthetic::camera_at(made.model, standpoint(5, 12, 320));
@@ -366,7 +366,7 @@ TEST(FindPose, RefusesAPhotographOfTheOtherSide) {
     EXPECT_FALSE(pose.remedy.empty());
 }
 
-// Expected: the camera that took the whole picture, told by no more than the part that is left.
+// Expectation: the camera that took the whole picture, from the cropped part alone.
 TEST(FindPose, FindsTheCameraOfACroppedPhotograph) {
     Shot made = shot("round-brilliant", 0.2, 20, 12, "overcast", 320, 11);
     const Camera start = rough_start(made, 15, 1.1, 3);
@@ -386,12 +386,12 @@ TEST(FindPose, RefusesAnotherStone) {
     const FoundPose pose =
         find_pose(made.photo, make_cut("trillion"), rough_start(made, 5, 1, 5), options);
     EXPECT_FALSE(pose.usable());
-    // The overlay shows why all the same.
+    // The overlay still shows why.
     EXPECT_EQ(pose_overlay(made.photo, made.model, pose).substr(1, 3), "PNG");
 }
 
 TEST(FindPose, SeesThatAPhotographIsMirrored) {
-    // A stone without any symmetry of its own, and a model that knows it.
+    // A stone without any symmetry, and a model that knows it.
     Shot made = shot("pear", 2.5, 15, 0, "overcast", 320, 14);
     made.model = made.scene.stone.solid;
     const Camera start = rough_start(made, 8, 1.1, 6);
@@ -403,7 +403,7 @@ TEST(FindPose, SeesThatAPhotographIsMirrored) {
     options.search = radians(12);
     options.limits.angle = radians(1);
     options.limits.shift_px = 1;
-    // Unasked, no photograph is taken as mirrored.
+    // No photograph is taken as mirrored unless that is requested.
     EXPECT_FALSE(find_pose(turned, made.model, start, options).mirrored);
     options.both_chiralities = true;
     const FoundPose as_is = find_pose(made.photo, made.model, start, options);

@@ -100,8 +100,8 @@ Report full_report(const std::string& name = "T") {
     return report;
 }
 
-/// Tags opened and not closed, or closed in the wrong order; void elements and the inside of
-/// script and style are left out. Empty when the page is well formed.
+/// Tags that stay open or close in the wrong order, except void elements and the inside of script
+/// and style. Empty when the page is well formed.
 std::string nesting_fault(const std::string& page) {
     static const std::set<std::string> void_elements{"meta", "link", "img", "input", "br"};
     std::vector<std::string> open;
@@ -161,7 +161,7 @@ TEST(Report, HasOnlyTheSectionsWhoseDataIsThere) {
     EXPECT_EQ(nesting_fault(page), "");
 }
 
-// Where `parts` begin, one after another.
+// Checks that `parts` begin one after another.
 void expect_order(const std::string& page, const std::vector<std::string>& parts) {
     std::size_t last = 0;
     for (const std::string& part : parts) {
@@ -193,8 +193,8 @@ TEST(Report, BeginsWithTheVerdictsThenWhatToLookAtThenThePicture) {
 }
 
 TEST(Report, ShowsTheStoneWellExposed) {
-    // Of a hundred values nine in ten are dull and the rest are glints: white is such that the
-    // median is shown at 0.4, but neither more than 7 nor fewer than 2 of them are over white.
+    // Of a hundred values nine in ten are dull and the rest are glints. White is chosen so that the
+    // median is shown at 0.4, but with at most 7 and at least 2 values over white.
     std::vector<float> dull(90, 0.1f), glints{0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1, 2, 3};
     dull.insert(dull.end(), glints.begin(), glints.end());
     EXPECT_NEAR(white_for_stone(dull).value(), 0.5, 1e-6);
@@ -212,7 +212,7 @@ TEST(Report, LoadsNothing) {
     EXPECT_THAT(page, Not(HasSubstr("https:")));
     EXPECT_THAT(page, Not(HasSubstr("@import")));
     EXPECT_THAT(page, HasSubstr("default-src 'none'"));
-    // Whatever a source names is inline.
+    // Every source is inline.
     const std::regex source("(src|href)=\"([^\"]{0,5})");
     for (auto it = std::sregex_iterator(page.begin(), page.end(), source);
          it != std::sregex_iterator(); ++it) {

@@ -29,7 +29,7 @@ Scene scene_within(double tolerance) {
     return scene;
 }
 
-// One for the tests that only look at it.
+// One study, shared by the tests that only read it.
 const SceneStudy& studied() {
     static const SceneStudy study = study_scene(scene_within(0.1), quick(0.1));
     return study;
@@ -47,7 +47,7 @@ TEST(SceneStudy, FrontFallsAsTimeGrowsAndNothingBeatsIt) {
         EXPECT_LT(after.claimed_error, before.claimed_error);
         EXPECT_FALSE(after.picture.rgb.empty());
     }
-    // But for the 2 % that a place on the front must bring.
+    // Except for the 2 % gain that a place on the front requires.
     for (const StudiedRender& render : study.renders) {
         EXPECT_TRUE(std::any_of(study.front.begin(), study.front.end(), [&](int id) {
             return study.render(id).cpu.median <= render.cpu.median &&
@@ -80,8 +80,8 @@ TEST(SceneStudy, AdvisesTheCheapestThatMeetsTheTolerance) {
     EXPECT_NEAR(*advice.ratio, study.render(*advice.automatic).cpu.median / best.cpu.median, 1e-9);
 }
 
-// In a constant light without absorption every path ends at the same radiance: what is not cut is
-// exactly 1, whatever the setting (conservation of energy).
+// In a constant light without absorption every path ends at the same radiance: what is not pruned
+// is exactly 1, whatever the setting (conservation of energy).
 TEST(SceneStudy, OfAFurnaceFindsNoErrorButWhatIsCut) {
     Scene scene = scene_within(0.03);
     scene.lights = {};
@@ -89,7 +89,7 @@ TEST(SceneStudy, OfAFurnaceFindsNoErrorButWhatIsCut) {
     const SceneStudy study = study_scene(scene, quick(0.03));
     EXPECT_LT(study.reference.noise.mean, 0.003);
     for (const StudiedRender& render : study.renders) {
-        // A path that is cut for its small weight leaves out less than that.
+        // A pruned path leaves out less than its small weight.
         const double cut =
             std::max(render.settled.tolerance, render.settled.cut_weight.value_or(0));
         if (render.settled.depth > 0 || cut > 0.5) continue;
@@ -101,7 +101,7 @@ TEST(SceneStudy, OfAFurnaceFindsNoErrorButWhatIsCut) {
 
 TEST(SceneStudy, MeasuresTheSameErrorsAgain) {
     const SceneStudy &one = studied(), two = study_scene(scene_within(0.1), quick(0.1));
-    // How many rays there was time for depends on the machine.
+    // The number of rays within the time depends on the machine.
     if (one.reference.samples != two.reference.samples) GTEST_SKIP() << "another reference";
     std::map<std::string, double> errors;
     for (const StudiedRender& render : one.renders) errors[render.words] = render.error.mean;

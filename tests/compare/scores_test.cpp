@@ -1,4 +1,4 @@
-// Scores against numbers made by others' programs, and against closed forms.
+// Scores against other programs' numbers and closed forms.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace culet {
 namespace {
 
-// Two 8-bit pictures that anybody can make again. Width 96, height 80; c = 0, 1, 2 is R, G, B.
+// Two reproducible 8-bit pictures. Width 96, height 80; c = 0, 1, 2 is R, G, B.
 cv::Mat bytes_by_formula(bool second) {
     cv::Mat picture(80, 96, CV_8UC3);
     for (int y = 0; y < picture.rows; ++y) {
@@ -78,8 +78,8 @@ MatchedPictures linear_pair(const cv::Mat& photo, const cv::Mat& render) {
 }
 
 // scikit-image 0.19.3, skimage.metrics.structural_similarity(a, b, gaussian_weights=True,
-// sigma=1.5, use_sample_covariance=False, data_range=255) of the green channels: it leaves a border
-// of 5 pixels out of the mean, and so does the mask here.
+// sigma=1.5, use_sample_covariance=False, data_range=255) of the green channels. It leaves a border
+// of 5 pixels out of the mean, as does the mask here.
 TEST(Ssim, EqualsScikitImageWithTheSameSettings) {
     const ShownPictures pictures = shown_bytes();
     cv::Mat mask(pictures.photo_luma.size(), CV_8U, cv::Scalar(0));
@@ -102,7 +102,7 @@ TEST(NormalizedInformation, EqualsScikitImageWithTheSameBins) {
 
 TEST(NormalizedInformation, IsTwoThroughAnyToneCurveAndNothingOfFlatPictures) {
     ShownPictures pictures = shown_bytes();
-    // 64 levels apart from each other whatever the curve: the steps stay what they are.
+    // 64 distinct levels whatever the curve: the steps remain.
     pictures.photo_luma = cv::Mat(16, 64, CV_32F);
     for (int y = 0; y < 16; ++y) {
         for (int x = 0; x < 64; ++x) pictures.photo_luma.at<float>(y, x) = x < 32 ? 0.2f : 0.6f;
@@ -116,10 +116,10 @@ TEST(NormalizedInformation, IsTwoThroughAnyToneCurveAndNothingOfFlatPictures) {
     EXPECT_FALSE(normalized_information(pictures, cv::Mat::zeros(mask.size(), CV_8U)).has_value());
 }
 
-// The formulas of Andersson et al. (2020) once more, in double precision and with two-dimensional
-// filters (numpy 1.24, scipy 1.10), with the constants of the authors' program: radius 10 for every
-// contrast sensitivity, 9 for the features, edges repeated. 67 pixels a degree. The authors' own
-// example pictures are not at hand.
+// The formulas of Andersson et al. (2020) independently in double precision with two-dimensional
+// filters (numpy 1.24, scipy 1.10) and the constants of the authors' program: radius 10 for every
+// contrast sensitivity, 9 for the features, edges repeated. 67 pixels per degree. The authors' own
+// example pictures are not available.
 TEST(Flip, EqualsAnIndependentImplementation) {
     const cv::Mat map =
         flip_map(decoded(bytes_by_formula(false)), decoded(bytes_by_formula(true)), 67);
@@ -144,8 +144,8 @@ TEST(Gmsd, IsNothingForEqualPicturesAndGrowsWithABlur) {
     EXPECT_FALSE(gmsd(pictures, three).has_value());
 }
 
-// All of one colour: the distance is that of the two colours, wherever the pixels lie. Lightness
-// of 0.18 and 0.5 by the CIE formula: 116 cbrt(Y) - 16.
+// All of one colour: the distance is that of the two colours, wherever the pixels lie. Lightness of
+// 0.18 and 0.5 by the CIE formula: 116 cbrt(Y) - 16.
 TEST(ColourDistributions, OfFlatPicturesHaveAClosedForm) {
     const cv::Mat dark(20, 20, CV_32FC3, cv::Scalar(0.18, 0.18, 0.18)),
         light(20, 20, CV_32FC3, cv::Scalar(0.5, 0.5, 0.5));

@@ -28,7 +28,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// Written and read again, in 8 bits through the sRGB curve.
+/// Writes and reads a JPEG, in 8 bits through the sRGB curve.
 void compress(Photo& photo, int quality) {
     cv::Mat shown(photo.height, photo.width, CV_8UC3), back;
     for (std::size_t i = 0; i < photo.rgb.size(); ++i)

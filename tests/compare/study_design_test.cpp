@@ -47,7 +47,7 @@ TEST(StudyDesign, LeavesNothingOpenInTheReference) {
     EXPECT_FALSE(exact.effects_auto);
     EXPECT_FALSE(exact.cut_weight);
     EXPECT_EQ(exact.wavelengths_nm.size(), 57u);
-    // A single wavelength is what is to be seen.
+    // A single wavelength is part of the scene's intent.
     scene.settings.wavelengths_nm = {589.3};
     EXPECT_EQ(exact_settings(scene, 0.001, 57).wavelengths_nm, std::vector<double>{589.3});
 }
@@ -102,7 +102,7 @@ TEST(StudyDesign, TellsSettingsThatDrawTheSame) {
     const StudiedScene studied = studied_scene(test::cube_scene());
     const RenderSettings settings = exact_settings(studied.scene, 0.01, 15);
     RenderSettings other = settings;
-    // The stone is clear: nothing is absorbed with it or without.
+    // The stone is clear: absorption makes no difference.
     other.effects[static_cast<std::size_t>(Effects::absorption)] = false;
     EXPECT_EQ(key_of(studied, settings), key_of(studied, other));
     other.effects[static_cast<std::size_t>(Effects::polarization)] = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of make-believe stones: a polygon of flat colour cells on a plain ground, so that every
+// Pictures of imaginary stones: a polygon of flat colour cells on a plain ground, so that every
 // transform and gain between two of them is known.
 
 #include <algorithm>
@@ -53,7 +53,7 @@ inline std::vector<Cell> cells_of(const StonePicture& p) {
 inline bool inside_outline(const StonePicture& p, double u, double v) {
     v /= p.flatness;
     for (int i = 0; i < p.sides; ++i) {
-        // A little irregular, so that no turn brings the outline onto itself.
+        // Slightly irregular, so that no turn maps the outline onto itself.
         const double a = 2 * std::numbers::pi * (i + 0.07 * (i % 3)) / p.sides;
         if (u * std::cos(a) + v * std::sin(a) > 0.95 + 0.03 * (i % 2)) return false;
     }

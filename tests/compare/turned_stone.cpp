@@ -10,14 +10,14 @@ namespace culet::synthetic {
 
 namespace {
 
-// Corners of the outline, pixels of the picture, clockwise as shown.
+// Corners of the outline, in pixels, clockwise as shown.
 std::vector<cv::Point2d> outline_of(const Solid& solid, double turn, const TurntableTruth& truth) {
     std::vector<cv::Point2f> all, hull;
     const double c = std::cos(turn), s = std::sin(turn);
     const double middle = (truth.size - 1) / 2.0;
     for (const Vec3& v : solid.vertices) {
-        // The camera over +x: what turned counter-clockwise by `turn` it sees at y, and nearer by
-        // x.
+        // The camera is over +x: after a counter-clockwise `turn` a point appears at its y, and
+        // nearer by its x.
         const double near = c * v.x - s * v.y, right = s * v.x + c * v.y;
         const double up = std::cos(truth.elevation) * v.z - std::sin(truth.elevation) * near;
         const double u = (std::cos(truth.roll) * right + std::sin(truth.roll) * up) / truth.pixel,
@@ -48,7 +48,7 @@ Photo turned_picture(const Solid& solid, double turn, const TurntableTruth& trut
         if (normal.dot(inside - outline[i]) > 0) normal = -normal;
         edges.push_back({normal, normal.dot(outline[i])});
     }
-    // What of a pixel the nearest edge covers; then the lens.
+    // The part of a pixel that the nearest edge covers; then the lens.
     cv::Mat covered(truth.size, truth.size, CV_32F);
     for (int y = 0; y < truth.size; ++y) {
         for (int x = 0; x < truth.size; ++x) {

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a back-lit stone on a turntable, whose axis and camera are known.
+// Pictures of a back-lit stone on a turntable with a known axis and camera.
 
 #include <opencv2/core.hpp>
 #include <random>
@@ -11,17 +11,17 @@ namespace culet::synthetic {
 
 struct TurntableTruth {
     int size = 1200;                 ///< pixels, each side
-    double pixel = 0.007;            ///< side of a pixel, the solid's unit
+    double pixel = 0.007;            ///< side of a pixel, in the solid's unit
     double axis_px = 0;              ///< from the picture's middle
     double roll = 0, elevation = 0;  ///< radians, as in Turntable
     double blur_px = 1;              ///< standard deviation of the point spread
-    double noise = 0.01;             ///< of the ground's light, one standard deviation
+    double noise = 0.01;             ///< of the background, one standard deviation
     bool eight_bit = true;
 };
 
-/// The stone, which stands upright on the axis through the origin, turned counter-clockwise by
-/// `turn`. Light falls off towards the corners by a tenth; inside the outline the stone is dark but
-/// for a bright spot in its middle.
+/// The stone stands upright on the axis through the origin, turned counter-clockwise by `turn`.
+/// Light falls off towards the corners by a tenth; inside the outline the stone is dark, with a
+/// bright spot in its middle.
 Photo turned_picture(const Solid& solid, double turn, const TurntableTruth& truth,
                      std::mt19937_64& random);
 

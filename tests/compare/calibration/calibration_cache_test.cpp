@@ -50,7 +50,7 @@ TEST_F(CalibrationCacheTest, KeepsNothingWithoutAFolder) {
     EXPECT_FALSE(none.find("c0ffee").has_value());
 }
 
-// A stone that is not convex has no such score: then there is nothing to keep.
+// A non-convex stone has no such score, and then there is nothing to store.
 TEST_F(CalibrationCacheTest, AsksForTheTiltsOnlyWhereDrawsHaveTheirScore) {
     Calibration without = calibration();
     without.draws[0].scores[1].reset();

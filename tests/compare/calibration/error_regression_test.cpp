@@ -1,4 +1,4 @@
-// Scores made by a known law with known noise: what least squares gives is the expectation.
+// Scores from a known law with known noise. Expectation: the result of least squares.
 
 #include "compare/calibration/error_regression.h"
 
@@ -34,9 +34,10 @@ double root_mean_square(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-// Independent scores of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224, a little less where the
-// errors drawn (uniform, deviation 1.29) tell something too. Four weights of 72 draws cost 3 %; the
-// root mean square of 2000 is known to 1.6 %, of 72 to 8 %: three of each.
+// Independent scores with noise 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224, slightly less because
+// the distribution of errors (uniform, deviation 1.29) is informative too. Four weights from 72
+// draws cost 3 %; the root mean square of 2000 is known to 1.6 %, that of 72 to 8 %; the bounds are
+// three of each.
 TEST(ErrorRegression, IsAsGoodAsItsIndependentScoresAndSaysHowGood) {
     std::mt19937_64 random(7);
     const ErrorRegression regression = drawn(72, random);

@@ -13,7 +13,7 @@
 namespace culet {
 namespace {
 
-// Angle between a facet and that of its name in another solid; -1: it has none.
+// Angle between a facet and its namesake in another solid; -1 if there is none.
 double tilt(const Solid& to, const Facet& facet) {
     const int there = find_facet(to, facet.name);
     if (there < 0) return -1;
@@ -21,8 +21,8 @@ double tilt(const Solid& to, const Facet& facet) {
     return std::acos(std::clamp(glm::dot(n, facet.plane.normal), -1.0, 1.0));
 }
 
-// By definition; the arc cosine of a rounded 1 is up to sqrt(2 * 2^-52), four millionths of
-// 0.2 degrees at most. A stone that lost a facet is left out.
+// By definition. The arc cosine of a rounded 1 is up to sqrt(2 * 2^-52), at most four millionths of
+// 0.2 degrees. A stone that lost a facet is left out.
 TEST(FacetError, IsTheRootMeanSquareOfTheStonesTilts) {
     const double rms = radians(0.2);
     for (const char* cut : {"round-brilliant", "step"}) {
@@ -48,9 +48,9 @@ TEST(FacetError, IsTheRootMeanSquareOfTheStonesTilts) {
     }
 }
 
-// Angles of normal distribution: their mean fourth power is three times the square of their mean
-// square, 3 n / (n + 2) where the n of a stone are brought to one mean square. Over 1460 angles of
-// variance 96 of the fourth power, that is known to 0.26; four of these are 1.03.
+// Normally distributed angles: their mean fourth power is three times the square of their mean
+// square, or 3 n / (n + 2) where the n angles of a stone are scaled to one mean square. Over 1460
+// angles, with a variance of 96 for the fourth power, it is known to 0.26; four of these are 1.03.
 TEST(FacetError, IsOfNormalDistribution) {
     const Solid stone = make_cut("round-brilliant");
     const double rms = radians(0.2), n = static_cast<double>(stone.facets.size());
@@ -89,7 +89,7 @@ TEST(FacetError, OfOneFacetTurnsItAboutItsMiddleAndLeavesTheOthers) {
             EXPECT_NEAR(height_above(plane, corner_mean(stone, facet)), 0, 1e-12 * diameter(stone));
             moved[axis] = plane.normal - facet.plane.normal;
         }
-        // Each lies half an angle off the facet's plane: the product is angle^4 / 4 at most.
+        // Each lies half an angle off the facet's plane: the product is at most angle^4 / 4.
         EXPECT_NEAR(glm::dot(moved[0], moved[1]), 0, std::pow(angle, 4) / 2);
     }
 }
@@ -101,7 +101,7 @@ TEST(FacetError, GrowsInProportionForOneSeedAndIsNoneAtZero) {
     for (const Facet& facet : stone.facets) {
         EXPECT_LT(tilt(*none, facet), 1e-7);
         const double a = tilt(*small, facet), b = tilt(*large, facet);
-        // acos of nearly one: angles below 1e-7 are rounding.
+        // acos near 1: angles below 1e-7 are rounding error.
         if (a > 1e-5) {
             EXPECT_NEAR(b / a, 3, 1e-2);
         }
@@ -131,12 +131,12 @@ TEST(TurnsAlike, OfTheStandardCuts) {
     EXPECT_EQ(turns_alike(make_cut("oval"), up), 2);
     EXPECT_EQ(turns_alike(make_cut("trillion"), up), 3);
     EXPECT_EQ(turns_alike(make_cut("pear"), up), 1);
-    // A little error does not hide it.
+    // A small error does not hide the symmetry.
     EXPECT_EQ(turns_alike(*with_facet_error(make_cut("princess"), radians(0.5), 2), up), 4);
 }
 
-// The mean of 16 images (8 turns, and mirrored) of independent tilts of 0.3 degrees: what is left
-// is 0.3 / 4, up to an azimuth of the whole that the group does not see.
+// The mean of 16 images (8 rotations, each also mirrored) of independent tilts of 0.3 degrees
+// leaves 0.3 / 4, up to an azimuth of the whole that the group does not see.
 TEST(Symmetrised, ComesNearerToTheCutThatWasSpoiled) {
     const Solid cut = make_cut("round-brilliant");
     const auto spoiled = with_facet_error(cut, radians(0.3), 7);

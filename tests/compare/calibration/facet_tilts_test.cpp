@@ -16,8 +16,8 @@
 namespace culet {
 namespace {
 
-// A princess cut of glass under three lobes: light without edges, so that a tilt's change is
-// straight for longer than under windows.
+// A princess cut of glass under three lobes. Light without edges keeps the effect of a tilt linear
+// for longer than windows do.
 Scene glass() {
     Scene scene;
     scene.stone.solid = *with_facet_error(make_cut("princess"), radians(0.5), 4);
@@ -62,8 +62,8 @@ struct Bench {
     FacetTilts tilts;
 };
 
-// By itself, without a calibration, it is asked for no more than a factor of 1.5: 33 facets'
-// tilts, not all of them seen, scatter by 12 % and more.
+// Without a calibration only a factor of 1.5 is required: the tilts of 33 facets, not all of them
+// visible, scatter by 12 % and more.
 TEST(FacetTilts, AreAboutTheFacetError) {
     const Bench bench(glass());
     ASSERT_TRUE(bench.tilts.usable());
@@ -82,7 +82,7 @@ TEST(FacetTilts, AreAboutTheFacetError) {
         EXPECT_GT(mean, before);
         before = mean;
     }
-    // The model itself, moved and noisy.
+    // The model itself, moved and with noise.
     EXPECT_LT(*bench.read(bench.model.stone.solid, 9), 0.03);
 }
 

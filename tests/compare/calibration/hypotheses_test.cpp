@@ -49,8 +49,8 @@ Scene lit_scene() {
     return scene;
 }
 
-// The laws of optics do not know which way is up: stone, lights and camera turned together give
-// the same picture, but for pixels at edges that rounding moves.
+// Optics has no preferred direction: stone, lights and camera turned together give the same
+// picture, except for pixels at edges that rounding moves.
 TEST(TurnedWorld, AsAWholeLooksTheSame) {
     const Scene scene = lit_scene();
     const glm::dmat3 by = rotation_about(glm::normalize(Vec3{1, 2, -0.5}), 1.1);
@@ -61,7 +61,7 @@ TEST(TurnedWorld, AsAWholeLooksTheSame) {
     turned.camera = turned_camera(scene.camera, by, about);
     const Picture before = render(scene).picture, after = render(turned).picture;
     EXPECT_LT(mean_difference(before, after), 2e-3);
-    // And each turned alone does not.
+    // Turning any of them alone changes it.
     Scene light = scene;
     light.lights = turned_lights(scene.lights, by, about);
     EXPECT_GT(mean_difference(before, render(light).picture), 0.05);
@@ -89,8 +89,8 @@ TEST(TurnedWorld, EnvironmentIsSeenWhereItWasTurnedTo) {
         const Rgb was = lights.environment->at(direction),
                   is = turned.environment->at(by * direction);
         for (std::size_t c = 0; c < 3; ++c) {
-            // Two bilinear look-ups in a map whose texels are 2.8 degrees wide: second differences
-            // of 1/8 (2 pi / 128)^2 each way, and the pole.
+            // Two bilinear look-ups in a map with texels of 2.8 degrees: second differences of 1/8
+            // (2 pi / 128)^2 in each direction, and the pole.
             EXPECT_NEAR(is[c], was[c], 0.01);
             EXPECT_NEAR(same.environment->at(direction)[c], was[c], 1e-3);
         }
@@ -106,7 +106,8 @@ TEST(Materials, AreChangedByWhatWasAsked) {
             const auto k = static_cast<std::size_t>(r);
             EXPECT_NEAR(higher.index[k].at(589.3) - material.index[k].at(589.3), 0.02, 1e-6)
                 << name;
-            // Of a Sellmeier index the step is 0.02 n_D / n: dispersion moves it by per cents.
+            // For a Sellmeier index the step is 0.02 n_D / n: dispersion changes it by a few per
+            // cent.
             EXPECT_NEAR(higher.index[k].at(450) - material.index[k].at(450), 0.02, 1e-3) << name;
             EXPECT_EQ(flat.index[k].at(450), flat.index[k].at(650)) << name;
             EXPECT_NEAR(flat.index[k].at(500), material.index[k].at(589.3), 1e-12) << name;
@@ -131,7 +132,7 @@ TEST(Materials, NeighboursAreOthersAndTheNearestFirst) {
     EXPECT_TRUE(neighbouring_materials(diamond, 0).empty());
 }
 
-// A ray through a pixel of the cut-out is the ray through the same point of the whole picture.
+// A ray through a pixel of the crop is the ray through the same point of the whole picture.
 TEST(CroppedCamera, SeesAlongTheSameRays) {
     Scene scene = test::cube_scene();
     for (const bool orthographic : {false, true}) {
@@ -151,7 +152,7 @@ TEST(CroppedCamera, SeesAlongTheSameRays) {
                          b = to.through(part[i][0], part[i][1]);
             EXPECT_LT(glm::length(a.direction - b.direction), 1e-9);
             EXPECT_LT(glm::length(a.origin - b.origin), 1e-9);
-            // And it meets the corner.
+            // It also meets the corner.
             const Vec3 towards = scene.stone.solid.vertices[i] - a.origin;
             EXPECT_LT(glm::length(glm::cross(towards, a.direction)), 1e-9);
         }

@@ -1,5 +1,4 @@
-// Scores made by a known law with known noise: what the law and least squares give is the
-// expectation.
+// Scores from a known law with known noise. Expectations: the law and least squares.
 
 #include "compare/calibration/joint_scores.h"
 
@@ -32,9 +31,9 @@ JointDraws drawn_scores(int each, std::mt19937_64& random) {
     return draws;
 }
 
-// Independent scores of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224; taken for four independent
-// ones, the first three would outweigh the better fourth: 0.5 * 12 / 28 and 0.25 * 16 / 28 make
-// 0.258.
+// Independent scores with noise 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224. If the first three
+// counted as independent they would outweigh the better fourth: 0.5 * 12 / 28 and 0.25 * 16 / 28
+// make 0.258.
 TEST(JointScores, CopiesOfAScoreCountOnce) {
     std::mt19937_64 random(7);
     const JointScores joint(drawn_scores(40, random));
@@ -46,17 +45,18 @@ TEST(JointScores, CopiesOfAScoreCountOnce) {
         ASSERT_TRUE(answer);
         squares += (answer->log_error - truth) * (answer->log_error - truth);
     }
-    // The root mean square of 2000 is known to 1.6 %; three of that, and between the two.
+    // The root mean square of 2000 is known to 1.6 %; the bound allows three of that and lies
+    // between the two.
     EXPECT_LT(std::sqrt(squares / k_trials), 0.224 * 1.08);
 }
 
 TEST(JointScores, ScoresThatDisagreeAsNoneDrawnDoHaveAMisfitOverOne) {
     std::mt19937_64 random(8);
     const JointScores joint(drawn_scores(40, random));
-    EXPECT_GT(joint.of({2, 2, 0, 2})->misfit, 1);  // copies that differ by 100 of their noises
+    EXPECT_GT(joint.of({2, 2, 0, 2})->misfit, 1);  // copies that differ by 100 times their noise
     EXPECT_LT(joint.of({2, 2, 2, 2})->misfit, 0.1);
     EXPECT_NEAR(joint.of({2, 2, 2, 2})->log_error, -2, 0.02);
-    // The draws themselves set the scale.
+    // The draws themselves define the scale.
     std::mt19937_64 again(8);
     double largest = 0;
     for (const auto& level : drawn_scores(40, again).draws)

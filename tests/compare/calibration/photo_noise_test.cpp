@@ -15,8 +15,8 @@ namespace {
 constexpr int k_size = 200, k_tile = 13;
 constexpr double k_white = 2, k_psf_px = 0.7;
 
-// Facets' images: tiles of one light each, some as good as black, some beyond white. `off` pixels
-// away, as a stone whose facets are not quite the model's would have them.
+// Facets' images: uniform tiles, some nearly black, some over white, moved by `off` pixels as on a
+// stone whose facets differ from the model's.
 cv::Mat mosaic(int off) {
     cv::Mat tiles(k_size / k_tile + 2, k_size / k_tile + 2, CV_32FC3),
         picture(k_size, k_size, CV_32FC3);
@@ -33,7 +33,7 @@ cv::Mat mosaic(int off) {
     return picture;
 }
 
-// Shot noise of so many electrons at white, and the steps of a file.
+// Shot noise for so many electrons at white, and the quantisation of a file.
 MatchedPictures pictures_of(double electrons, int bits, int off) {
     MatchedPictures result;
     result.white = k_white;
@@ -58,10 +58,10 @@ MatchedPictures pictures_of(double electrons, int bits, int off) {
     return result;
 }
 
-// The lower quartile of n normal values, q = 0.3186, is known to sqrt(3 / 16 / n) / p(q) with the
-// density p(q) = 2 * 0.3792 of |normal| there: 1.79 / sqrt(n) of itself. The filter mixes nine
-// pixels; of 40000 pixels and three colours, some tenth too dark or bright, n is some 10000 or
-// more: 1.8 %, and four of these for the noise, twice that for its square.
+// The lower quartile of n absolute normal values, q = 0.3186, has a relative error of sqrt(3 / 16 /
+// n) / p(q) with the density p(q) = 2 * 0.3792: 1.79 / sqrt(n). The filter mixes nine pixels; with
+// 40000 pixels and three colours, a tenth of them too dark or bright, n is at least 10000: 1.8 %.
+// Allowed are four of these for the noise, twice that for its square.
 TEST(PhotoNoise, IsThatOfTheElectrons) {
     for (const double electrons : {400.0, 2500.0, 10000.0, 40000.0}) {
         EXPECT_NEAR(photo_electrons(pictures_of(electrons, 16, 0), k_psf_px, 16) / electrons, 1,
@@ -70,7 +70,7 @@ TEST(PhotoNoise, IsThatOfTheElectrons) {
     }
 }
 
-// Facets' edges in other places are no noise.
+// Facets' edges in other places are not noise.
 TEST(PhotoNoise, IsTheSameWhereTheStoneIsNotQuiteTheModel) {
     for (const int off : {1, 3}) {
         EXPECT_NEAR(photo_electrons(pictures_of(10000, 16, off), k_psf_px, 16) / 10000, 1, 0.15)
@@ -103,7 +103,7 @@ TEST(PhotoNoise, AndBlurAreGivenToACameraInSteps) {
     CameraModel camera;
     camera.bits = 16;
     set_blur_and_noise(camera, pictures_of(10000, 16, 0));
-    // Good to some 0.3 pixels (photo_blur.h); the noise then hangs on the blur a little.
+    // Good to some 0.3 pixels (photo_blur.h); the noise depends slightly on the blur.
     EXPECT_NEAR(camera.psf_px, k_psf_px, 0.3);
     EXPECT_NEAR(camera.psf_px * 10, std::round(camera.psf_px * 10), 1e-9);
     EXPECT_NEAR(std::log2(camera.electrons / 10000), 0, 0.5);

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A princess cut of glass under three lobes, of few facets and little dispersion: a picture of 100
-// pixels is a matter of milliseconds.
+// A princess cut of glass under three lobes has few facets and little dispersion: a picture of 100
+// pixels takes milliseconds.
 Scene small_scene() {
     Scene scene;
     scene.stone.solid = *with_facet_error(make_cut("princess"), radians(0.5), 4);
@@ -63,9 +63,9 @@ Photo photograph_of(Scene scene, double facet_error_deg) {
     return photographed(photo_of(result.picture), camera, 5);
 }
 
-// Facets known to half a degree: a photograph of a stone that is drawn so is within two sigma of
-// them nearly everywhere, and one of facets two degrees off is not. Shares of one stone scatter
-// (facets are few): 95 and 68 in 100 are those of many.
+// Facets known to half a degree: a photograph of a stone drawn that way is within two sigma of them
+// nearly everywhere, one of facets two degrees off is not. The shares for one stone scatter,
+// because facets are few: 95 and 68 in 100 hold for many stones.
 TEST(SceneComparison, TellsWhatTheReadingsLeaveOpen) {
     const Scene scene = small_scene();
     SceneCompareOptions options = quick();
@@ -96,7 +96,7 @@ TEST(SceneComparison, OfTheRightStoneIsNearerThanOfAWrongOne) {
     EXPECT_NE(json.find("\"headline\""), std::string::npos);
 }
 
-// Of a key there is one number: in the table of scores, on its curve and in the verdict.
+// One number per key: in the table of scores, on its curve and in the verdict.
 TEST(SceneComparison, HasOneValueForEachScore) {
     const Scene scene = small_scene();
     const SceneComparison compared = compare_with_scene(photograph_of(scene, 0.2), scene, quick());
@@ -113,7 +113,8 @@ TEST(SceneComparison, HasOneValueForEachScore) {
     }
 }
 
-// A hand-made mesh: its corners are only roughly in their planes. Said, not left out in silence.
+// The corners of a hand-made mesh are only roughly in their planes. This is reported, not skipped
+// silently.
 TEST(SceneComparison, OfAStoneThatIsNotConvexSaysThatNoPoseWasSought) {
     Scene scene = small_scene();
     const Photo photo = photograph_of(scene, 0);
@@ -151,7 +152,7 @@ TEST(SceneComparison, KeepsItsCalibrationForTheNextPhotograph) {
     const SceneComparison second = compare_with_scene(photo, scene, options);
     EXPECT_TRUE(second.calibrated->calibration.from_cache);
     EXPECT_EQ(first.calibrated->headline, second.calibrated->headline);
-    // No score hangs on whether it was kept.
+    // No score depends on whether it was stored.
     const auto meant = [](const SceneComparison& compared) {
         const std::string json = scores_json(compared.comparison, {}, compared.calibrated);
         const std::size_t from = json.find("\"sensitivity\": ["),
@@ -165,8 +166,8 @@ TEST(SceneComparison, KeepsItsCalibrationForTheNextPhotograph) {
     fs::remove_all(cache);
 }
 
-// The work is counted beforehand: with little of it, the two rounds that a verdict needs are drawn,
-// and with more, more of them. Without facets' tilts the report says so.
+// The work is counted beforehand: a small budget draws the two rounds that a verdict needs, a
+// larger one more. Without facets' tilts the report says so.
 TEST(SceneComparison, DrawsWhatItsBudgetAllows) {
     const Scene scene = small_scene();
     const Photo photo = photograph_of(scene, 0.2);
@@ -241,7 +242,6 @@ TEST(Calibrate, ForSeveralCamerasIsThatForEach) {
     EXPECT_NE(both[0].draws[0].scores, both[1].draws[0].scores);
 }
 
-// Changes the n-th part of a light.
 struct ChangePart {
     int n;
     bool changed = false;
@@ -265,8 +265,8 @@ struct ChangePart {
     }
 };
 
-// Of every type in the list, so that a new one is held to it, too: a part that it does not name in
-// `each_part` would let a calibration of another light pass for its own.
+// Covers every type in the list, including future ones: a part missing from `each_part` would let
+// the calibration of another light pass for its own.
 TEST(Fingerprint, TellsLightsApartByEveryPartOfEveryType) {
     const auto print = [](const Light& light) {
         Scene scene = small_scene();

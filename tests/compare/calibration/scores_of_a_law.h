@@ -1,5 +1,6 @@
 #pragma once
-// Scores made by a known law with known noise, for what reads facet errors from several of them.
+// Scores from a known law with known noise, for tests that estimate facet errors from several
+// scores.
 
 #include <limits>
 #include <random>
@@ -10,7 +11,7 @@ namespace culet::test {
 constexpr double k_missing = std::numeric_limits<double>::quiet_NaN();
 
 /// Scores fall by 1 as the logarithm grows by 1. The first ones share one noise of 0.5; the last
-/// has its own of 0.25.
+/// has an independent noise of 0.25.
 inline std::vector<double> scores_at(double log_error, int sharing, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
     const double shared = 0.5 * normal(random);

@@ -12,8 +12,8 @@
 namespace culet {
 namespace {
 
-// Scores that fall with the facet error as is known, and scatter a little: "zncc" mostly at large
-// errors, "psnr" at all, "cw_ssim" hardly.
+// Scores that fall with the facet error by a known law and scatter slightly: "zncc" mostly at large
+// errors, "psnr" everywhere, "cw_ssim" hardly.
 std::vector<std::optional<double>> scores_near(double deg, Chance& chance, double scatter = 0.1) {
     const double noisy = std::max(deg, 0.01) * std::exp(scatter * chance.normal());
     return {1 / (1 + 0.5 * noisy), 30 - 6 * std::log10(noisy),
@@ -62,7 +62,7 @@ TEST(Monotone, PoolsWhatRunsTheWrongWay) {
     EXPECT_TRUE(monotone({}).empty());
 }
 
-// The scores scatter by 10 % of the error; curves of 8 draws are off by 4 % more.
+// The scores scatter by 10 % of the error; curves from 8 draws add 4 %.
 TEST(FacetErrorScale, FindsTheErrorThatMadeTheScores) {
     const Calibration calibration = synthetic_calibration();
     const FacetErrorScale scale(calibration, calibration.keys);
@@ -78,7 +78,7 @@ TEST(FacetErrorScale, FindsTheErrorThatMadeTheScores) {
             ++all;
         }
     }
-    // 95 % intervals: of 60 at least 48, which is six standard deviations of a binomial below.
+    // 95 % intervals: at least 48 of 60, which is six binomial standard deviations below.
     EXPECT_GE(inside, 48) << "of " << all;
 }
 
@@ -197,7 +197,7 @@ PhotographRow row_with(double deg, Verdict verdict) {
     return row;
 }
 
-// Equal weights: the geometric mean. 0.1, 0.1 and 0.8: together 0.2; without the last, 0.1.
+// Equal weights give the geometric mean. 0.1, 0.1 and 0.8 give 0.2 together; without the last 0.1.
 TEST(SeveralPhotographs, AreAveragedAndLeftOutOneByOne) {
     const std::vector<PhotographRow> rows{row_with(0.1, Verdict::match),
                                           row_with(0.1, Verdict::match),
@@ -208,7 +208,7 @@ TEST(SeveralPhotographs, AreAveragedAndLeftOutOneByOne) {
     EXPECT_NEAR(*several.without[0].deg, std::sqrt(0.08), 1e-12);
     EXPECT_NEAR(several.largest_change, 2, 1e-12);
     EXPECT_EQ(several.verdict, Verdict::match);
-    // They disagree by more than their own intervals: the common one is wider than either's.
+    // They disagree by more than their intervals: the common interval is wider than either.
     EXPECT_GT(several.together.high_deg / *several.together.deg, 1.2);
 }
 

@@ -21,8 +21,8 @@ Photo grey(float value) {
     return photo;
 }
 
-// Shot noise of a level of 0.4 x 10000 electrons, and 6 of read noise: sqrt(4000 + 36) / 10000. The
-// variance of 12288 samples is known to sqrt(2 / 12288) = 1.3 %; five of them.
+// Shot noise at 0.4 x 10000 electrons, and 6 of read noise: sqrt(4000 + 36) / 10000. The variance
+// of 12288 samples is known to sqrt(2 / 12288) = 1.3 %; five of these are allowed.
 TEST(SimulatedCamera, HasTheNoiseOfItsElectrons) {
     CameraModel camera;
     camera.bits = 0;
@@ -70,8 +70,8 @@ TEST(SimulatedCamera, MetersAnotherLightLikeTheModel) {
     EXPECT_EQ(exposure_like(grey(0), model), 1);
 }
 
-// Two pictures of cells, the one photographed with a known blur. The cells of the second are moved
-// a little, as those of a stone with facet errors: detail is not moved away.
+// Two pictures of cells, one of them photographed with a known blur. The cells of the other are
+// moved slightly, as by facet errors; no detail is lost.
 TEST(PhotoBlur, IsFoundWhetherOrNotTheCellsAreInTheirPlaces) {
     for (const double shift : {0.0, 0.03}) {
         for (const double sigma : {0.8, 1.5, 2.5}) {
@@ -97,8 +97,8 @@ TEST(PhotoBlur, IsFoundWhetherOrNotTheCellsAreInTheirPlaces) {
     }
 }
 
-// A Gaussian of 1.5 pixels spreads one lit pixel of 64 x 64 to a second moment of 1.5^2 a
-// direction; its tails are cut at some four deviations.
+// A Gaussian of 1.5 pixels spreads one lit pixel of 64 x 64 to a second moment of 1.5^2 per axis;
+// its tails end at about four deviations.
 TEST(Softened, SpreadsLightByThePointSpreadAndKeepsItAndTheCoverage) {
     Photo point = grey(0);
     for (std::size_t c = 0; c < 3; ++c) point.rgb[3 * (32 * 64 + 32) + c] = 1;

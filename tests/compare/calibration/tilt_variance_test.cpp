@@ -1,4 +1,4 @@
-// Differences made by causes of known size: the estimate has closed forms, or an expectation.
+// Differences from causes of known size: the estimate has closed forms, or an expectation.
 
 #include "compare/calibration/tilt_variance.h"
 
@@ -27,7 +27,7 @@ struct RandomModel {
     }
     std::vector<Column> columns(std::size_t count, std::size_t samples) {
         std::vector<Column> result;
-        // From strong to a thirtieth: facets differ by as much.
+        // Strengths from one to a thirtieth: facets differ by as much.
         for (std::size_t k = 0; k < count; ++k) {
             const double share = static_cast<double>(k) / static_cast<double>(count);
             result.push_back(column(samples, std::pow(30.0, -share)));
@@ -47,19 +47,19 @@ TEST(TiltVariance, OfOneCauseIsItsSize) {
     const TiltVariance variance({{{1, 2, -2}}, {}, {1, 1, 1}});
     EXPECT_NEAR(*variance.rms({0.3, 0.6, -0.6}), 0.3, k_rounding);
     EXPECT_NEAR(*variance.rms({-0.3, -0.6, 0.6}), 0.3, k_rounding);
-    EXPECT_NEAR(*variance.rms({2, -1, 0}), 0, k_rounding);  // square to it
+    EXPECT_NEAR(*variance.rms({2, -1, 0}), 0, k_rounding);  // orthogonal to it
     EXPECT_EQ(*variance.rms({0, 0, 0}), 0);
 }
 
-// Directions of one strength count alike.
+// Directions of equal strength have equal weights.
 TEST(TiltVariance, OfCausesThatDoNotOverlapIsTheirRootMeanSquare) {
     const TiltVariance variance({{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}}, {}, {1, 1, 1, 1}});
     EXPECT_NEAR(*variance.rms({2 * 0.1, -2 * 0.2, 2 * 0.2, 7}), std::sqrt(0.09 / 3), k_rounding);
 }
 
-// In every direction the mean square of y / s is the causes' variance, whatever the weights. The
-// mean of 2000 squares of one normal number is known to sqrt(2 / 2000) = 3.2 %, of several to less:
-// four of these.
+// In every direction the mean square of y / s is the causes' variance, for any weights. The mean of
+// 2000 squares of a normal number is known to sqrt(2 / 2000) = 3.2 %, of several to less; four of
+// these are allowed.
 TEST(TiltVariance, IsRightInTheMeanForCausesOfAnyStrength) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -83,9 +83,9 @@ TEST(TiltVariance, IsRightInTheMeanForCausesOfAnyStrength) {
     }
 }
 
-// As well as so many causes of equal strength can tell: 40 normal numbers' root mean square
-// scatters by 1 / sqrt(80) = 11 %, that of 500 draws is itself known to 3 %. Summed squares of the
-// picture instead, of causes of strengths 1 to 1/30, hang on a fourth of them.
+// The best possible from so many causes of equal strength: the root mean square of 40 normal
+// numbers scatters by 1 / sqrt(80) = 11 %, known to 3 % from 500 draws. A plain sum of squares over
+// the picture, with strengths of 1 to 1/30, would depend on a fourth of the causes.
 TEST(TiltVariance, ScattersLittleMoreThanSoManyCausesMust) {
     RandomModel random(11);
     const std::size_t samples = 400;
@@ -109,7 +109,7 @@ TEST(TiltVariance, DoesNotSeeNuisances) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         RandomModel random(seed);
         TiltModel model{random.columns(8, 50), random.columns(4, 50), Column(50, 1.0)};
-        // One that another already is, and one of nothing.
+        // A nuisance equal to another one, and one of zero.
         model.nuisances.push_back(model.nuisances.front());
         model.nuisances.push_back(Column(50, 0.0));
         const TiltVariance variance(model);
@@ -139,7 +139,7 @@ TEST(TiltVariance, HardlyLooksWhereTheNoiseIs) {
 TEST(TiltVariance, OfNoiseAloneIsSmall) {
     RandomModel random(41);
     const TiltVariance variance({random.columns(20, 300), {}, Column(300, 1.0)});
-    // Strengths of 1 to 1/30 of 300 samples: noise of 0.001 looks like 0.001 / sqrt(300) to 30
+    // Strengths of 1 to 1/30 over 300 samples: noise of 0.001 looks like 0.001 / sqrt(300) to 30
     // times that.
     EXPECT_LT(*variance.rms(random.column(300, 1e-3)), 30 * 1e-3 / std::sqrt(300.0));
 }
@@ -151,7 +151,7 @@ TEST(TiltVariance, OfCausesThatChangeNothingOfTheirOwnIsNotUsable) {
     EXPECT_FALSE(nothing.usable());
     EXPECT_FALSE(nothing.rms({1, 1}));
     EXPECT_FALSE(TiltVariance({{{1, 2, 3}}, {{2, 4, 6}}, {1, 1, 1}}).usable());
-    // One that does and one that does not: the one that does.
+    // One cause that shows and one that does not: the former counts.
     const TiltVariance one({{{0, 0}, {3, 0}}, {}, {1, 1}});
     EXPECT_NEAR(*one.rms({1, 5}), 1.0 / 3, k_rounding);
 }

@@ -10,7 +10,8 @@
 namespace culet {
 namespace {
 
-// A stone's picture in floats and the same with bands of that relative half width, times `level`.
+// A stone's picture in floats, and the same times `level` with bands of the given relative half
+// width.
 struct Pair {
     Photo photo, render;
 };
@@ -32,7 +33,7 @@ TEST(WithinReadings, ARenderWithoutBandsSaysNothing) {
     EXPECT_FALSE(compare(pair.photo, pair.render).within.has_value());
 }
 
-// The photograph is the render at another exposure: the gain brings them together.
+// The photograph is the render at another exposure; the gain makes them equal.
 TEST(WithinReadings, TheRenderItselfIsWithin) {
     Pair pair = pair_of(1, 0.1);
     for (float& value : pair.photo.rgb) value *= 0.4f;
@@ -42,7 +43,7 @@ TEST(WithinReadings, TheRenderItselfIsWithin) {
     EXPECT_NE(scores_json(found, {}).find("\"within_readings\""), std::string::npos);
 }
 
-// Bands 1.5 sigma off hold the picture within two only; 4 sigma off, in neither.
+// Bands 1.5 sigma off contain the picture only within two sigma; at 4 sigma off neither does.
 TEST(WithinReadings, BandsElsewhereDoNotHoldIt) {
     const Pair near = pair_of(1 / (1 - 1.5 * 0.1), 0.1), far = pair_of(1 / (1 - 4 * 0.1), 0.1);
     const auto found = compare(near.photo, near.render).within;
@@ -52,9 +53,9 @@ TEST(WithinReadings, BandsElsewhereDoNotHoldIt) {
     EXPECT_LT(compare(far.photo, far.render).within->within_two, 0.05);
 }
 
-// Photographs whose pixels are off by their bands' own sigma, independently: 68.3 and 95.4 in 100.
-// Some 20000 pixels tell shares to 0.3; the camera's noise is found as too much, since what is off
-// looks like noise, which widens the bands to root two at most: 84.3 and 99.5.
+// Photographs whose pixels are independently off by their bands' sigma: 68.3 and 95.4 in 100. Some
+// 20000 pixels give shares to 0.3. The camera's noise is overestimated, since the deviations look
+// like noise, which widens the bands by at most root two: 84.3 and 99.5.
 TEST(WithinReadings, CountsWhatIsOffBySigma) {
     Pair pair = pair_of(1, 0.05);
     Chance chance(3);

@@ -1,5 +1,5 @@
-// Balls in photographs that were traced: the outline is known. Real photographs of balls are not at
-// hand here; these have cluttered grounds, lamps, noise and 8 bits instead.
+// Balls in traced photographs, whose outline is known. Real photographs of balls are not available
+// here; these have cluttered grounds, lamps, noise and 8 bits instead.
 
 #include "compare/light_probe/ball_finder.h"
 
@@ -16,7 +16,7 @@
 namespace culet {
 namespace {
 
-// Boxes, discs and stripes: among them circles that are no ball.
+// Boxes, discs and stripes, including circles that are not balls.
 std::function<Rgb(double, double)> clutter(unsigned seed, int width, int height) {
     std::mt19937_64 random(seed);
     const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1.0p-53; };
@@ -93,11 +93,11 @@ INSTANTIATE_TEST_SUITE_P(Traced, Balls,
                              return std::string(ball.param.name);
                          });
 
-// Reflected at the angle theta to the view, where the rim is at theta = 90 degrees, a small step
-// along the radius turns the ray 1 / cos^2(theta) = 1 / (1 - rho^2) times as far as one across it:
-// of a room of even detail the light changes as many times more. Over the ring from 0.93 to 0.99
-// that is 7 to 50; pixels and the lens take most of it. Of a flat picture of the same room there is
-// none.
+// Where a mirror ball reflects at the angle theta to the view (the rim is at theta = 90 degrees), a
+// small step along the radius turns the ray 1 / cos^2(theta) = 1 / (1 - rho^2) times as far as one
+// across it. In a room of even detail the light changes faster by the same factor: over the ring
+// from 0.93 to 0.99 by 7 to 50, of which pixels and lens remove most. A flat picture of the same
+// room shows no such factor.
 TEST(BallFinder, AMirrorPressesTheRoomTogetherAtItsRim) {
     simulated::BallShot shot;
     shot.width = 420;
@@ -115,8 +115,8 @@ TEST(BallFinder, AMirrorPressesTheRoomTogetherAtItsRim) {
     EXPECT_LT(rim_look(light, {40, 40, 38}).compression, ball.compression / 1.5);
     EXPECT_EQ(rim_look(light, {-500, -500, 50}).compression, 0);
 
-    // A lid: rings inside each other, each of one brightness. All of its change along the radius is
-    // the same all round; the ball shows something else on each side.
+    // A lid: concentric rings of constant brightness. Its change along the radius is the same all
+    // round; a ball shows something else on each side.
     cv::Mat lid(300, 300, CV_32F, cv::Scalar(0.5));
     for (const auto& [radius, grey] : {std::pair(120, 0.1), {116, 0.4}, {113, 0.2}, {100, 0.15}})
         cv::circle(lid, {150, 150}, radius, cv::Scalar(grey), cv::FILLED, cv::LINE_8);
@@ -125,7 +125,7 @@ TEST(BallFinder, AMirrorPressesTheRoomTogetherAtItsRim) {
     EXPECT_LT(ball.alike, 0.75 * all_round);
 }
 
-// Two balls in one picture: nothing says which is meant.
+// With two balls in one picture nothing says which is meant.
 TEST(BallFinder, AnotherBallIsARival) {
     simulated::BallShot shot;
     shot.width = 300;

@@ -1,5 +1,5 @@
 #pragma once
-// How far a map of light is from the panorama that it was found of.
+// The error of a light map against the panorama that it was reconstructed from.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ inline double angle_apart(const glm::dmat3& a, const glm::dmat3& b) {
     return angle_of(glm::transpose(a) * b);
 }
 
-// Over solid angles, luminance against the panorama's mean over each texel.
+// Weighted by solid angle: luminance against the panorama's mean over each texel.
 inline Agreement agreement_of(const EnvironmentMap& map, const Panorama& panorama, int parts = 3) {
     std::vector<std::pair<double, double>> errors;
     double sum = 0, total = 0, found = 0, truth = 0;

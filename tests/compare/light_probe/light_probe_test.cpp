@@ -1,5 +1,5 @@
-// The light found from traced photographs of a ball, against the panorama that lit it. The figures
-// asked for: 0.015 stops on average, 0.2 for the worst 1 %, energy within 0.1 %.
+// Light reconstructed from traced photographs of a ball, against the panorama that lit it.
+// Requirements: 0.015 stops on average, 0.2 for the worst 1 %, energy within 0.1 %.
 
 #include "compare/light_probe/light_probe.h"
 
@@ -57,8 +57,8 @@ ProbeOptions chrome() {
     return options;
 }
 
-// Nothing given but the photographs: balls, distance, turn are found. A photographer stands behind
-// the camera in both.
+// Only the photographs are given: balls, distance and turn are estimated. Both pictures contain a
+// photographer behind the camera.
 TEST(LightProbe, TwoViewsGiveThePanoramaBack) {
     const auto panorama = simulated::room(5);
     std::vector<ProbeView> views;
@@ -84,8 +84,8 @@ TEST(LightProbe, TwoViewsGiveThePanoramaBack) {
     EXPECT_GT(probe.covered, 0.9999);
 }
 
-// Blender's panoramas are of real places, with lamps and a sun; made smaller, so that the ball
-// shows every texel. Of more of them: docs/capture.md.
+// Blender's panoramas of real places, with lamps and a sun, reduced so that the ball resolves every
+// texel. More of them: docs/capture.md.
 TEST(LightProbe, TwoViewsOfALargeBallGiveARealPlaceBack) {
     const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
     if (!std::filesystem::exists(folder / "sunset.exr"))
@@ -128,9 +128,9 @@ TEST(LightProbe, AnyTurnIsFound) {
     }
 }
 
-// Random rooms, noise, balls found, and one in three given some two pixels wrong: the turn is as
-// sure as it is said to be. Of 9 normal errors (three axes, three rooms) the squares over their
-// variances sum to 2.1 to 27.9 with a chance of 99 and of 99.9 % (chi squared of 9).
+// Random rooms, noise, estimated balls, one in three of them some two pixels wrong: the turn's
+// uncertainty must be honest. For 9 normal errors (three axes, three rooms) the sum of squares over
+// variances is above 2.1 with a chance of 99 % and below 27.9 with 99.9 % (chi-square of 9).
 TEST(LightProbe, TheTurnIsAsSureAsItSays) {
     double squares = 0;
     int beyond = 0;
@@ -175,9 +175,9 @@ TEST(LightProbe, TheTurnIsAsSureAsItSays) {
     EXPECT_LE(beyond, 1);
 }
 
-// All round the ball, in no order: the second camera stands opposite the first, where the two share
-// little, and is placed by one between them. Expectation: where the cameras stood; each link of the
-// chain may be off as one turn between two views (two_views_give_the_panorama_back).
+// Cameras all round the ball, in no order. The second stands opposite the first and shares little
+// with it; a third between them links them. Expectation: the cameras' true places. Each link of the
+// chain may be off as much as one turn between two views (TwoViewsGiveThePanoramaBack).
 TEST(LightProbe, ViewsArePlacedByTheirNeighbours) {
     const auto panorama = simulated::room(17);
     const std::array azimuths{0.0, 3.1, 1.6};
@@ -224,9 +224,9 @@ TEST(LightProbe, OneViewSaysWhatItLacks) {
     EXPECT_TRUE(probe.usable());
     ASSERT_FALSE(probe.notes.empty());
     EXPECT_THAT(probe.notes[0], HasSubstr("one view"));
-    // The blind cone, asin(1 / 25), and the three degrees beside it, by whole texels.
+    // The blind cone, asin(1 / 25), and the three degrees beside it, in whole texels.
     EXPECT_NEAR(probe.light.filled_sr, 2 * std::numbers::pi * (1 - std::cos(0.04 + 0.05)), 0.02);
-    // What is filled is like its surroundings: no hole, no glare.
+    // The filled part resembles its surroundings: no hole, no glare.
     const Rgb behind = probe.light.map.at({1, 0, 0});
     for (const double c : behind) {
         EXPECT_GT(c, 0.02);
@@ -234,7 +234,8 @@ TEST(LightProbe, OneViewSaysWhatItLacks) {
     }
 }
 
-// The first camera looks along --towards; straight down, the picture's top is the azimuth.
+// The first camera looks along --towards; if that is straight down, the picture's top gives the
+// azimuth.
 TEST(LightProbe, TheFrameIsTheStones) {
     const Vec3 lamp = glm::normalize(Vec3(-0.4, 0.8, 0.3));
     const auto panorama = [lamp](const Vec3& d) {
@@ -257,7 +258,7 @@ TEST(LightProbe, TheFrameIsTheStones) {
     }
 }
 
-// Light without structure fits any way round: that must be said, not guessed.
+// Light without structure fits at any turn: the result must say so instead of guessing.
 TEST(LightProbe, LightWithoutStructureIsDoubted) {
     const auto panorama = [](const Vec3&) { return Rgb{0.5, 0.5, 0.5}; };
     std::vector<ProbeView> views{view_of(shot_at(0, 0, 60), panorama, "a", true),

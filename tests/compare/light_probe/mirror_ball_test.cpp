@@ -1,6 +1,6 @@
-// The geometry of a mirror ball. Expectations: the closed form of a distant camera (the reflected
-// direction is at twice the angle of the normal), rays traced onto a sphere by plain vectors, and
-// that the two directions of the mapping are inverse.
+// The geometry of a mirror ball. Expectations: the closed form for a distant camera (the reflected
+// direction is at twice the angle of the normal), rays traced onto a sphere with plain vectors, and
+// that the mapping's two directions are inverse.
 
 #include "compare/light_probe/mirror_ball.h"
 
@@ -37,7 +37,7 @@ TEST(MirrorBall, PixelsAndDirectionsAreInverseAtAnyDistance) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (const double distance : {1.5, 3.0, 10.0, 60.0, 1e4, k_inf}) {
-        // Beside the middle of the picture too.
+        // Also away from the middle of the picture.
         const MirrorBall ball = MirrorBall::at_distance({260, 130, 90}, {199.5, 149.5}, distance);
         for (int i = 0; i < 300; ++i) {
             const PixelPlace p{260 + 85 * uniform(random), 130 + 85 * uniform(random)};
@@ -54,8 +54,7 @@ TEST(MirrorBall, PixelsAndDirectionsAreInverseAtAnyDistance) {
     }
 }
 
-// The outline of a ball beside the picture's middle is an ellipse: circle and distance must still
-// give the ball back.
+// The outline of an off-centre ball is an ellipse: circle and distance must still recover the ball.
 TEST(MirrorBall, ABallBesideTheMiddleIsTheTracedOne) {
     simulated::BallShot shot;
     shot.width = 400;
@@ -67,7 +66,7 @@ TEST(MirrorBall, ABallBesideTheMiddleIsTheTracedOne) {
     shot.samples = 8;
     shot.reflectance = 1;
     shot.world_from_camera = glm::dmat3(1.0);
-    // Light that is its own direction.
+    // Light whose value is its direction.
     const auto taken = simulated::take(shot, [](const Vec3& d) {
         return Rgb{d.x + 1, d.y + 1, d.z + 1};
     });

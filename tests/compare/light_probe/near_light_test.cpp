@@ -1,8 +1,8 @@
-// Windows near a mirror ball, traced ray by ray, against where they were put.
+// Windows near a mirror ball, traced ray by ray, against their true places.
 //
-// What the bounds come from: an outline found to 0.15 pixels of a ball of r pixels turns all it
-// shows by twice 0.15 / r radians; two places b apart, seen across the line of sight, tell the
-// distance d to that angle times d squared / b.
+// Bounds: an outline found to 0.15 pixels on a ball of r pixels turns everything that it shows by
+// twice 0.15 / r radians; two places b apart, perpendicular to the line of sight, give the distance
+// d to that angle times d squared / b.
 
 #include "compare/light_probe/near_light.h"
 
@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 
 constexpr double k_ball = 10;  // radius in the stone's unit
 
-// A window of brightness 6 as the room's light before the panorama.
+// A window of brightness 6 in front of the panorama.
 std::function<std::optional<Rgb>(const Vec3&, const Vec3&)> window_light(
     const std::vector<Window>& windows, const Rgb& radiance = {6, 5, 4}) {
     return [windows, radiance](const Vec3& from, const Vec3& direction) -> std::optional<Rgb> {
@@ -83,7 +83,7 @@ Vec3 centre_in_camera(const BallShot& shot) {
                                                -(shot.centre_y - (shot.height - 1) / 2.0) / f, -1));
 }
 
-// The same camera, the ball elsewhere (radii, in the world).
+// The same camera, with the ball elsewhere (in radii, world frame).
 BallShot moved_by(const BallShot& first, const Vec3& offset) {
     BallShot shot = first;
     const double f = focal_of(first);
@@ -140,14 +140,14 @@ TEST(MirrorBallOfNearThings, APointsPixelReflectsALineThroughThePoint) {
         EXPECT_NEAR(glm::length(seen->at), 1, 1e-12);
         EXPECT_LT(glm::length(glm::cross(glm::normalize(point - seen->at), seen->direction)), 1e-9);
     }
-    // No nearness is a direction.
+    // A nearness of zero is a direction.
     const Vec3 far = glm::normalize(Vec3(0.4, -0.3, 0.2));
     const auto place = ball.place_of_point(far, 0), same = ball.place_of(far);
     EXPECT_NEAR(place->x, same->x, 1e-9);
     EXPECT_NEAR(place->y, same->y, 1e-9);
 }
 
-// Lines through a known window's edge, from two balls' surfaces: nothing but the formulas.
+// Lines through a known window's edge from the surfaces of two balls: formulas only.
 std::vector<SeenOutline> exact_outlines(const Window& window, const std::vector<Vec3>& centres) {
     std::vector<SeenOutline> outlines;
     for (const Vec3& centre : centres) {
@@ -223,7 +223,7 @@ TEST(Reflex, WhatIsNoLightIsToldApart) {
                     photo.rgb[3 * static_cast<std::size_t>(100 * y + x) + c] = value;
     };
     paint(40, 40, 60, 50, 2.0f);
-    paint(45, 42, 48, 46, 0.1f);  // a bar within it
+    paint(45, 42, 48, 46, 0.1f);  // a bar across it
     paint(30, 70, 32, 72, 2.0f);
     paint(85, 45, 100, 55, 2.0f);
     const BallCircle ball{49.5, 49.5, 45};
@@ -264,7 +264,8 @@ TEST(NearLight, AMovedBallTellsWhereAWindowIs) {
     RecordProperty("tilt_deg", std::to_string(degrees(light.tilt)));
     RecordProperty("extents", std::to_string(glm::length(light.window.u) / k_ball) + " " +
                                   std::to_string(glm::length(light.window.v) / k_ball));
-    // Across the line of sight the ball went 4 sin(angle between the two); both outlines count.
+    // Perpendicular to the line of sight the ball moved by 4 sin(angle between the two); both
+    // outlines have errors.
     const double across = 4 * std::abs(glm::dot(glm::normalize(truth.u), Vec3(0, 1, 0)));
     const double bound = 12.0 * 12.0 / across * std::sqrt(2.0) * 2 * 0.15 / radius;
     EXPECT_NEAR(light.distance / k_ball, 12, 3 * bound);
@@ -275,12 +276,13 @@ TEST(NearLight, AMovedBallTellsWhereAWindowIs) {
     EXPECT_LT(off, 2 * 0.15 / radius + 0.1 * 2 / radius);
     EXPECT_NEAR(2 * std::max(glm::length(light.window.u), glm::length(light.window.v)) / k_ball, 5,
                 5 * 3 * bound / 12 + 0.1);
-    // Pixels wholly within the window show it exactly.
+    // Pixels entirely within the window show it exactly.
     EXPECT_NEAR(light.radiance[0], 6, 1e-4);
     EXPECT_NEAR(light.radiance[1], 5, 1e-4);
     EXPECT_NEAR(light.radiance[2], 4, 1e-4);
     EXPECT_LT(glm::dot(light.normal, light.window.middle), 0);
-    // Not counted twice: the map holds the room behind it, all round and in the middle.
+    // Not counted twice: the map holds the room behind it, both around the window and in its
+    // middle.
     const MergedLight& map = probe.light;
     for (std::size_t i = 0; i < map.map.rgb.size(); i += 3) EXPECT_LT(map.map.rgb[i], 0.32);
     EXPECT_NEAR(glm::length(probe.views[1].centre - Vec3(0.6, -4, 0)), 0, 25 * 0.15 / radius);
@@ -288,7 +290,7 @@ TEST(NearLight, AMovedBallTellsWhereAWindowIs) {
     EXPECT_THAT(light_json(probe, options), HasSubstr("\"near_lights\""));
 }
 
-// Two windows that look alike: each finds its own in the second picture.
+// Two windows that look alike: each finds its counterpart in the second picture.
 TEST(NearLight, WindowsThatLookAlikeAreNotConfused) {
     const double radius = 100;
     const std::vector<Window> truth{window_at(2.3, 0.3, 11, 1.2, 1.2),
@@ -309,7 +311,7 @@ TEST(NearLight, WindowsThatLookAlikeAreNotConfused) {
     EXPECT_NEAR(probe.near_lights[1].distance / k_ball, 14, 2);
 }
 
-// Guy & Soler's two views: the camera goes round a quarter, in a room that holds its turn.
+// Guy & Soler's two views: the camera moves a quarter turn, in a room that determines the turn.
 TEST(NearLight, TwoCamerasTellWhereAWindowIs) {
     const double radius = 80;
     const Window truth = window_at(-2.4, 0.25, 5, 1.4, 0.9);
@@ -326,7 +328,7 @@ TEST(NearLight, TwoCamerasTellWhereAWindowIs) {
     EXPECT_TRUE(light.usable()) << light.doubt;
     RecordProperty("distance", std::to_string(light.distance / k_ball));
     RecordProperty("sigma", std::to_string(light.distance_sigma / k_ball));
-    // Both outlines to 0.15 pixels, doubled; reflected 0.6 radii apart at least.
+    // Both outlines to 0.15 pixels, doubled; the reflections are at least 0.6 radii apart.
     const double bound = 5.0 * 5.0 / 0.6 * std::sqrt(2.0) * 2 * 0.15 / radius;
     EXPECT_NEAR(light.distance / k_ball, 5, 3 * bound);
     EXPECT_LT(std::abs(light.distance - 5 * k_ball), 3 * light.distance_sigma);
@@ -376,14 +378,15 @@ TEST(NearLight, OnePictureNeedsADistance) {
     const LightProbe probe = light_probe({view}, options_with({request}));
     EXPECT_TRUE(probe.usable()) << probe.doubt;
     const NearLight& light = probe.near_lights.at(0);
-    EXPECT_NEAR(light.distance, 100, 1e-3);  // faces it to the second order in how it lies
-    // The window's middle, seen from a ball of 80 pixels whose outline is exact: to a tenth of a
+    EXPECT_NEAR(light.distance, 100, 1e-3);  // to second order in its offset
+    // The window's middle, seen from a ball of 80 pixels with an exact outline: to a tenth of a
     // pixel, doubled by the reflection.
     EXPECT_LT(glm::length(light.window.middle / k_ball - truth.middle), 10 * 2 * 0.1 / 80 * 2);
     EXPECT_NEAR(light.radiance[0], 6, 1e-4);
 }
 
-// Measured with a ruler: taken as it is, its radiance and place in the map from the ball.
+// A window measured with a ruler is taken as given; its radiance and place in the map come from the
+// ball.
 TEST(NearLight, AMeasuredWindowIsTakenAtItsWord) {
     const Window truth = window_at(2.3, 0.25, 10, 2, 1.5);
     BallShot here = first_shot(80);
@@ -400,7 +403,7 @@ TEST(NearLight, AMeasuredWindowIsTakenAtItsWord) {
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); i += 3)
         EXPECT_LT(probe.light.map.rgb[i], 0.32);
 
-    // Behind the camera's ball, nothing shows it.
+    // Behind the camera's ball nothing shows it.
     request.measured->middle = Vec3(1, 0, 0) * (10 * k_ball);
     request.measured->u = {0, 1, 0};
     request.measured->v = {0, 0, 1};

@@ -21,7 +21,7 @@ namespace culet::simulated {
 
 using Panorama = std::function<Rgb(const Vec3&)>;
 
-/// Rooms of smooth and of sharp-edged light: a sky over a ground, coloured walls, windows, lamps.
+/// Rooms with smooth and sharp-edged light: a sky over a ground, coloured walls, windows, lamps.
 inline Panorama room(unsigned seed) {
     std::mt19937_64 random(seed);
     const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1.0p-53; };
@@ -58,8 +58,8 @@ inline Panorama panorama_of(const EnvironmentMap& map) {
     return [&map](const Vec3& d) { return map.at(d); };
 }
 
-/// A panorama's file as a map of that width, of which its own must be a multiple: a ball shows
-/// every texel only if they are not too many for its pixels.
+/// Reads a panorama as a map of that width, which must divide the file's: a ball resolves every
+/// texel only if there are not too many for its pixels.
 inline EnvironmentMap coarse_panorama(const std::filesystem::path& file, int width) {
     const Picture whole = read_picture(file).picture;
     EnvironmentMap map;
@@ -80,16 +80,16 @@ inline EnvironmentMap coarse_panorama(const std::filesystem::path& file, int wid
 
 struct BallShot {
     int width = 640, height = 480;
-    double centre_x = 320.3, centre_y = 238.6, radius = 200;  ///< about, see `distance`
+    double centre_x = 320.3, centre_y = 238.6, radius = 200;  ///< approximate, see `distance`
     double distance = 20;                                     ///< ball radii
-    /// Columns: right, up, backwards of the camera in the world.
+    /// Columns: the camera's right, up and backward directions in the world.
     glm::dmat3 world_from_camera{Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(-1, 0, 0)};
     double reflectance = 0.6;
     double photographer = 0;  ///< half angle of a black disc behind the camera, radians
-    int samples = 4;          ///< a pixel and axis
-    std::function<Rgb(double, double)> background;  ///< of pixels; empty: the panorama itself
-    /// What stands near, before the panorama: its light along a line, in ball radii and the world's
-    /// frame. `place` is the ball's centre there.
+    int samples = 4;          ///< per pixel and axis
+    std::function<Rgb(double, double)> background;  ///< by pixel; empty: the panorama itself
+    /// Near objects, in front of the panorama: their light along a line, in ball radii and the
+    /// world's frame, in which `place` is the ball's centre.
     std::function<std::optional<Rgb>(const Vec3&, const Vec3&)> near;
     Vec3 place{0, 0, 0};
 };
@@ -103,10 +103,10 @@ inline glm::dmat3 camera_at(double azimuth, double elevation) {
 
 struct Taken {
     Photo photo;
-    double x = 0, y = 0, radius = 0;  ///< circle about the outline: mean of its four extremes
+    double x = 0, y = 0, radius = 0;  ///< a circle about the outline: the mean of its four extremes
 };
 
-/// The ball's middle is seen at (centre_x, centre_y) and its focal length is that of a ball of
+/// The ball's middle appears at (centre_x, centre_y). The focal length is that of a ball with
 /// `radius` pixels in the picture's middle.
 inline Taken take(const BallShot& shot, const Panorama& panorama) {
     Taken taken;
@@ -157,7 +157,7 @@ inline Taken take(const BallShot& shot, const Panorama& panorama) {
                     static_cast<float>(sum[c]);
         }
     }
-    // Where a walk from the middle leaves the ball, by bisection.
+    // The ball's edge along a direction from the middle, by bisection.
     const auto edge = [&](double dx, double dy) {
         double inside = 0, outside = 2 * shot.radius;
         for (int i = 0; i < 60; ++i) {
@@ -174,7 +174,7 @@ inline Taken take(const BallShot& shot, const Panorama& panorama) {
     return taken;
 }
 
-/// Noise of photons and of the sensor, and 16 bits up to `white`.
+/// Photon and sensor noise, and 16 bits up to `white`.
 inline void expose(Photo& photo, double white, double electrons, unsigned seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;

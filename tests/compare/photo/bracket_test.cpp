@@ -1,5 +1,5 @@
-// Exposures merged. Expectations: the scene that the shots were made from, and statistics of the
-// noise that was put in.
+// Merged exposures. Expectations: the scene that the shots were made from, and the statistics of
+// the added noise.
 
 #include "compare/photo/bracket.h"
 
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr int k_width = 160, k_height = 120;
 
-// Two thousand to one from dark to bright, with texture to align by.
+// A contrast of two thousand to one, with texture to align by.
 double scene(double x, double y, std::size_t channel) {
     const double soft = std::sin(0.31 * x + 0.11 * y) + std::sin(0.17 * y - 0.05 * x) +
                         0.7 * std::sin(0.9 * x) * std::sin(0.8 * y + 1);
@@ -65,7 +65,7 @@ BracketShot shot(const Camera& camera, unsigned seed) {
     return shot_of(photo_by(camera, seed), camera.exposure, seed);
 }
 
-// Mean and worst deviation from the scene in stops, clipped pixels left out.
+// Mean and worst deviation from the scene in stops, without clipped pixels.
 struct Off {
     double mean = 0, bias = 0;
 };
@@ -98,7 +98,7 @@ TEST(Bracket, ThreeExposuresAreTheScene) {
     EXPECT_EQ(merged.photo.saturation, 0);
 }
 
-// The variance says how far values are off: the mean of (difference^2 / variance) is 1.
+// The variance must be honest: the mean of (difference^2 / variance) is 1.
 TEST(Bracket, TheVarianceIsTheNoise) {
     const Bracket merged =
         merge_bracket({shot({1.0 / 16}, 4), shot({1.0 / 128}, 5)}, {Response::as_read, false});
@@ -126,7 +126,8 @@ TEST(Bracket, AKnockBetweenShotsIsFoundAndPutRight) {
     EXPECT_THAT(merged.notes[0], HasSubstr("moved by up to"));
 }
 
-// Light that only rises to one side looks alike after a shift and a gain: it tells of no shift.
+// Light that only rises to one side looks the same after a shift and a gain: it cannot determine a
+// shift.
 TEST(Bracket, AWallWithoutStructureMovesNothing) {
     std::vector<BracketShot> shots;
     for (unsigned k = 0; k < 2; ++k) {
@@ -167,7 +168,8 @@ TEST(Bracket, WhatEveryShotOverExposesIsMarked) {
     EXPECT_NEAR(merged.photo.rgb[3 * (60 * k_width + k_width - 2)], 4, 0.01);  // at least that
 }
 
-// A camera whose curve is not sRGB's: found from seven JPEGs, the ratios of light come out right.
+// A camera whose curve is not sRGB's: with the curve found from seven JPEGs, ratios of light are
+// right.
 TEST(Bracket, AnUnknownToneCurveIsFoundFromTheSeries) {
     std::vector<BracketShot> shots;
     for (int k = 0; k < 7; ++k) {
@@ -180,7 +182,7 @@ TEST(Bracket, AnUnknownToneCurveIsFoundFromTheSeries) {
     const Bracket found = merge_bracket(shots);
     EXPECT_EQ(found.response, Response::calibrated);
     EXPECT_TRUE(found.photo.photometric);
-    // The curve turns the camera's values back: of green, at a quarter of white and at white.
+    // The curve inverts the camera's values: for green at a quarter of white and at white.
     ASSERT_TRUE(found.curve);
     const auto written = [](double light) {
         return std::size_t(std::lround(255 * std::pow(light, 1 / 1.6) * (1.15 - 0.15 * light)));
@@ -189,7 +191,7 @@ TEST(Bracket, AnUnknownToneCurveIsFoundFromTheSeries) {
     EXPECT_NEAR(std::log2(green[written(0.5)] / green[written(0.125)]), 2, 0.12);
     EXPECT_FLOAT_EQ(green[255], 1);
     const Bracket assumed = merge_bracket(shots, {Response::as_read, true});
-    // The scale of a found curve is free: the spread about the mean is what counts.
+    // The scale of an estimated curve is free: only the spread about the mean counts.
     const auto spread = [](const Photo& photo) {
         double sum = 0, squares = 0, n = 0;
         for (int y = 10; y < k_height - 10; ++y) {
@@ -208,9 +210,9 @@ TEST(Bracket, AnUnknownToneCurveIsFoundFromTheSeries) {
     EXPECT_LT(spread(found.photo), spread(assumed.photo) / 2);
 }
 
-// Five JPEGs of grey and coloured light: the curve is one for all channels, so that what stood at
-// 1 : 1.1 : 1.2 in the scene stands so in the sum (a grey card's gains follow from that), which a
-// curve for each channel missed by a third.
+// Five JPEGs of grey and coloured light. The curve is the same for all channels, so ratios of 1 :
+// 1.1 : 1.2 in the scene stay in the merged picture (a grey card's gains depend on them). Separate
+// curves per channel missed this by a third.
 TEST(Bracket, AToneCurveThatIsFoundKeepsTheWhiteBalance) {
     std::vector<BracketShot> shots;
     for (int k = 0; k < 5; ++k) {

@@ -1,4 +1,4 @@
-// The board and the lens. Expectation: the camera that the board was projected with.
+// The board and the lens. Expectation: the camera with which the board was projected.
 
 #include "compare/photo/calibration_board.h"
 
@@ -61,7 +61,7 @@ TEST_F(Boards, TheLensThatTookThemIsFound) {
         cv::Rodrigues(cv::Vec3d(tilt[0], tilt[1], tilt[2]), turn);
         const cv::Vec3d middle(width_mm / 2, height_mm / 2, 0);
         const cv::Vec3d place = cv::Vec3d(0, 0, 290) - turn * middle;
-        // Each pixel looks back through the lens onto the page; 2 x 2 to a pixel.
+        // Maps each pixel through the lens back onto the page; 2 x 2 samples per pixel.
         cv::Mat big(960, 1280, CV_8U, cv::Scalar(120));
         std::vector<cv::Point2d> pixels, rays;
         for (int y = 0; y < big.rows; ++y)
@@ -69,7 +69,7 @@ TEST_F(Boards, TheLensThatTookThemIsFound) {
                 pixels.emplace_back((x + 0.5) / 2 - 0.5, (y + 0.5) / 2 - 0.5);
         cv::undistortPoints(pixels, rays, camera, distortion);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            // place + a r1 + b r2 = t ray
+            // Solves place + a r1 + b r2 = t ray.
             const cv::Vec3d ray(rays[i].x, rays[i].y, 1);
             const cv::Vec3d n(turn(0, 2), turn(1, 2), turn(2, 2));
             const double t = n.dot(place) / n.dot(ray);
@@ -90,8 +90,8 @@ TEST_F(Boards, TheLensThatTookThemIsFound) {
     EXPECT_NEAR(found.lens.focal_y / f, 1, 0.01);
     EXPECT_NEAR(found.lens.principal_x, cx, 5);
     EXPECT_NEAR(found.lens.principal_y, cy, 5);
-    // The boards reach to about 0.24 from the axis. Single coefficients trade against each other;
-    // what counts is where a ray meets the picture.
+    // The boards extend to about 0.24 from the axis. Single coefficients are correlated; what
+    // counts is where a ray meets the picture.
     for (const double r : {0.1, 0.15, 0.2}) {
         const double r2 = r * r;
         const auto& d = found.lens.distortion;
@@ -123,7 +123,7 @@ TEST_F(Boards, PicturesWithoutTheBoardAreRefused) {
     EXPECT_THROW(board_svg({7, 5, -1}), InputError);
 }
 
-// Straight lines that a barrel lens bent are straight again.
+// Straight lines bent by a barrel lens are straight again.
 TEST(Lens, DistortionIsTakenOut) {
     Lens lens;
     lens.width = 200;

@@ -12,7 +12,7 @@
 namespace culet {
 namespace {
 
-// Values over four decades, each with a noise of the given share of it.
+// Values over four decades, each with noise of the given relative size.
 Photo photo_of(double noise) {
     Photo photo;
     photo.width = 40;
@@ -33,7 +33,7 @@ TEST(PhotoPicture, NoiseDecidesAboutHalfFloats) {
     Photo bright = photo_of(0.005);
     bright.rgb[7] = 70000;
     EXPECT_EQ(samples(bright), Picture::Samples::single) << "beyond the largest half";
-    // A dark first shot: its units make dark values fall below what halves tell apart.
+    // A dark first shot: in its units dark values fall below the resolution of halves.
     Photo dark = photo_of(0.005);
     for (float& value : dark.rgb) value *= 1e-4f;
     for (float& value : dark.variance) value *= 1e-8f;

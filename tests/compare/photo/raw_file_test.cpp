@@ -1,4 +1,4 @@
-// Raw files: linear light, levels and exposure of a DNG made by hand, whose every sample is known.
+// Raw files: linear light, levels and exposure of a hand-made DNG, of which every sample is known.
 
 #include "compare/photo/raw_file.h"
 
@@ -53,7 +53,7 @@ TEST_F(RawFiles, OverExposureIsMarkedAtTheSensor) {
     ASSERT_EQ(photo.saturated.size(), 64u * 48u);
     EXPECT_EQ(photo.saturated[20 * 64 + 10], 0);
     EXPECT_EQ(photo.saturated[20 * 64 + 50], 1);
-    // Red, at half of green's sensitivity, has not clipped there: its value is kept.
+    // Red, at half of green's sensitivity, is not clipped there and keeps its value.
     EXPECT_NEAR(at(photo, 50, 20)[0], 1.3, 0.01);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A camera's raw file made by hand: the smallest DNG (Adobe DNG 1.4) that states its colour
-// filters, black and white levels, neutral colour and exposure. The camera's primaries are sRGB's.
+// A hand-made camera raw file: the smallest DNG (Adobe DNG 1.4) that states its colour filters,
+// black and white levels, neutral colour and exposure. The camera's primaries are sRGB's.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Dng {
     int black = 512, white = 15871;
     std::array<double, 3> neutral{0.5, 1, 0.625};  ///< camera's values for grey
     int orientation = 1;
-    std::vector<std::uint16_t> samples;  ///< red at the top left, green beside it, blue across
+    std::vector<std::uint16_t> samples;  ///< red at the top left, green beside it, blue diagonally
 };
 
 inline std::string dng_bytes(const Dng& dng) {

@@ -64,7 +64,7 @@ TEST(WhiteBalance, ACardThatSaysNothingIsRefused) {
         EXPECT_THAT(refusal(flat(60, 40, {0.5, 0.5, 0.5}), outside), HasSubstr("must lie in"));
 }
 
-// The maker's values of the 24 patches, seen through a warm camera.
+// The maker's values of the 24 patches, through a warm camera.
 TEST(WhiteBalance, AColourChartIsFoundAndNeutralised) {
     constexpr int values[24][3] = {
         {115, 82, 68},   {194, 150, 130}, {98, 122, 157}, {87, 108, 67},   {133, 128, 177},

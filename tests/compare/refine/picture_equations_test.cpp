@@ -31,7 +31,7 @@ Eigen::VectorXd values(const cv::Mat& picture) {
     return all;
 }
 
-// Eight moves and two nuisances whose changes are as smooth as the noise.
+// Eight moves and two nuisances with patterns as smooth as the noise.
 PictureEquations equations(Chance& chance) {
     PictureEquations e;
     e.mask = cv::Mat(k_size, k_size, CV_8U, cv::Scalar(255));
@@ -51,9 +51,9 @@ Eigen::VectorXd solved(const DeterminedMoves& determined) {
     return determined.rows.colPivHouseholderQr().solve(determined.values);
 }
 
-// Normalised errors of 30 pictures: rows say that each is normal with deviation 1. Of 240 the root
-// mean square is 1 +- 0.046; Bartlett's taper takes a tenth or so off the variance, and eight of
-// some 150 independent samples are taken up by the moves.
+// Normalised errors of 30 pictures must have unit deviation. Of 240 errors the root mean square is
+// 1 +- 0.046; Bartlett's taper removes about a tenth of the variance, and the moves absorb eight of
+// some 150 independent samples.
 TEST(PictureEquations, SayHowSureTheyAre) {
     Chance chance(3);
     double squares = 0;
@@ -81,16 +81,16 @@ TEST(PictureEquations, AreBlindToNuisances) {
     e.difference = e.changes.col(2) + 0.1 * values(blurred_noise(chance));
     const Eigen::VectorXd without = solved(solved_moves(e));
     e.difference += 7 * e.nuisances.col(0) + 3 * e.nuisances.col(1);
+    // The nuisances' amounts are estimated beside the moves.
     const DeterminedMoves determined = solved_moves(e);
     EXPECT_LT((solved(determined) - without).norm(), 1e-6);
-    // And their amounts are found beside the moves.
     const Eigen::VectorXd amounts =
         nuisances_beside(e, determined, solved(determined), Eigen::VectorXd::Zero(2));
     EXPECT_NEAR(amounts[0], 7, 0.05);
     EXPECT_NEAR(amounts[1], 3, 0.3);
 }
 
-// Of pictures that are equal, sigma is that of the least noise and the moves are none.
+// For equal pictures sigma is that of the least noise, and the moves are zero.
 TEST(PictureEquations, OfEqualPicturesAreFinite) {
     Chance chance(11);
     PictureEquations e = equations(chance);
@@ -102,7 +102,7 @@ TEST(PictureEquations, OfEqualPicturesAreFinite) {
                     .allFinite());
 }
 
-// A move that changes nothing is not determined.
+// A move without effect on the picture is not determined.
 TEST(PictureEquations, TellNothingOfWhatDoesNotShow) {
     Chance chance(7);
     PictureEquations e = equations(chance);

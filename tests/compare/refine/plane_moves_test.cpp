@@ -11,7 +11,7 @@ namespace culet {
 namespace {
 
 constexpr double k_small = 1e-5;
-// What is of second order in a small move, of a stone about 1 across.
+// Second-order terms of a small move, for a stone about 1 across.
 constexpr double k_second_order = 10 * k_small * k_small;
 
 TEST(PlaneMoves, BetweenTwoStonesAreThoseThatWereMade) {
@@ -30,7 +30,7 @@ TEST(PlaneMoves, BetweenTwoStonesAreThoseThatWereMade) {
     }
 }
 
-// A number that is linear in the moves changes as much by the planes' slopes.
+// A quantity that is linear in the moves changes by the planes' slopes.
 TEST(PlaneMoves, HaveTheSlopesOfTheirPlanes) {
     const Solid solid = make_cut("princess");
     const auto facets = moves_of(solid);
@@ -47,7 +47,7 @@ TEST(PlaneMoves, HaveTheSlopesOfTheirPlanes) {
     }
 }
 
-// The planes of a stone that is turned about its middle, shifted, or larger.
+// The planes of a stone that is turned about its middle, shifted, or enlarged.
 TEST(PlaneMoves, OfTheWholeStoneAreAMotionOfIt) {
     const Solid solid = make_cut("princess");
     const Vec3 middle = centroid(solid);

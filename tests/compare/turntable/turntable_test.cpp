@@ -1,4 +1,4 @@
-// Expectations: the axis and camera that the pictures were made with.
+// Expectations: the axis and camera with which the pictures were made.
 
 #include "compare/turntable/turntable.h"
 
@@ -41,9 +41,9 @@ synthetic::TurntableTruth small() {
     return truth;
 }
 
-// A straight edge blurred by a Gaussian falls to half where the edge is; noise of a hundredth of
-// the light over its slope, 0.4 of it a pixel, is 0.025 pixels for one point. A hundredth of a
-// pixel for the steps of 8 bits and for what lies between samples of the profile.
+// A straight edge blurred by a Gaussian falls to half at the edge. Noise of a hundredth of the
+// light over the slope, 0.4 of the light per pixel, is 0.025 pixels for one point. A hundredth of a
+// pixel is added for the steps of 8 bits and for interpolating the profile.
 TEST(BackLitOutline, LiesOnTheEdges) {
     const std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1.5}},  {"B", {{0, 0, -1}, 1.5}},
                                          {"E", {{1, 0, 0}, 2.5}},  {"W", {{-1, 0, 0}, 2.5}},
@@ -76,9 +76,9 @@ TEST(BackLitOutline, SaysWhyThereIsNone) {
     EXPECT_NE(back_lit_outline(photo).trouble, "");
 }
 
-// Corners between sides of under 18 pixels stay as the lens rounded them. On the diagonal of a
-// right angle a blur of one pixel comes to half where Phi(x)^2 = 1/2, 0.545 pixels from both sides:
-// 0.77 from the corner. Most corners of a stone are flatter, or their sides longer.
+// Corners between sides of under 18 pixels keep the lens's rounding. On the diagonal of a right
+// angle a blur of one pixel reaches half where Phi(x)^2 = 1/2, 0.545 pixels from both sides: 0.77
+// from the corner. Most corners of a stone are flatter, or their sides longer.
 TEST(Turntable, IsFoundFromOutlinesAlone) {
     const Solid solid = stone_of_width("pear", 5);
     synthetic::TurntableTruth truth = small();
@@ -104,7 +104,7 @@ TEST(Turntable, PicturesInTheShellsOrderAreSortedByTheirNumbers) {
     EXPECT_EQ(sorted, names);
 }
 
-// In a wrong order the outlines are of no stone that turned: the trouble names the figure.
+// In a wrong order the outlines fit no turning stone: the message states the figure.
 TEST(Turntable, SaysThatPicturesOutOfOrderContradictEachOther) {
     std::vector<BackLitOutline> outlines = outlines_of(stone_of_width("pear", 5), 24, small());
     for (std::size_t i = 3; i < 12; ++i) std::swap(outlines[i], outlines[23 - i]);
@@ -114,7 +114,7 @@ TEST(Turntable, SaysThatPicturesOutOfOrderContradictEachOther) {
     EXPECT_NE(found.remedy.find("from behind"), std::string::npos) << found.remedy;
 }
 
-// A ball looks the same from everywhere, so that nothing tells how the camera stood.
+// A ball looks the same from everywhere, so the camera's pose is not identifiable.
 TEST(Turntable, SaysThatABallDoesNotTellHowTheCameraStood) {
     BackLitOutline ball;
     for (int i = 0; i < 360; ++i) {
@@ -136,9 +136,9 @@ TEST(Turntable, NeedsOppositePictures) {
     EXPECT_THROW(turntable_of(outlines, radians(180)), InputError);
 }
 
-// Beyond the nearest edge of the stone's shadow, along `direction`; negative inside. The shadow is
-// convex: its edges are the planes along the line of sight through two vertices that leave all
-// others on one side.
+// Distance beyond the nearest edge of the stone's shadow, along `direction`; negative inside. The
+// shadow is convex: its edges are the planes along the line of sight through two vertices that
+// leave all others on one side.
 double beyond_shadow(const Solid& solid, const Vec3& direction, const Vec3& point) {
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 0, 1), direction));
     const Vec3 up = glm::cross(direction, right);
@@ -150,9 +150,9 @@ double beyond_shadow(const Solid& solid, const Vec3& direction, const Vec3& poin
         hull, cv::Point2f(float(glm::dot(point, right)), float(glm::dot(point, up))), true);
 }
 
-// A point is off by its noise, 0.025 pixels (above), and four times that is not met in 2000; a
-// corner that is flatter than 8 degrees is rounded by a tenth of a pixel; the axis is off by 0.1 at
-// most, and the tilts by 0.1 degrees of the stone's radius, 111 pixels: 0.2.
+// Noise moves a point by 0.025 pixels (above), and four times that does not occur in 2000. A corner
+// flatter than 8 degrees is rounded by a tenth of a pixel. The axis is off by at most 0.1, and
+// tilts by 0.1 degrees of the stone's radius, 111 pixels: 0.2.
 TEST(Turntable, PlacesOutlinesAroundTheStone) {
     const Solid solid = stone_of_width("princess", 5);
     synthetic::TurntableTruth truth = small();
