@@ -21,7 +21,7 @@ namespace {
 using test::cube;
 using test::enclosed;
 
-// Every edge goes to an edge, and every facet's loop to the image's loop, forward or backward.
+// Every edge maps to an edge, and every facet's loop to the image's loop, forward or backward.
 void expect_is_automorphism(const Solid& solid, const Automorphism& a) {
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         std::vector<int> image;
@@ -36,7 +36,7 @@ void expect_is_automorphism(const Solid& solid, const Automorphism& a) {
     }
 }
 
-// The full octahedral group has 48 elements, 24 of them turns (Coxeter 1973, table I).
+// The full octahedral group has 48 elements, 24 of them rotations (Coxeter 1973, table I).
 TEST(Automorphisms, CubeHasTheOctahedralGroup) {
     const Solid solid = cube();
     const std::vector<Automorphism> all = automorphisms(solid);
@@ -47,7 +47,7 @@ TEST(Automorphisms, CubeHasTheOctahedralGroup) {
     EXPECT_EQ(that_keep(all, 0).size(), 8u);
     EXPECT_EQ(facet_orbits(all, 6).size(), 1u);
     EXPECT_EQ(facet_orbits(that_keep(all, 0), 6).size(), 3u);
-    // A group: no product falls outside.
+    // A group: closed under products.
     for (const Automorphism& a : all) {
         for (const Automorphism& b : all) {
             EXPECT_NE(std::find(all.begin(), all.end(), followed_by(a, b)), all.end());
@@ -55,14 +55,14 @@ TEST(Automorphisms, CubeHasTheOctahedralGroup) {
     }
 }
 
-// What a round brilliant of n mains is by construction: Cnv about its table, whatever n.
+// By construction a round brilliant of n mains has Cnv about its table for any n.
 TEST(Automorphisms, RoundBrilliantsHaveTheSymmetryOfTheirMains) {
     for (const int mains : {3, 5, 6, 8, 16}) {
         Solid solid;
         try {
             solid = make_cut("round-brilliant", {{"mains", double(mains)}});
         } catch (const InputError&) {
-            continue;  // not a number of mains that this cut is made with
+            continue;  // this cut does not allow this number of mains
         }
         const std::vector<Automorphism> all = automorphisms(solid);
         const int table = find_facet(solid, "T");
@@ -78,7 +78,7 @@ TEST(Automorphisms, RoundBrilliantsHaveTheSymmetryOfTheirMains) {
             }
             const int s = steps_of_turn(solid, table, a);
             steps.insert(s);
-            // The turn by s of n corners moves a main by s / n of a full turn.
+            // A shift by s of n corners moves a main by s / n of a full turn.
             const int main = find_facet(solid, "C1");
             const Vec3 &n = solid.facets[main].plane.normal,
                        &m = solid.facets[a.facets[main]].plane.normal;
@@ -88,14 +88,15 @@ TEST(Automorphisms, RoundBrilliantsHaveTheSymmetryOfTheirMains) {
                 1e-9);
         }
         EXPECT_EQ(steps.size(), std::size_t(mains));
-        // Table, culet-side tiers and girdle: each tier of mains is one orbit.
+        // Table, pavilion tiers and girdle: each tier of mains is one orbit.
         for (const std::vector<int>& orbit : facet_orbits(kept, solid.facets.size())) {
             EXPECT_TRUE(orbit.size() == 1 || orbit.size() % std::size_t(mains) == 0);
         }
     }
 }
 
-// Geometry plays no part: corners moved by 20 % of the width, or all to one point, change nothing.
+// Geometry does not matter: moving corners by 20 % of the width, or all to one point, changes
+// nothing.
 TEST(Automorphisms, DependOnNothingButWhoMeetsWhom) {
     Solid solid = make_cut("round-brilliant");
     const std::vector<Automorphism> before = automorphisms(solid);
@@ -107,8 +108,8 @@ TEST(Automorphisms, DependOnNothingButWhoMeetsWhom) {
     EXPECT_EQ(automorphisms(solid), before);
 }
 
-// Planes of random directions have no symmetry: a solid of so many facets that fits on itself in
-// two ways by chance would be a rarity, and none of these seeds makes one.
+// Planes of random directions have no symmetry: a chance symmetry is very rare at this size, and
+// none of these seeds has one.
 TEST(Automorphisms, RandomSolidsHaveNone) {
     for (unsigned seed = 1; seed <= 10; ++seed) {
         std::mt19937_64 random(seed);
@@ -125,8 +126,8 @@ TEST(Automorphisms, RandomSolidsHaveNone) {
     }
 }
 
-// A cube with one bevelled edge is, for all that who meets whom can tell, a pentagonal prism: D5h,
-// 20 ways (Coxeter 1973, 1.5), of which 4 leave a side where it is.
+// Combinatorially a cube with one bevelled edge is a pentagonal prism: D5h, 20 elements (Coxeter
+// 1973, 1.5), 4 of which fix a side.
 TEST(Automorphisms, ABevelledCubeIsAPrism) {
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1}},   {"X+", {{1, 0, 0}, 1}},
                                    {"Y+", {{0, 1, 0}, 1}},  {"X-", {{-1, 0, 0}, 1}},

@@ -1,4 +1,4 @@
-// Bad input of every kind, for every reader: InputError or a solid, never anything else.
+// Bad input of every kind for every reader: the result is an InputError or a solid, nothing else.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -25,7 +25,7 @@ using namespace culet::test;
 struct Format {
     const char* extension;
     std::function<Solid(const std::string&)> parse;
-    std::string good;  ///< a sound file
+    std::string good;  ///< a valid file
 };
 
 std::vector<Format> formats() {
@@ -47,7 +47,7 @@ std::vector<Format> formats() {
     return all;
 }
 
-/// Parses; whatever comes out goes through the checks too.
+/// Parses, and checks any result too.
 void expect_survives(const Format& format, const std::string& bytes) {
     try {
         const Solid solid = format.parse(bytes);
@@ -119,7 +119,7 @@ TEST(BadInput, NumbersThatAreNone) {
         EXPECT_THROW(parse_mesh("v 0 0 " + w + "\nf 1 1 1\n", MeshFormat::obj), InputError);
         EXPECT_THROW(parse_mesh("OFF\n1 1 0\n0 0 " + w + "\n3 0 0 0\n", MeshFormat::off),
                      InputError);
-        // In PLY the next number would do for one that is left out.
+        // In PLY the next number would stand in for a missing one.
         if (!w.empty()) {
             EXPECT_THROW(parse_mesh("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
                                     "property float y\nproperty float z\nelement face 1\n"
@@ -154,11 +154,11 @@ TEST(BadInput, CountsThatTheFileCannotHold) {
                 InputError);
         }
     }
-    // Nothing at all, four thousand million times.
+    // An empty element, four thousand million times.
     EXPECT_THROW(
         parse_mesh("ply\nformat ascii 1.0\nelement none 4000000000\nend_header\n", MeshFormat::ply),
         InputError);
-    // A binary STL that promises the most triangles there are.
+    // A binary STL that claims the largest possible number of triangles.
     EXPECT_THROW(parse_mesh(std::string(80, 'x') + "\xff\xff\xff\xff", MeshFormat::stl),
                  InputError);
 }
@@ -182,8 +182,8 @@ TEST(BadInput, ExtremeCoordinates) {
     }
 }
 
-// Files that once brought a reader down, kept by the fuzzers (tests/fuzz). The name is free; the
-// extension says which reader.
+// Files that once crashed a reader, kept by the fuzzers (tests/fuzz). The name is free; the
+// extension selects the reader.
 TEST(BadInput, FilesThatFuzzersFound) {
     std::size_t count = 0;
     for (const auto& entry :
@@ -237,8 +237,8 @@ TEST_P(BadFile, MayNotBeRead) {
     EXPECT_THROW(read_solid(file()), InputError);
 }
 
-// Areas and volumes of such a stone overflow or vanish: it was told to be not convex, of volume
-// nan.
+// Areas and volumes of such a stone overflow or vanish; it used to be reported as not convex, with
+// volume nan.
 TEST(BadSize, AStoneOfNoUnitIsRefused) {
     const ScratchFolder folder;
     const auto file = folder / "cube.obj";

@@ -56,7 +56,7 @@ TEST(Checks, MissingFacetIsAnOpenSurface) {
     Solid solid = cube();
     solid.facets.pop_back();
     const auto faults = find_faults(solid);
-    EXPECT_EQ(faults.size(), 4u);  // one an edge
+    EXPECT_EQ(faults.size(), 4u);  // one per edge
     EXPECT_EQ(edge_count(solid), 12);
     EXPECT_TRUE(has(faults, FaultKind::open));
     EXPECT_FALSE(is_closed(solid));
@@ -159,7 +159,7 @@ TEST(Checks, TwoCubes) {
     }
     solid.vertices.insert(solid.vertices.end(), other.vertices.begin(), other.vertices.end());
     const auto faults = find_faults(solid);
-    // Each is convex: that there are two is all that is wrong.
+    // Each part is convex; the only fault is that there are two.
     ASSERT_EQ(faults.size(), 1u);
     EXPECT_EQ(faults[0].kind, FaultKind::several_pieces);
     EXPECT_THAT(faults[0].what, says("one of 6", "one of 6", "keep"));
@@ -210,8 +210,8 @@ TEST(Checks, WorstKindFirstAndLongListsCut) {
                                [](const Fault& a, const Fault& b) { return a.kind < b.kind; }));
 }
 
-// A block whose top is split along a diagonal: with the ends of the diagonal raised it is a ridge,
-// lowered a valley, however little.
+// A block whose top is split along a diagonal: raising the diagonal's ends makes a ridge, lowering
+// them a valley, however shallow.
 TEST(Convexity, ShallowValleyIsSeen) {
     Solid solid;
     solid.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
@@ -260,7 +260,7 @@ TEST(Convexity, FlippedShortEdgeIsNeverConvex) {
         EXPECT_TRUE(has(faults, FaultKind::not_convex));
         EXPECT_TRUE(has(faults, FaultKind::self_crossing));
 
-        // With the ridge where it belongs the same planes make a convex solid.
+        // With the right ridge the same planes make a convex solid.
         solid.vertices[4] = {0, -m, 1};
         solid.vertices[5] = {0, m, 1};
         solid.facets[1].corners = {1, 2, 5, 4};
@@ -286,7 +286,7 @@ TEST(Convexity, DentedCubeIsNotConvex) {
     EXPECT_TRUE(is_closed(solid));
     EXPECT_FALSE(is_convex(solid));
     const auto faults = find_faults(solid);
-    EXPECT_EQ(faults.size(), 4u);  // one a valley
+    EXPECT_EQ(faults.size(), 4u);  // one per valley
     CheckLimits limits;
     limits.must_be_convex = false;
     EXPECT_TRUE(find_faults(solid, limits).empty());
@@ -296,7 +296,7 @@ TEST(Convexity, DentedCubeIsNotConvex) {
 TEST(Convexity, NoSurfaceThatWindsTwice) {
     Solid solid;
     solid.vertices = {{0, 0, 1}, {0, 0, -1}};
-    // A double pyramid whose belt runs round twice: 5 corners, each a step of two fifths.
+    // A double pyramid whose belt goes round twice: 5 corners, each a step of two fifths.
     for (int i = 0; i < 5; ++i) {
         const double t = 2 * std::acos(-1.0) * (2 * i) / 5.0;
         solid.vertices.push_back({std::cos(t), std::sin(t), 0});

@@ -1,4 +1,4 @@
-// Source of the expectations: closed forms.
+// Expectations: closed forms.
 
 #include "stone/numbers/dense_algebra.h"
 
@@ -14,7 +14,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Its inverse has whole numbers (Choi 1983).
+// Its inverse has integer entries (Choi 1983).
 MatrixXd hilbert(int size) {
     MatrixXd h(size, size);
     for (int i = 0; i < size; ++i) {
@@ -138,7 +138,7 @@ TEST(DenseAlgebra, TellsTheRankOfAMatrixAndWhatItsColumnsLeave) {
 }
 
 TEST(DenseAlgebra, FindsTheShortestSolution) {
-    // Of x + 2 y + 3 z = 6 and its like, with the null direction (1, -2, 1).
+    // Equations like x + 2 y + 3 z = 6, with the null direction (1, -2, 1).
     const MatrixXd matrix = counted();
     const VectorXd right = matrix * VectorXd::Ones(3);
     EXPECT_LT(off(shortest_solution(matrix, right), VectorXd::Ones(3)), 1e-13);

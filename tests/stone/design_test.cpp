@@ -19,9 +19,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// A meetpoint sequence in which pavilion and girdle alternate, with the author's words, a tier that
-// is cut away again (0), and names and lines as GemCad writes them. Distances of 2 make the square
-// stone's meets: the mains' lowest edge is at the girdle's, half as high as it is far.
+// A meetpoint sequence that alternates between pavilion and girdle, with the author's words, a tier
+// that is cut away again (0), and names and lines as GemCad writes them. Distances of 2 give the
+// square stone's meets: the mains' lowest edge is level with the girdle's, half as high as it is
+// far out.
 const char* const k_design =
     "GemCad 5.0\n"
     "g 96 0.0\n"
@@ -51,7 +52,7 @@ TEST(Design, KeepsEveryLineThroughItsFile) {
     const ReadCut cut = parse_gemcad_asc(k_design);
     write_gemcad_asc(cut.solid, *cut.solid.design, folder / "a.asc");
     const std::string text = read_text(folder / "a.asc");
-    // Numbers are written with the digits that they need; all words stand as they were.
+    // Numbers have only the digits that they need; all words stay as they were.
     for (const char* part :
          {"I 1.76\n", "H by nobody\n", "F polish with oxide\n",
           "96 n 0 24 48 72 G Preform, cut away\n", "96 n P1 24 n P1 48 72 G TCP\n",
@@ -84,8 +85,8 @@ TEST(Design, IsKeptByAMeshAndFoundByTheNamesOfFacets) {
     }
 }
 
-// Only one facet of a tier is labelled, and some tiers are not: no name that culet gave a facet
-// becomes a label on the way through a mesh.
+// Only one facet of a tier is labelled, and some tiers are not: culet's own facet names do not
+// become labels on the way through a mesh.
 TEST(Design, HasNoOtherLabelsAfterAMesh) {
     const ScratchFolder folder;
     std::string text = k_design;
@@ -120,15 +121,17 @@ TEST(Design, IsCutInItsAuthorsOrderAndWords) {
     }
     EXPECT_THAT(tiers, ElementsAre("0", "P1", "G1", "G2", "A", "T"));
     EXPECT_EQ(words[0], "Preform, cut away; cut away later");
-    // Planes at 45 degrees and sqrt 2 from the middle meet the axis 2 below it, and the girdle's
-    // planes, 1 away, 1 below it: 1 over the point. Faces across are 2 and 2.6 apart.
+    // Planes at 45 degrees and sqrt 2 from the middle meet the axis 2 below it; the girdle's
+    // planes, 1 away, meet them 1 below it, so 1 over the point. Opposite faces are 2 and 2.6
+    // apart.
     EXPECT_EQ(words[1], "TCP; centre point 1.00 mm from the girdle");
     EXPECT_EQ(words[2], "Level girdle; width 2.00 mm");
     EXPECT_EQ(words[3], "Size the corners; width 2.60 mm");
     EXPECT_THAT(words[4], HasSubstr("Leave #4 frosted  (optional); leave "));
 }
 
-// A tier parts where its facets were cut at angles of their own: each shows beside its tooth.
+// A tier splits where its facets were cut at different angles: each angle is shown beside its
+// tooth.
 TEST(Design, OfAFittedStoneHasWholeTeethAndOwnAngles) {
     const ScratchFolder folder;
     Solid solid = parse_gemcad_asc(k_design).solid;
@@ -136,7 +139,7 @@ TEST(Design, OfAFittedStoneHasWholeTeethAndOwnAngles) {
     std::vector<NamedPlane> planes;
     for (const Facet& facet : solid.facets) {
         CutSetting cut = setting_of(facet.plane, design);
-        // The whole stone stands turned by a tenth of a tooth, which is nobody's fault.
+        // The whole stone is turned by a tenth of a tooth, which is not a fault.
         cut.index += 0.1;
         if (facet.name == "A.1") cut.angle_deg += 0.4;
         if (facet.name == "A.2") cut.index += 0.4;
@@ -151,15 +154,15 @@ TEST(Design, OfAFittedStoneHasWholeTeethAndOwnAngles) {
         return std::string();
     };
     EXPECT_EQ(a_words(fitted), "24 at 30.4, 72 96, 48 (cheater +0.40)");
-    // Written as a design it needs a line for each facet, and is one tier again when it is read.
+    // Written as a design it needs a line per facet; read back it is one tier again.
     write_gemcad_asc(fitted, design, folder / "fitted.asc");
     const Solid again = read_gemcad_asc(folder / "fitted.asc").solid;
     EXPECT_EQ(tier_titles(*again.design), tier_titles(design));
 }
 
 TEST(Design, OfAStandardCutHasItsTiers) {
-    // The trade counts a brilliant's tiers: lower halves, mains, girdle, upper halves, mains,
-    // stars, table; on a wheel of 96 every setting is whole.
+    // Tiers of a brilliant in the trade: lower halves, mains, girdle, upper halves, mains, stars,
+    // table. On a wheel of 96 every setting is an integer.
     const Solid solid = make_cut("round-brilliant");
     const Design design = drawn_design(solid);
     EXPECT_THAT(tier_titles(design), ElementsAre("L", "P", "G", "U", "C", "S", "T"));
@@ -170,7 +173,7 @@ TEST(Design, OfAStandardCutHasItsTiers) {
             EXPECT_EQ(facet.index, std::round(facet.index)) << facet.label;
     }
     EXPECT_EQ(facet_count_words(solid), "57 + 16");
-    // An oval's halves stand at four angles: four tiers, each called by its first facet.
+    // An oval's halves have four angles: four tiers, each named after its first facet.
     const std::vector<std::string> oval = tier_titles(drawn_design(make_cut("oval")));
     EXPECT_EQ(std::set<std::string>(oval.begin(), oval.end()).size(), oval.size());
 }

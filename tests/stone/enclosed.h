@@ -6,7 +6,7 @@
 
 namespace culet::test {
 
-/// What planes enclose, with corners that rounding parted brought together again.
+/// The solid that planes enclose. Corners that rounding split are joined again.
 inline Solid enclosed(const std::vector<NamedPlane>& planes) {
     const HalfSpaceSolid cut = intersect_half_spaces(planes);
     return contract_near_meets(cut.solid, 1e-9 * diameter(cut.solid)).solid;

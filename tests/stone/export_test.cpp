@@ -1,4 +1,4 @@
-// Files for other programs, read back here by their own rules: the volume is that of the solid.
+// Files for other programs, read back here by the formats' rules: the volume is that of the solid.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Entities of a STEP file by their numbers: name and what stands in the brackets.
+// Entities of a STEP file by number: name and the content of the brackets.
 struct Entity {
     std::string name, text;
     std::vector<int> refers;
@@ -45,7 +45,7 @@ Vec3 point_of(const std::string& text) {
     return p;
 }
 
-// Every edge is used twice, once each way; the corners of each face bound it; Gauss's theorem.
+// Every edge is used once in each direction; the corners of each face bound it; Gauss's theorem.
 TEST(Step, IsAClosedBodyOfTheSameVolume) {
     for (const char* cut : {"round-brilliant", "emerald", "pear"}) {
         const Solid solid = make_cut(cut);
@@ -115,7 +115,7 @@ std::vector<Vec3> vectors_of(const Glb& glb, int accessor) {
     return vectors;
 }
 
-// The rules of glTF 2.0 that readers trip over, and the true size in metres.
+// The rules of glTF 2.0 that readers rely on, and the true size in metres.
 TEST(Gltf, KeepsTheRulesAndTheSize) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");
@@ -153,7 +153,7 @@ TEST(Gltf, KeepsTheRulesAndTheSize) {
     }
     // Single precision of every corner.
     EXPECT_NEAR(volume6 / 6 * 1e9, volume(stone.solid), 1e-5 * volume(stone.solid));
-    // The table up, which is +y; every facet by its name.
+    // The table is up, which is +y; every facet has its name.
     EXPECT_GT(vectors_of(glb, primitive["attributes"]["NORMAL"])[0].y, 0.999);
     const Json& facets = glb.json["meshes"][0]["extras"]["facets"];
     ASSERT_EQ(facets.size(), stone.solid.facets.size());
@@ -165,7 +165,7 @@ TEST(Gltf, KeepsTheRulesAndTheSize) {
                 0.01);
 }
 
-// Planes stand off by the clearance, so that every corner of the stone is inside by as much.
+// Planes move out by the clearance, so every corner of the stone is inside by as much.
 TEST(Clearance, GrowsEveryPlane) {
     const Solid solid = make_cut("emerald"), seat = grown_outward(solid, 0.05);
     ASSERT_EQ(seat.facets.size(), solid.facets.size());
@@ -179,7 +179,7 @@ TEST(Clearance, GrowsEveryPlane) {
     EXPECT_THROW(grown_outward(solid, -1), InputError);
 }
 
-// A cut that lies anywhere stands with its girdle's plane at 0 and its table up.
+// A cut in any pose is exported with its girdle's plane at 0 and its table up.
 TEST(ExportFrame, StandsOnTheGirdle) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");

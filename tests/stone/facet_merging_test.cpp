@@ -1,4 +1,4 @@
-// Which faces become one facet, and which must not.
+// Which faces merge into one facet, and which must not.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace culet::test;
 
-/// OBJ of triangles without names, with coordinates in the given form.
+/// OBJ of unnamed triangles, with coordinates in the given format.
 std::string triangles_obj(const Solid& solid, const char* form) {
     std::string text;
     for (const Vec3& v : solid.vertices) {
@@ -73,7 +73,7 @@ TEST(FacetMerging, TrianglesOfEveryWrittenPrecisionFindTheirFacets) {
     }
 }
 
-// A roof of two rectangles that differ by `tilt_deg`, in all digits.
+// A roof of two rectangles that differ by `tilt_deg`, in full precision.
 TEST(FacetMerging, FacetsThatDifferByAHundredthOfADegreeStayApart) {
     for (const double tilt_deg : {1.0, 0.05, 0.01, 1e-4}) {
         const double rise = std::tan(radians(tilt_deg) / 2);
@@ -86,7 +86,7 @@ TEST(FacetMerging, FacetsThatDifferByAHundredthOfADegreeStayApart) {
         ASSERT_EQ(solid.facets.size(), 7u);
         const ReadSolid read = parse_mesh(triangles_obj(solid, "{}"), MeshFormat::obj);
         EXPECT_EQ(read.solid.facets.size(), 7u) << tilt_deg;
-        // Small against the stone, too.
+        // Relative to the stone, too.
         Solid small = moved(solid, 1e-3, {0, 0, 0});
         small.vertices.push_back({1, 1, 1});
         small.vertices.push_back({1, 1, 2});
@@ -123,7 +123,7 @@ TEST(FacetMerging, OneNameForManyPlanesIsNumbered) {
 }
 
 TEST(FacetMerging, CornersWithinStraightEdgesGo) {
-    // The cube with a vertex amid one edge, in both facets that meet there.
+    // The cube with a vertex in the middle of one edge, in both facets that meet there.
     Solid solid = cube();
     const int a = solid.facets[0].corners[0], b = solid.facets[0].corners[1];
     solid.vertices.push_back(0.5 * (solid.vertices[a] + solid.vertices[b]));
@@ -149,7 +149,7 @@ TEST(FacetMerging, CornersWithinStraightEdgesGo) {
 }
 
 TEST(FacetMerging, SliversJoinWhateverTheySeemToFace) {
-    // A square as two large triangles and a sliver between them that rounding has tipped over.
+    // A square of two large triangles and a sliver between them that rounding flipped over.
     const char* text =
         "v 0.0000000 0.0000000 0.0000000\nv 1.0000000 0.0000000 0.0000000\n"
         "v 1.0000000 1.0000000 0.0000000\nv 0.0000000 1.0000000 0.0000000\n"
@@ -199,7 +199,7 @@ TEST(FacetMerging, SingleFacesOfAFlatSheetMergeToOneOutline) {
     EXPECT_NEAR(area(read.solid, read.solid.facets[0]), n * n * std::hypot(1, 0.25), 1e-6);
 }
 
-// As other programs write a cut design: ASCII STL, six digits, every triangle by itself.
+// As other programs write a cut design: ASCII STL, six digits, separate triangles.
 TEST(FacetMerging, CutsInSixDigitsOfAsciiStl) {
     for (const char* name : {"round-brilliant", "oval", "step", "princess"}) {
         SCOPED_TRACE(name);

@@ -1,5 +1,5 @@
-// Meshes and cut designs as other programs write them. Expectations: the formats' specifications
-// (Wavefront's appendix B1, Geomview's manual, Turk's PLY) and GemCad's own files.
+// Meshes and cut designs of other programs. Expectations: the formats' specifications (Wavefront's
+// appendix B1, Geomview's manual, Turk's PLY) and GemCad's own files.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(ForeignDesigns, MeshesOfOtherPrograms) {
         "0 0 0 1 0 0 1 1 1 1\n1 0 0 1 0 0 1 1 1 1\n"
         "0 1 0 1 0 0 1 1 1 1\n0 0 1 1 0 0 1 1 1 1\n";
     const ForeignMesh cases[] = {
-        // B1: a line is continued by a backslash; comments and names of files are not.
+        // B1: a backslash continues a line, except in comments and file names.
         {MeshFormat::obj, "v 0 \\\n0 0\nv 1 0 0\nv 0 1 \\ \n0\nv 0 0 1\n" + k_obj_faces},
         {MeshFormat::obj, "# C:\\gems\\\nv 0 0 0\nv 1 0 0 # \\\nv 0 1 0\nv 0 0 1\n" + k_obj_faces},
         {MeshFormat::obj, "mtllib C:\\gems\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + k_obj_faces},
@@ -66,7 +66,7 @@ TEST(ForeignDesigns, MeshesOfOtherPrograms) {
         {MeshFormat::off, "4 4 0\n" + corners + k_last_faces},
         {MeshFormat::off, "OFF\n4 4 0\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\n", "a line of its own"},
         {MeshFormat::off, "4OFF\n4 4 0\n", "more than three dimensions"},
-        // A value that nobody needs may be anything; a coordinate may not.
+        // An unused value may be anything; a coordinate may not.
         {MeshFormat::ply,
          ply_with("property float quality\n", "0 0 0 nan\n1 0 0 -nan(ind)\n0 1 0 0\n0 0 1 inf\n")},
         {MeshFormat::ply, ply_with("", "0 0 0\n1 nan 0\n0 1 0\n0 0 1\n"), ":11: 'nan'"},
@@ -85,7 +85,7 @@ TEST(ForeignDesigns, MeshesOfOtherPrograms) {
     }
 }
 
-/// A cube with edges of 2 on a gear of 96, in which `table` gives the upper face.
+/// A cube with edges of 2 on a gear of 96; `table` gives the upper face.
 std::string cube_with(const std::string& table,
                       const std::string& head = "GemCad 5.0\ng 96 0.0\n") {
     return head + "a 90 1 96 n G 24 48 72\n" + table + "\na -0 1 96 n C\n";
@@ -104,7 +104,7 @@ TEST(ForeignDesigns, CutDesignsKeepTheirFacetsOrAreRefused) {
         {cube_with("a 0 1 n T G set the size")},
         {cube_with("a 0 1 G set the size"), "", "f0"},
         {cube_with("a 0 1 n T 96")},
-        // An instruction goes on in lines that begin with any word.
+        // An instruction continues in lines that begin with any word.
         {cube_with("a 0 1 96 n T G cut to\na level table\ng and polish\n12 more strokes")},
         {cube_with("; by hand\na 0 1 96 n\nT\n# end of the crown")},
         {cube_with("a 0 1 96 n T", "gemcad 5.0 by some program\n;\ng 96 0.0\n")},
@@ -133,7 +133,7 @@ TEST(ForeignDesigns, CutDesignsKeepTheirFacetsOrAreRefused) {
     }
 }
 
-// Eight sides at 1 and two faces at 1: 2 * 8 tan(22.5 degrees), whatever gear they are counted on.
+// Eight sides at 1 and two faces at 1: 2 * 8 tan(22.5 degrees), on any gear.
 TEST(ForeignDesigns, AGearThatIsNotStatedIsSupposedAndSaid) {
     const struct {
         std::string symmetry, sides;
@@ -153,7 +153,7 @@ TEST(ForeignDesigns, AGearThatIsNotStatedIsSupposedAndSaid) {
         ASSERT_EQ(cut.notes.size(), 1u);
         EXPECT_THAT(cut.notes[0], says("gear is not stated", std::to_string(int(one.gear))));
     }
-    // Sides that repeat on no gear: 96, and said.
+    // Sides that repeat on no gear: 96 is assumed, and reported.
     const ReadCut uneven =
         parse_gemcad_asc("GemCad 5.0\na 90 1 96 11 24 35 48 60 72 84\na 0 1\na -0 1\n");
     EXPECT_EQ(uneven.solid.design->gear, 96);

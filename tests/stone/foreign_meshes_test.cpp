@@ -1,6 +1,6 @@
-// Meshes as other programs write them. Expectations are closed forms of one stone (an octagonal
-// table cut: table of radius 1.8 at z = 1, girdle of radius 3 at z = 0, culet at z = -2.2), or what
-// a format's specification says of the bytes.
+// Meshes of other programs. Expectations: closed forms of one stone (an octagonal table cut: table
+// of radius 1.8 at z = 1, girdle of radius 3 at z = 0, culet at z = -2.2), or a format's
+// specification.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -89,7 +89,7 @@ Solid of_planes(const std::vector<std::pair<Vec3, double>>& given) {
     return intersect_half_spaces(planes).solid;
 }
 
-// A dome of facets at these inclinations (degrees, of unit distance) over a flat base at z = 0.
+// A dome of facets with these inclinations (degrees, at unit distance) over a flat base at z = 0.
 Solid rose(const std::vector<double>& inclinations) {
     std::vector<std::pair<Vec3, double>> planes{{{0, 0, -1}, 0}};
     for (const double tilt_deg : inclinations) {
@@ -102,7 +102,7 @@ Solid rose(const std::vector<double>& inclinations) {
     return of_planes(planes);
 }
 
-// A briolette: facets round an axis, at both ends a point.
+// A briolette: facets round an axis with a point at both ends.
 Solid drop() {
     std::vector<std::pair<Vec3, double>> planes;
     for (int i = 0; i < 8; ++i) {
@@ -206,7 +206,7 @@ TEST_F(ForeignMeshes, WithoutATableAreAskedAbout) {
     EXPECT_EQ(question_of_up(make_cut("oval")), "");
 }
 
-// The catalogue's cuts are table up by definition (cuts.h); those with a table facet T show it.
+// The catalogue's cuts are table up by definition (cuts.h); those with a table facet T mark it.
 TEST_F(ForeignMeshes, StandardCutsAreNeverTurnedWrong) {
     for (const CutKind& kind : cut_kinds()) {
         const Solid solid = make_cut(kind.name);
@@ -247,7 +247,7 @@ TEST_F(ForeignMeshes, AStoneFileSaysWhichWayIsUp) {
     const StoneFile given = stone_with("up = [0, 0, 1]\n");
     EXPECT_NEAR(given.stone.solid.vertices[8].y, 1, 1e-8) << "what is stated wins";
     EXPECT_THAT(given.notes, IsEmpty());
-    // An axis that is stated is stated of the mesh as it is; one that is not is up.
+    // A stated axis is that of the mesh as it is; without one the axis is up.
     const auto axis = [&](const std::string& lines) {
         return stone_with(lines).stone.crystal.axes[0];
     };
@@ -319,8 +319,8 @@ TEST(ForeignFaces, AreTurnedRoundOrLeftOutWhereEdgesAreSound) {
     EXPECT_FALSE(find_faults(parse_mesh(obj_of(open), MeshFormat::obj).solid).empty());
 }
 
-// PLY (Turk 1994): properties that a reader does not know are passed over; a triangle strip of
-// Stanford's files ends with -1.
+// PLY (Turk 1994): readers skip unknown properties; a triangle strip in Stanford's files ends with
+// -1.
 TEST(ForeignPly, WhatNobodyNeedsDecidesNothing) {
     const std::string header =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
@@ -331,7 +331,7 @@ TEST(ForeignPly, WhatNobodyNeedsDecidesNothing) {
             "element face 4\nproperty list ushort uint vertex_indices\nproperty list char "
             "float texcoord\nend_header\n" +
             vertices + "3 0 2 1 1 nan\n3 0 1 3 0\n3 1 2 3 0\n3 2 0 3 0\n",
-        // 1 0 2, (0 2 3 turned:) 2 0 3, and after the end of the strip 0 1 3 2.
+        // 1 0 2, (0 2 3 reversed:) 2 0 3, and after the end of the strip 0 1 3 2.
         header + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
             vertices + "9 1 0 2 3 -1 0 1 3 2\n",
     };
@@ -352,8 +352,8 @@ protected:
         text.resize((text.size() + 3) / 4 * 4);
         return text;
     }
-    // The parts lie one after the other, each in a buffer view of its own. The buffer is stated
-    // without the last `unstated` bytes.
+    // The parts lie one after the other, each in its own buffer view. The stated buffer length
+    // excludes the last `unstated` bytes.
     static std::string glb(const std::string& json, const std::vector<std::string>& parts,
                            std::size_t unstated = 0) {
         std::string views, data;
@@ -393,7 +393,7 @@ protected:
 TEST_F(ForeignGltf, WhatContributesToTheSurfaceIsRead) {
     const std::string float3 = accessor(0, 5126, 4, "VEC3");
     const auto indices = [](std::size_t n) { return accessor(1, 5123, n, "SCALAR"); };
-    // The first corner is stated by the sparse part alone.
+    // Only the sparse part gives the first corner.
     std::vector<float> moved = corners_;
     moved[0] = moved[1] = 7;
     const struct {

@@ -1,4 +1,4 @@
-// Text as other programs and systems write it: marks, encodings, line ends, signs.
+// Text from other programs and systems: byte order marks, encodings, line ends, symbols.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ std::string with_ends(const std::string& text, const std::string& end) {
     return changed;
 }
 
-/// One text as six systems keep it.
+/// One text in the encodings of six systems.
 std::vector<std::pair<const char*, std::string>> kept_otherwise(const std::string& text) {
     return {{"mark", "\xef\xbb\xbf" + text},
             {"UTF-16 LE", utf16(text, true, true)},
@@ -69,7 +69,7 @@ TEST(ForeignText, BytesBecomeUtf8) {
         {"a\x1a"
          "b",
          "a\x1a"
-         "b"},  // no end of the file: text follows
+         "b"},  // not the end of the file: text follows
         // A surrogate pair (RFC 2781, 2.1: U+1F48E is D83D DC8E), and a half of one.
         {"\xff\xfe\x3d\xd8\x8e\xdc", "\xf0\x9f\x92\x8e"},
         {std::string("\xfe\xff\xd8\x3d\0a", 6),
@@ -189,10 +189,10 @@ TEST(ForeignText, WhatPeopleSeeIsWholeCharactersAndNoCommands) {
               "a?b?c?");
     std::string letters;
     for (int i = 0; i < 50; ++i) letters += "\u00e9";
-    EXPECT_EQ(shown(letters), letters.substr(0, 80) + "...");  // two bytes a letter
+    EXPECT_EQ(shown(letters), letters.substr(0, 80) + "...");  // two bytes per letter
     EXPECT_EQ(for_terminal("\u5b9d\u202e\xff"), "\u5b9d\\u202e\\xff");
     EXPECT_EQ(for_terminal("\u00e9 \U0001f48e", true), "\\u00e9 \\u1f48e");
-    // 200 letters in quotes: 120 are kept, of which three are points.
+    // 200 letters in quotes: 120 are kept, three of them points.
     std::string quote = for_terminal("\"" + letters + letters + letters + letters + "\"");
     EXPECT_EQ(quote.size(), 2 + 3 + 2 * 117u);
 }

@@ -36,7 +36,7 @@ const char* const k_block =
 TEST(GemCadAsc, BlockHasItsPlanesAndNames) {
     const ReadCut cut = parse_gemcad_asc(k_block);
     ASSERT_EQ(cut.solid.facets.size(), 6u);
-    // Index 0 and 96 look along +y, 24 along +x.
+    // Index 0 and 96 face +y, 24 faces +x.
     const auto normal = [&](const char* name) {
         return cut.solid.facets[find_facet(cut.solid, name)].plane.normal;
     };
@@ -60,7 +60,7 @@ TEST(GemCadAsc, NegativeGearTurnsTheOtherWayAndOffsetMovesTheZero) {
     std::string text = k_block;
     text.replace(text.find("g 96 0.0"), 8, "g -96 48");
     const ReadCut cut = parse_gemcad_asc(text);
-    // t = 2 pi (24 - 48) / -96 = a quarter: +x; index 96 lies at t = -pi: -y.
+    // t = 2 pi (24 - 48) / -96 is a quarter turn: +x. Index 96 is at t = -pi: -y.
     EXPECT_EQ(cut.solid.facets[find_facet(cut.solid, "f0")].plane.normal, Vec3(1, 0, 0));
     EXPECT_EQ(cut.solid.facets[find_facet(cut.solid, "G1")].plane.normal, Vec3(0, -1, 0));
 }
@@ -71,7 +71,7 @@ TEST(GemCadAsc, FormsThatRealFilesUse) {
         text.replace(text.find("g 96 0.0"), 8, gear);
         EXPECT_EQ(parse_gemcad_asc(text).solid.facets.size(), 6u) << gear;
     }
-    // Lines that go on, CRLF, a name that is a keyword of its own, two G instructions.
+    // Continued lines, CRLF, a name that is also a keyword, two G instructions.
     const ReadCut cut = parse_gemcad_asc(
         "GemCad 4.51\r\ng 96 0.0\r\ny 1 n\r\nI 1.54\r\n"
         "a 90 1.0 96 n\r\nG 24 n 2\r\n48 72 G cut\r\nto girdle\r\n"
@@ -105,7 +105,7 @@ TEST(GemCadAsc, Windows1252BecomesUtf8AndBack) {
 TEST(GemCadAsc, OpenAndEmptyDesignsAreRefused) {
     EXPECT_THROW(parse_gemcad_asc("GemCad 5.0\na 0 0.5 96\n"), InputError);
     EXPECT_THROW(parse_gemcad_asc("GemCad 5.0\n"), InputError);
-    // Both horizontal planes through the origin leave nothing between them.
+    // Two horizontal planes through the origin enclose nothing.
     std::string text = k_block;
     text.replace(text.find("0.5 96"), 3, "0.0");
     text.replace(text.find("0.25"), 4, "0.00");
@@ -159,7 +159,7 @@ TEST(GemCadDesigns, HaveTheCountsAndRatiosOfAnotherProgram) {
         EXPECT_EQ(edge_count(solid), known["edges"].get<int>());
         EXPECT_EQ(cut.unused_planes.size(), known["unused_planes"].get<std::size_t>());
         EXPECT_EQ(cut.repeated_planes.size(), known["repeated_planes"].get<std::size_t>());
-        // Corners differ by what meets miss, so lengths agree to 3e-4 only.
+        // Corners differ by how far meets miss, so lengths agree to 3e-4 only.
         const Proportions p = proportions(solid);
         const double near = 3e-4;
         EXPECT_NEAR(p.width / known["W"].get<double>(), 1, near);
@@ -179,7 +179,7 @@ TEST(GemCadDesigns, HaveTheCountsAndRatiosOfAnotherProgram) {
     }
 }
 
-// The same design in both forms of file: the planes of a .gem are unit normals over distances.
+// The same design in both file formats: the planes of a .gem are unit normals over distances.
 TEST(GemCadDesigns, GemAndAscAgree) {
     for (const auto& design : committed_designs()) {
         SCOPED_TRACE(design.filename());

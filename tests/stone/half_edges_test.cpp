@@ -34,8 +34,8 @@ TEST(HalfEdges, EdgesAreSortedAndRunWithTheirLeftFacet) {
     }
 }
 
-// A facet that runs p, v, n covers the angle at v from the edge to n counter-clockwise to the edge
-// to p; the next one round v must begin there.
+// A facet with corners p, v, n in this order covers the angle at v counter-clockwise from the edge
+// to n to the edge to p; the next one round v must begin there.
 TEST(HalfEdges, FacetsRoundAVertexRunCounterClockwise) {
     const Solid solid = random_solid(60, 4);
     const HalfEdges table = half_edges(solid);

@@ -46,8 +46,8 @@ TEST(HalfSpaces, FacetsFollowTheOrderAndNamesOfThePlanes) {
     EXPECT_EQ(result.solid.facets.size() + result.unused_planes.size(), planes.size());
 }
 
-// Volume of the octahedron with corners at the unit vectors: 4/3. Its planes are rounded, so four
-// of them miss each other's meet by a hair; the exact solid shows that as short edges.
+// The octahedron with corners at the unit vectors has volume 4/3. Its planes are rounded, so four
+// of them slightly miss each other's meet; the exact solid shows that as short edges.
 TEST(HalfSpaces, OctahedronVolume) {
     const HalfSpaceSolid result = intersect_half_spaces(octahedron_planes());
     EXPECT_NEAR(volume(result.solid), 4.0 / 3.0, 1e-15);
@@ -88,7 +88,7 @@ TEST(HalfSpaces, CountsDoNotDependOnScaleOrPlace) {
         EXPECT_EQ(solid.facets.size(), near.facets.size()) << scale;
         EXPECT_EQ(solid.vertices.size(), near.vertices.size()) << scale;
     }
-    // A million diameters away the doubles of the offsets are rounded to 1e-10.
+    // A million diameters away the offsets, as doubles, are rounded to 1e-10.
     auto far = planes;
     for (NamedPlane& p : far) p.plane.offset += glm::dot(p.plane.normal, Vec3(1e6, -2e6, 1e6));
     const HalfSpaceSolid result = intersect_half_spaces(far);
@@ -107,8 +107,7 @@ TEST(HalfSpaces, OrderOfThePlanesDoesNotChangeTheSolid) {
     EXPECT_EQ(plane_difference(a, b), 0);
 }
 
-/// Planes n . x <= d for all signs and orders of n, as whole numbers: meets of many planes are
-/// exact.
+/// Planes n . x <= d for all signs and orders of n, in integers: meets of many planes are exact.
 void add_family(std::vector<NamedPlane>& planes, int a, int b, int c, double d) {
     std::set<std::array<int, 3>> normals;
     std::array<int, 3> n{a, b, c};
@@ -125,7 +124,7 @@ void add_family(std::vector<NamedPlane>& planes, int a, int b, int c, double d) 
     }
 }
 
-// Counts of the Archimedean and Catalan solids with the symmetry of the cube (Coxeter, Regular
+// Counts of the Archimedean and Catalan solids with the cube's symmetry (Coxeter, Regular
 // Polytopes).
 TEST(HalfSpaces, CubicSolidsWithExactMeetsOfManyPlanes) {
     struct Case {
@@ -146,10 +145,10 @@ TEST(HalfSpaces, CubicSolidsWithExactMeetsOfManyPlanes) {
         EXPECT_EQ(result.solid.facets.size(), c.facets);
         EXPECT_EQ(edge_count(result.solid), c.edges);
         EXPECT_TRUE(find_faults(result.solid).empty());
-        // The same from the other end.
+        // The same in reverse order.
         std::reverse(planes.begin(), planes.end());
         EXPECT_EQ(intersect_half_spaces(planes).solid.vertices.size(), c.vertices);
-        // Planes through vertices and edges only bound nothing.
+        // Planes that touch only vertices and edges bound no facet.
         const std::size_t before = planes.size();
         add_family(planes, 9, 0, 0, 9 * width_along(result.solid, {1, 0, 0}) / 2);
         const HalfSpaceSolid touched = intersect_half_spaces(planes);
@@ -200,13 +199,13 @@ TEST(HalfSpaces, OpenAndEmptySolidsAreTold) {
     auto empty = cube_planes();
     empty.push_back({"beyond", {{0, 0, 1}, -2}});
     EXPECT_TRUE(intersect_half_spaces(empty).empty);
-    // Flat: all planes hold at z = 1 only.
+    // Flat: all planes meet at z = 1 only.
     auto flat = cube_planes();
     flat.push_back({"flat", {{0, 0, -1}, -1}});
     EXPECT_TRUE(intersect_half_spaces(flat).empty);
 }
 
-// A needle whose tip is 1e8 away: far beyond any box that one would guess.
+// A needle whose tip is 1e8 away: far beyond any guessed bounding box.
 TEST(HalfSpaces, NearlyParallelPlanesAreStillBounded) {
     const double tilt = 1e-8;
     std::vector<NamedPlane> planes{{"base", {{0, 0, -1}, 0}}};
@@ -230,9 +229,9 @@ TEST(HalfSpaces, BadPlanesAreRefused) {
     EXPECT_THROW(intersect_half_spaces(planes), InputError);
 }
 
-// A cut as a scanner finds it: every plane off by microns, so that no four meet in one point. Then
-// three edges end at each corner (Euler: V = 2F - 4, E = 3F - 6), no plane cuts a corner off, and
-// each corner is where its three planes meet by Cramer's rule.
+// A cut as scanned: every plane is off by microns, so no four meet in one point. Then three edges
+// end at each corner (Euler: V = 2F - 4, E = 3F - 6), no plane cuts off a corner, and each corner
+// is where its three planes meet by Cramer's rule.
 TEST(HalfSpaces, CutsWhoseMeetsMissByMicrons) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> micron(-1e-4, 1e-4);
@@ -267,7 +266,7 @@ TEST(HalfSpaces, CutsWhoseMeetsMissByMicrons) {
             const Vec3 meet = (a.offset * bc + b.offset * glm::cross(c.normal, a.normal) +
                                c.offset * glm::cross(a.normal, b.normal)) /
                               glm::dot(a.normal, bc);
-            // Nearly parallel planes spread the rounding of their coefficients (1e-16).
+            // Nearly parallel planes amplify the rounding of their coefficients (1e-16).
             EXPECT_LT(glm::length(v - meet), 1e-9);
         }
     }

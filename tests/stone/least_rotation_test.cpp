@@ -1,5 +1,5 @@
-// The least rotation between two directions, held against a quaternion's where that is well
-// conditioned, and against what any rotation keeps where the two are all but opposite.
+// The least rotation between two directions, against a quaternion where that is well conditioned,
+// and against invariants of any rotation where the two are nearly opposite.
 
 #include "stone/solid/least_rotation.h"
 
@@ -13,7 +13,7 @@
 namespace culet {
 namespace {
 
-// Of a dozen roundings of unit numbers.
+// A dozen roundings of unit numbers.
 constexpr double k_rounding = 12 * 0x1p-52;
 
 TEST(LeastRotation, IsThatOfAQuaternion) {
@@ -24,7 +24,7 @@ TEST(LeastRotation, IsThatOfAQuaternion) {
         if (cosine < -0.9) continue;
         const glm::dquat q =
             glm::angleAxis(std::acos(cosine), glm::normalize(glm::cross(from, to)));
-        // The angle is known from its cosine to so much, and the axis likewise.
+        // The cosine determines the angle, and so the axis, to this error.
         const double limit = k_rounding / std::sqrt(1 - cosine * cosine);
         EXPECT_LT(glm::length(turned_with(from, to, v) - q * v), limit);
     }

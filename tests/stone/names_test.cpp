@@ -1,4 +1,4 @@
-// Names that nobody knows, values that are no TOML, and foreign text for a terminal.
+// Unknown names, values that are not TOML, and foreign text for a terminal.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(NamesLike, AreListedInWords) {
 TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
     EXPECT_NE(error_of("sapphire").find("mean \"sapphire_blue\", \"corundum\""), std::string::npos)
         << error_of("sapphire");
-    // Of several kinds all are named, and none is chosen.
+    // If there are several kinds all are named, and none is chosen.
     EXPECT_NE(error_of("topaz").find("mean \"topaz_fluor\", \"topaz_imperial\" or \"topaz_blue\"?"),
               std::string::npos)
         << error_of("topaz");
@@ -63,19 +63,19 @@ TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
          {"pyrope", "almandine", "spessartine", "grossular", "andradite", "rhodolite"})
         EXPECT_NE(error_of("garnet").find(kind), std::string::npos) << kind;
     EXPECT_NE(error_of("dimond").find("\"diamond\""), std::string::npos);
-    // Tsavorite and demantoid are kinds of garnet that the usual colours name.
+    // Tsavorite and demantoid are garnets, found by their usual colours.
     EXPECT_EQ(catalogue_names_like("tsavorite"), std::vector<std::string>{"garnet_grossular"});
     EXPECT_EQ(catalogue_names_like("Demantoid"), std::vector<std::string>{"garnet_andradite"});
     EXPECT_TRUE(has(catalogue_names_like("garnet"), "garnet_rhodolite"));
     EXPECT_TRUE(catalogue_names_like("qqqqqqqq").empty());
-    // A name of a megabyte is not echoed whole.
+    // A name of a megabyte is not echoed in full.
     EXPECT_LT(for_terminal(error_of(std::string(1 << 20, 'x'))).size(), 400u);
 }
 
 TEST(Catalogue, KnowsAStoneByItsTitle) {
     const Material ruby = catalogue_material("Ruby");
     EXPECT_EQ(ruby.id, "ruby_gem");
-    // Red: the green between chromium's two bands is taken away, and red passes.
+    // Red: the green between chromium's two bands is absorbed, red passes.
     EXPECT_GT(ruby.absorption_per_mm[0].at(550), 10 * ruby.absorption_per_mm[0].at(650));
     EXPECT_EQ(catalogue_material("blue sapphire").id, "sapphire_blue");
     EXPECT_EQ(catalogue_material("Diamond").id, "diamond");
@@ -87,12 +87,12 @@ TEST(Catalogue, KnowsAStoneByItsTitle) {
 TEST(Catalogue, SaysWhenTheColourOfAStoneIsMissing) {
     EXPECT_NE(notes_on(catalogue_material("aquamarine")).at(0).find("light greenish blue"),
               std::string::npos);
-    // Colourless as they should be; and coloured.
+    // Colourless ones, and coloured ones.
     for (const char* name : {"diamond", "quartz", "glass_bk7", "corundum", "garnet_rhodolite",
                              "peridot", "tourmaline_green"}) {
         EXPECT_TRUE(notes_on(catalogue_material(name)).empty()) << name;
     }
-    // Every material of the catalogue has a spectrum, is without colour, or says what is missing.
+    // Every material of the catalogue has a spectrum, is colourless, or says what is missing.
     for (const std::string& name : catalogue_names()) {
         const Material material = catalogue_material(name);
         EXPECT_EQ(material.has_absorption(), !material.absorption_source.empty()) << name;
@@ -109,7 +109,7 @@ TEST(Catalogue, AbsorbsByTheTableTimesTheDepthOfTheName) {
     EXPECT_TRUE(catalogue_material("ruby_pale").absorption_depth.empty());
 }
 
-// A gem whose absorption is of other rays than its mineral has would be drawn colourless.
+// A gem with absorption for rays that its mineral lacks would be drawn colourless.
 TEST(Catalogue, HasOnlyEntriesThatCanBeRead) {
     ASSERT_GT(catalogue_names().size(), 40u);
     for (const std::string& name : catalogue_names())
@@ -117,7 +117,7 @@ TEST(Catalogue, HasOnlyEntriesThatCanBeRead) {
 }
 
 TEST(Catalogue, BandsOfGarnetsMakeTheirTables) {
-    // Gaussians over the wavenumber, half maximum at half the width; strengths in 1/cm.
+    // Gaussians over the wavenumber, with half the maximum at half the width; strengths in 1/cm.
     struct Band {
         double nm, width, peak;
     };
@@ -140,7 +140,7 @@ TEST(Catalogue, BandsOfGarnetsMakeTheirTables) {
                 const double x = (1e7 / nm - 1e7 / band.nm) / band.width;
                 sum += band.peak * std::exp2(-4 * x * x);
             }
-            // The table has four digits: half of the last is 5e-4 of the value at most.
+            // The table has four digits: half of the last is at most 5e-4 of the value.
             EXPECT_NEAR(material.absorption_per_mm[0].at(nm), 0.1 * sum, 5e-5 * sum) << nm;
         }
     }
@@ -157,7 +157,7 @@ TEST(TomlAdvice, SaysWhatToWrite) {
     EXPECT_EQ(toml_advice("unit: mm"), "write unit = mm, with =");
     EXPECT_EQ(toml_advice("name = \"Dravite"), "a quote is not closed");
     EXPECT_EQ(toml_advice("value ="), "a value is missing behind value =");
-    // Nothing to say of what is right, or of what lies inside lists.
+    // Nothing to report where the value is right, or inside lists.
     for (const char* line : {"value = 6.52", "value = true", "at = [1, 2, x]", "", "# x", "[a"}) {
         EXPECT_EQ(toml_advice(line), "") << line;
     }
@@ -166,7 +166,7 @@ TEST(TomlAdvice, SaysWhatToWrite) {
     EXPECT_EQ(without_unit("6.52 mm", "mm"), "6.52");
     EXPECT_EQ(without_unit("58%", "%"), "58");
     EXPECT_EQ(without_unit("33.8\u00b0", "deg"), "33.8");
-    // A foreign unit is left to whoever reads the number.
+    // Whoever reads the number handles a foreign unit.
     EXPECT_EQ(without_unit("6.52cm", "mm"), "6.52cm");
     EXPECT_EQ(without_unit("wide", "mm"), "wide");
 }
@@ -198,7 +198,7 @@ TEST(ForTerminal, LetsNoControlCharacterThroughAndShortensWhatIsQuoted) {
     EXPECT_NE(quoted.find("x...x"), std::string::npos);
     EXPECT_TRUE(quoted.ends_with("\" here"));
     EXPECT_LE(for_terminal(std::string(1 << 20, 'y')).size(), 2000u);
-    // No character is cut in two: every byte of a cut text of two-byte letters has its partner.
+    // No character is split: every byte of a shortened text of two-byte letters has its partner.
     std::string letters;
     for (int i = 0; i < 3001; ++i) letters += "\u00e4";
     const std::string cut = for_terminal("x" + letters);

@@ -56,7 +56,7 @@ TEST(NearMeets, LongEdgesStay) {
     EXPECT_EQ(same.contracted_edges, 0);
 }
 
-// A cube whose corner is cut off by a tiny facet: the facet goes, the corner comes back.
+// A cube with a corner cut off by a tiny facet: the facet vanishes, the corner returns.
 TEST(NearMeets, FacetThatShrinksToAPointVanishes) {
     auto planes = cube_planes();
     planes.push_back({"chip", {glm::normalize(Vec3(1, 1, 1)), std::sqrt(3.0) - 1e-6}});
@@ -68,7 +68,7 @@ TEST(NearMeets, FacetThatShrinksToAPointVanishes) {
     EXPECT_TRUE(find_faults(joined.solid).empty());
 }
 
-// A bevel of an edge, thinner than the tolerance: it goes, and the edge comes back.
+// A bevel of an edge, thinner than the tolerance: it vanishes, and the edge returns.
 TEST(NearMeets, ThinBevelVanishes) {
     auto planes = cube_planes();
     planes.push_back({"bevel", {glm::normalize(Vec3(1, 1, 0)), std::sqrt(2.0) - 1e-6}});

@@ -50,13 +50,13 @@ void expect_round_trips(const Solid& solid) {
         EXPECT_TRUE(is_convex(read.solid));
         const bool is_stl = std::string(extension) == ".stl";
         if (is_stl) {
-            // Without offsets: as good as corners at near-miss meets can tell them.
+            // Without offsets: as precise as corners at near-miss meets allow.
             const double limit = 1e-6 + planarity(solid) / diameter(solid);
             EXPECT_LT(nearest_plane_difference(solid, read.solid), limit);
         } else {
             EXPECT_LT(plane_difference(solid, read.solid), 1e-12);
         }
-        // A second trip changes nothing.
+        // A second round trip changes nothing.
         const auto again = folder / (std::string("again").append(extension));
         write_solid(read.solid, again);
         EXPECT_EQ(plane_difference(read.solid, read_solid(again).solid) > 1e-12, false);
@@ -76,14 +76,14 @@ TEST(RoundTrip, CutsOfTheCatalogue) {
     for (const CutKind& kind : cut_kinds()) {
         SCOPED_TRACE(kind.name);
         const Solid cut = make_cut(kind.name);
-        if (is_convex(cut)) expect_round_trips(cut);  // a heart is not: no design holds it
+        if (is_convex(cut)) expect_round_trips(cut);  // no design can hold a heart
     }
 }
 
 TEST(RoundTrip, RandomSolids) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
-        // Joined, as a design's corners are when it is read from .asc.
+        // Joined, as the corners of a design are when it is read from .asc.
         Solid solid = random_solid(10 + 9 * static_cast<int>(seed), seed);
         const double width = std::min(width_along(solid, {1, 0, 0}), width_along(solid, {0, 1, 0}));
         solid = contract_near_meets(solid, 3e-4 * width).solid;
@@ -156,16 +156,16 @@ TEST(RoundTrip, NamesThatWouldBreakAFileAreMangled) {
     }
 }
 
-// A user who moves a vertex must not be haunted by the planes that were noted before.
+// After a user moves a vertex, the planes noted in the file must not apply.
 TEST(RoundTrip, EditedMeshForgetsItsNotedPlanes) {
     const Solid solid = cube();
     for (const MeshFormat format : {MeshFormat::obj, MeshFormat::off, MeshFormat::ply}) {
         std::string text = mesh_text(solid, format);
-        // Stretch by a hair in z: every `1` that ends a vertex line.
+        // Stretches slightly in z: every `1` that ends a vertex line.
         Solid stretched = solid;
         for (Vec3& v : stretched.vertices) v.z *= 1.0001;
         const std::string other = mesh_text(stretched, format);
-        // The comments of the one with the body of the other.
+        // The comments of one file with the body of the other.
         const std::size_t last = text.rfind("culet plane");
         const std::size_t cut = text.find('\n', last) + 1;
         const std::size_t body = other.find('\n', other.rfind("culet plane")) + 1;
@@ -176,7 +176,7 @@ TEST(RoundTrip, EditedMeshForgetsItsNotedPlanes) {
     }
 }
 
-// Planes noted by another hand, without a hash, count when they agree with the corners to 1e-3.
+// Noted planes without a hash count when they agree with the corners to 1e-3.
 TEST(RoundTrip, NotedPlanesWithoutAHash) {
     Solid solid = cube();
     for (const double off : {1e-4, 1e-2}) {

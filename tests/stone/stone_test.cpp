@@ -22,7 +22,7 @@ TEST(Inclination, IsZeroForTableAndCuletAndAQuarterForTheGirdle) {
     EXPECT_EQ(inclination({0, 0, -1}, {0, 0, 1}), 0);
     EXPECT_DOUBLE_EQ(inclination({1, 0, 0}, {0, 0, 1}), pi / 2);
     EXPECT_DOUBLE_EQ(inclination({0, 0.6, -0.8}, {0, 0, 1}), std::asin(0.6));
-    // A tilt of 1e-12 has all its digits.
+    // A tilt of 1e-12 keeps all its digits.
     EXPECT_DOUBLE_EQ(inclination({1e-12, 0, 1}, {0, 0, 1}), 1e-12);
 }
 

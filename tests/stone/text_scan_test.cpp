@@ -37,14 +37,14 @@ TEST(TextScan, ShownWordsAreShortAndPrintable) {
     EXPECT_LE(shown(std::string(1000, 'x')).size(), 43u);
 }
 
-// The rounding that the digits tell must be that which they have: numbers printed in a form, read
-// back, and compared with what they were.
+// The rounding inferred from the digits must be the true one: numbers are printed in a format, read
+// back, and compared with the originals.
 TEST(WrittenPrecision, FindsTheRoundingOfCommonForms) {
     std::mt19937_64 generator(5);
     std::uniform_real_distribution<double> coordinate(-8, 8);
     struct Case {
         const char* form;
-        double most;  // rounding told, at most
+        double most;  // largest inferred rounding
     };
     for (const Case& c : {Case{"{:.6f}", 0.51e-6}, Case{"{:.3f}", 0.51e-3}, Case{"{:.6e}", 0.51e-6},
                           Case{"{:.7g}", 0.51e-6}, Case{"{:.17g}", 1e-15}, Case{"{}", 1e-15}}) {
@@ -63,7 +63,7 @@ TEST(WrittenPrecision, FindsTheRoundingOfCommonForms) {
     }
 }
 
-// They could be single precision, so that is what is assumed: 20 has a rounding of 6e-8 of itself.
+// They could be single precision, so that is assumed: 20 has a rounding of 6e-8 of itself.
 TEST(WrittenPrecision, ShortExactNumbersAreNotTakenForCoarse) {
     WrittenPrecision precision;
     for (const char* word : {"0", "1.25", "-2", "0.5", "3.125", "7.0625", "1.3", "20"}) {

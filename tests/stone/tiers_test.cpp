@@ -34,20 +34,20 @@ Names names_of(const Solid& solid, std::size_t count) {
     return names;
 }
 
-// The one name of a tier is the name of all its facets, wherever it stands.
+// A tier's single name applies to all its facets, wherever it stands.
 TEST(GemCadTiers, NameGoesToAllFacets) {
     EXPECT_EQ(names_of(parse_gemcad_asc(k_head + k_crown + k_rest).solid, 5),
               (Names{"A", "A.1", "A.2", "A.3", "G"}));
     const auto crown = [&](const std::string& line) {
         return names_of(parse_gemcad_asc(k_head + line + k_rest).solid, 4);
     };
-    // A facet that the file names keeps what it has been called.
+    // A facet that the file names keeps its name.
     EXPECT_EQ(crown("a 40 0.9 96 24 48 n A 72\n"), (Names{"A.1", "A.2", "A", "A.3"}));
     EXPECT_EQ(crown("a 40 0.9 96 24 48 n A 72 n A\n"), (Names{"A.2", "A.3", "A", "A.1"}));
-    // Several names are their facets' own.
+    // Several names belong to single facets.
     EXPECT_EQ(crown("a 40 0.9 96 n A 24 48 n B 72\n"), (Names{"A", "f0", "B", "f1"}));
     EXPECT_EQ(crown("a 40 0.9 96 24 48 72\n"), (Names{"f0", "f1", "f2", "f3"}));
-    // Two tiers of one name: the numbers run on.
+    // Two tiers with one name: the numbers continue.
     EXPECT_EQ(names_of(parse_gemcad_asc(k_head + "a 40 0.9 96 n G 24 48 72\n" + k_rest).solid, 8),
               (Names{"G", "G.2", "G.3", "G.4", "G.1", "G.5", "G.6", "G.7"}));
 }
@@ -67,7 +67,7 @@ TEST(GemCadTiers, GoThereAndBack) {
             EXPECT_EQ(names_of(at, at.facets.size()), names) << crown << file;
         }
     }
-    // As GemCad writes it: a name a tier.
+    // As GemCad writes it: one name per tier.
     write_solid(parse_gemcad_asc(k_head + k_crown + k_rest).solid, folder / "a.asc");
     const std::string text = read_text(folder / "a.asc");
     EXPECT_NE(text.find(" 96 n A 24 48 72\n"), std::string::npos) << text;
@@ -125,7 +125,7 @@ void number_the_facets(Solid& solid) {
     }
 }
 
-// As drawn by hand: each corner off by `off` at random, each coordinate.
+// As drawn by hand: each coordinate of each corner is randomly off by `off`.
 Solid drawn_by_hand(Solid solid, double off, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0, off);
@@ -138,7 +138,7 @@ Solid drawn_by_hand(Solid solid, double off, unsigned seed) {
     return solid;
 }
 
-// An oval's stars are cut to two angles: two tiers of four, by the name they have in common.
+// An oval's stars have two angles: two tiers of four with a common name.
 TEST(Tiers, OfOneNameAreToldApartByTheDrawing) {
     for (const double off : {0.0, 0.01}) {
         const Solid solid = drawn_by_hand(make_cut("oval"), off, 1);
@@ -163,7 +163,7 @@ TEST(Tiers, AreTheFormsWhateverTheFacetsAreCalled) {
     }
 }
 
-// One name for facets of no symmetry and no common angle makes no tier; two names part one.
+// One name for facets of no symmetry and no common angle makes no tier; two names split one.
 TEST(Tiers, AreNotMadeOfNamesButPartedByThem) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> even(0, 1);
@@ -216,7 +216,7 @@ TEST(Caliper, OfALongStoneTurned) {
     EXPECT_EQ(caliper_widths({}).largest, 0);
 }
 
-// Read back what the design was made of: angles and teeth, on another wheel too.
+// Reads back what the design was made of: angles and teeth, on another wheel too.
 TEST(CuttingList, IsTheDesigns) {
     const ReadCut cut = parse_gemcad_asc(k_head + k_crown + k_rest);
     const auto list = cutting_list(cut.solid);

@@ -1,4 +1,5 @@
-// Tables by wavelength: the unit is the header's, or that in which the table covers visible light.
+// Tables by wavelength: the unit is the header's, or the one in which the table covers visible
+// light.
 
 #include "stone/material/wavelength_table.h"
 
@@ -16,7 +17,7 @@ class WavelengthTables : public FolderTest {};
 
 TEST_F(WavelengthTables, WavelengthsComeInTheUnitThatTheirRangeOrHeaderTells) {
     const struct {
-        const char *text, *note;  ///< what the note says; empty: there is none
+        const char *text, *note;  ///< the note; empty: none
         double at_550;
     } cases[] = {
         {"wl,n\n400,1.80\n700,1.70\n", "", 1.75},

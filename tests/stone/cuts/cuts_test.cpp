@@ -50,8 +50,8 @@ TEST(Cuts, EveryCutIsClosedPlanarAndRightSideOutAtItsDefaults) {
 
 TEST(Cuts, FacetCountsAreTheTrades) {
     const auto facets = [](const char* name) { return make_cut(name).facets.size(); };
-    // 33 crown and 24 pavilion facets, and the girdle's own (Tolkowsky's brilliant without a culet
-    // facet).
+    // 33 crown and 24 pavilion facets, and those of the girdle (Tolkowsky's brilliant without a
+    // culet facet).
     const Solid round = make_cut("round-brilliant");
     EXPECT_EQ(round.facets.size(), 57u + 16u);
     EXPECT_EQ(round.vertices.size(), 57u) << "8 table, 8 star, 16 + 16 girdle, 8 lower, 1 culet";
@@ -86,9 +86,9 @@ TEST(Cuts, RoundBrilliantHasThePublishedProportions) {
     EXPECT_NEAR(depth, 50 * 0.43 * std::tan(radians(34.5)) + 50 * std::tan(radians(40.75)) + 3.5,
                 1e-10);
     EXPECT_NEAR(depth, 61.4, 0.05);
-    // Handbooks give halves of about 41 and 42 degrees. In closed form: a half falls from its meet
-    // on the ray at 22.5 degrees to the chord whose middle stands at 11.25 degrees. The star meet
-    // is half-way from the table's edge to the girdle, the lower meet at 1 - 77 %.
+    // Handbooks give halves of about 41 and 42 degrees. In closed form a half falls from its meet
+    // on the ray at 22.5 degrees to the chord whose middle is at 11.25 degrees. The star meet is
+    // half-way from the table's edge to the girdle, the lower meet at 1 - 77 %.
     const double a = radians(22.5), h = radians(11.25);
     const auto half_deg = [&](double meet, double main_deg) {
         const double climb = (1 - meet * std::cos(a)) * std::tan(radians(main_deg));
@@ -112,7 +112,7 @@ TEST(Cuts, ARoundGirdleHasScallopsAndTouchesTheMainsAtItsHills) {
         EXPECT_EQ(count_of(solid, 'G'), 16 * segments);
         EXPECT_EQ(solid.facets.size(), 58u + 16u * segments);
         EXPECT_LT(planarity(solid), 1e-12 * diameter(solid));
-        // Every girdle corner stands on the circle; the thickness is 4 % at most and less between.
+        // Every girdle corner lies on the circle; the thickness is at most 4 %, and less between.
         double thickest = 0, thinnest = 10;
         for (const Facet& facet : solid.facets) {
             if (facet.name[0] != 'G') continue;
@@ -207,7 +207,7 @@ TEST(Cuts, ACuletFacetIsAsWideAsAsked) {
     Solid culet;
     for (int corner : solid.facets[find_facet(solid, "CU")].corners)
         culet.vertices.push_back(solid.vertices[corner]);
-    // Mains stand at 0 and 180 degrees: across flats, the width of the culet along x.
+    // Mains are at 0 and 180 degrees, so the culet's width along x is across flats.
     EXPECT_NEAR(width_along(culet, {1, 0, 0}), 0.2, 1e-12);
 }
 
@@ -280,8 +280,8 @@ TEST(Cuts, StepsThatCannotBeCutAreAnsweredWithTheRange) {
         }
         return std::string("no error");
     };
-    // The last pavilion step starts 0.3 widths inside the girdle, where a corner has lost
-    // 0.3 * 2 tan(22.5 deg) of its length: 0.3 (2 - sqrt 2) = 17.57 % of the width.
+    // The last pavilion step starts 0.3 widths inside the girdle, where a corner has lost 0.3 * 2
+    // tan(22.5 deg) of its length: 0.3 (2 - sqrt 2) = 17.57 % of the width.
     EXPECT_NE(message({{"corner", 17.5}}).find("17.57 %"), std::string::npos);
     EXPECT_EQ(message({{"corner", 17.65}}), "no error");
     EXPECT_EQ(message({{"corner", 37.5}}), "no error");

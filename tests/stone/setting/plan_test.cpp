@@ -1,5 +1,5 @@
-// Outlines, places on them, wires and gaps that a setting is made from.
-// Source of the expectations: closed forms, stated with each.
+// Outlines, places on them, wires and gaps from which a setting is made. Expectations: closed
+// forms, stated with each test.
 
 #include "stone/solid/plan.h"
 
@@ -46,13 +46,13 @@ double volume_of(const Shell& shell) {
 }
 
 TEST(Girdle, OfACubeIsItsMiddleAndOfAnOctahedronItsEquator) {
-    // A section of a cube of edge 2 along its edges is a square of area 4, at all heights.
+    // A section of a cube of edge 2 along its edges is a square of area 4 at all heights.
     const GirdleOutline square = girdle_outline(test::cube());
     EXPECT_NEAR(square.height, 0, 1e-12);
     EXPECT_EQ(square.points.size(), 4u);
     EXPECT_NEAR(area_of(square.points), 4, 1e-12);
-    // |x| + |y| + |z| = 1 is widest at z = 0, where its area is 2; the girdle is the band where the
-    // area 2 (1 - |z|)^2 is 0.998 of that or more, and its middle.
+    // |x| + |y| + |z| = 1 is widest at z = 0, with area 2; the girdle is the middle of the band
+    // where the area 2 (1 - |z|)^2 is at least 0.998 of that.
     const Solid octahedron = intersect_half_spaces(test::octahedron_planes()).solid;
     const GirdleOutline equator = girdle_outline(octahedron);
     EXPECT_NEAR(equator.height, 0, 1e-12);
@@ -76,9 +76,9 @@ TEST(MovedOutline, KeepsEdgesParallelAndCornersInTheirOrder) {
 }
 
 TEST(MovedOutline, LetsEdgesVanish) {
-    // A square of side 4 whose corners are cut off by 0.1: at 0.5 inward the cut corners, which
-    // shrink by 2 (sqrt(2) - 1) for every unit, are gone, and a square of side 3 is left. Corners
-    // of a vanished edge go to one point.
+    // A square of side 4 with corners cut off by 0.1: at 0.5 inward the cut corners, which shrink
+    // by 2 (sqrt(2) - 1) per unit, are gone, and a square of side 3 is left. The corners of a
+    // vanished edge go to one point.
     const PlanOutline square{{-2, -1.9}, {-1.9, -2}, {1.9, -2}, {2, -1.9},
                              {2, 1.9},   {1.9, 2},   {-1.9, 2}, {-2, 1.9}};
     const PlanOutline moved = moved_outline(square, -0.5);
@@ -87,7 +87,7 @@ TEST(MovedOutline, LetsEdgesVanish) {
     EXPECT_LT(glm::length(moved[0] - PlanPoint(-1.5, -1.5)), 1e-12);
     EXPECT_NEAR(area_of(moved), 9, 1e-12);
     EXPECT_THROW(moved_outline(square, -2.5), InputError);
-    // Outward, the edges of a notch do: a dent of depth 0.2 and half width 0.2 in a side.
+    // Outward, the edges of a notch vanish: a dent of depth 0.2 and half width 0.2 in a side.
     const PlanOutline notched{{0, 0}, {4, 0}, {4, 4}, {2.2, 4}, {2, 3.8}, {1.8, 4}, {0, 4}};
     const PlanOutline grown = moved_outline(notched, 1);
     EXPECT_NEAR(area_of(grown), 36, 1e-12);
@@ -104,7 +104,7 @@ TEST(Places, CornersComeFirst) {
         EXPECT_NEAR(std::abs(place.at.y), 1, 1e-12);
         EXPECT_NEAR(glm::dot(place.outward, glm::normalize(place.at)), 1, 1e-12);
     }
-    // Eight: the middles of the sides too.
+    // Eight includes the middles of the sides.
     int middles = 0;
     for (const GirdlePlace& place : grip.places(8, 0.2))
         if (std::min(std::abs(place.at.x), std::abs(place.at.y)) < 1e-12) ++middles;
@@ -125,7 +125,7 @@ TEST(Places, ARoundOutlineHasThemAtEvenDistances) {
 }
 
 TEST(Places, OfEveryCutAreAsTheTradeHasThem) {
-    // Prongs of usual solitaires; trillion, princess and emerald at their corners, marquise and
+    // Prongs of usual solitaires: trillion, princess and emerald at their corners, marquise and
     // pear at their points.
     const std::map<std::string, int> usual{{"round-brilliant", 6},
                                            {"step", 4},
@@ -141,7 +141,7 @@ TEST(Places, OfEveryCutAreAsTheTradeHasThem) {
         ASSERT_TRUE(usual.contains(kind.name)) << kind.name;
         EXPECT_EQ(grip.usual_prongs(), usual.at(kind.name)) << kind.name;
     }
-    // No prong stands in the notch of a heart, at -x.
+    // No prong is in the notch of a heart, at -x.
     const GripOutline heart(girdle_outline(make_cut("heart")).points);
     for (int count = 2; count < 12; ++count) {
         for (const GirdlePlace& place : heart.places(count, 0.5))
@@ -152,8 +152,8 @@ TEST(Places, OfEveryCutAreAsTheTradeHasThem) {
 }
 
 TEST(Wire, HasTheVolumeOfItsPrisms) {
-    // A mitred wire of a cross-section that is symmetric about its middle line has the volume
-    // (area of the cross-section) x (length of the middle line).
+    // A mitred wire whose cross-section is symmetric about its middle line has the volume (area of
+    // the cross-section) x (length of the middle line).
     constexpr int k_sides = 24, k_steps = 40;
     constexpr double k_radius = 0.5, k_ring = 4;
     std::vector<Vec3> path;
@@ -163,8 +163,8 @@ TEST(Wire, HasTheVolumeOfItsPrisms) {
     const double section = 0.5 * k_sides * k_radius * k_radius * std::sin(2 * k_pi / k_sides);
     const double length = k_steps * 2 * k_ring * std::sin(k_pi / k_steps);
     EXPECT_NEAR(volume_of(ring), section * length, 1e-12 * section * length);
-    // Straight, with half balls: vertices are on the ball and the cylinder, so the volume is below
-    // theirs, by 2 (pi / sides)^2 of it or so to second order; 4 (pi / sides)^2 is allowed.
+    // Straight, with half balls: vertices are on the ball and the cylinder, so the volume is
+    // smaller, by about 2 (pi / sides)^2 of it to second order; 4 (pi / sides)^2 is allowed.
     const Shell rod = round_wire({{0, 0, 0}, {0, 0, 5}}, k_radius, {1, 0, 0}, k_sides);
     EXPECT_TRUE(is_closed(rod));
     const double solid = k_pi * k_radius * k_radius * 5 + 4 * k_pi / 3 * std::pow(k_radius, 3);
@@ -186,7 +186,7 @@ TEST(Gap, OfTriangles) {
         return Triangle{flat[0] + by, flat[1] + by, flat[2] + by};
     };
     EXPECT_DOUBLE_EQ(distance_between(flat, moved({0, 0, 1.5})), 1.5);
-    // Corner to corner: the sloping edge x + y = 4 against the corner (3, 3): 2 / sqrt(2).
+    // The sloping edge x + y = 4 against the corner (3, 3): 2 / sqrt(2).
     EXPECT_NEAR(distance_between(flat, moved({3, 3, 0})), std::sqrt(2.0), 1e-15);
     // A corner over the face.
     EXPECT_NEAR(distance_between(flat, {Vec3{1, 1, 0.5}, {1, 1, 3}, {2, 1, 3}}), 0.5, 1e-15);

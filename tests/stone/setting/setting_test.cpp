@@ -1,6 +1,5 @@
-// Mountings of every cut: metal that holds the stone and does not touch it.
-// Source of the expectations: exact tests of intersection (CGAL), Euler's formula, laws of
-// geometry.
+// Mountings of every cut: metal that holds the stone without touching it. Expectations: exact tests
+// of intersection (CGAL), Euler's formula, laws of geometry.
 
 #include "stone/setting/setting.h"
 
@@ -51,7 +50,7 @@ bool boxes_meet(const Triangle& a, const Triangle& b) {
     return true;
 }
 
-// Exactly: some triangle of the metal has a point in common with the stone's surface.
+// Exact test: some triangle of the metal intersects the stone's surface.
 bool meets(const Solid& metal, const std::vector<Triangle>& stone) {
     for (const Triangle& m : triangles_of(metal)) {
         for (const Triangle& s : stone) {
@@ -61,8 +60,8 @@ bool meets(const Solid& metal, const std::vector<Triangle>& stone) {
     return false;
 }
 
-// How often a surface winds round a point: the solid angle of its triangles over 4 pi (van Oosterom
-// and Strackee 1983); 1 inside and 0 outside.
+// The winding number of a surface about a point: the solid angle of its triangles over 4 pi (van
+// Oosterom and Strackee 1983); 1 inside and 0 outside.
 double winding(const std::vector<Triangle>& surface, const Vec3& point) {
     double angle = 0;
     for (const Triangle& t : surface) {
@@ -124,15 +123,15 @@ TEST_P(EveryMounting, DoesNotTouchTheStoneAndIsAsNearAsItSays) {
         EXPECT_NEAR(winding(stone, part.shell.vertices[0]), 0, 1e-9) << part.name;
         EXPECT_NEAR(winding(stone, part.shell.vertices.back()), 0, 1e-9) << part.name;
         EXPECT_GE(part.gap, clearance) << part.name;
-        // What holds comes as near as the clearance (setting.h: to a thousandth of the wire).
+        // Holding parts come as near as the clearance (setting.h: to a thousandth of the wire).
         if (part.name.starts_with("prong") || part.name == "bezel") {
             EXPECT_LE(part.gap, clearance + 1e-3 * wire) << part.name;
         }
     }
 }
 
-// A stone that is held cannot leave: moved by an eighth of the wire, up, down or aside, it meets
-// metal. By then a clearance of 1/62 of the wire is long used up, and the facets' slack with it.
+// A held stone cannot leave: moved by an eighth of the wire, up, down or sideways, it meets metal.
+// That is far more than a clearance of 1/62 of the wire and the facets' slack.
 TEST_P(EveryMounting, HoldsTheStone) {
     const double step = *setting_.options.prong_diameter / 8;
     const Solid metal = mesh_of(setting_);
@@ -170,8 +169,8 @@ std::string name_of_mounting(const testing::TestParamInfo<Mounting>& made) {
 INSTANTIATE_TEST_SUITE_P(Cuts, EveryMounting, testing::ValuesIn(mountings()), name_of_mounting);
 
 TEST(Setting, IsTheSameForAStoneThatLiesAnyhowAndInAnyUnit) {
-    // Moved by a turn, a scale and a shift, the stone has the same mounting, moved likewise: the
-    // gaps scale. A turn of the frame mixes roundings of 1e-16 of 100 lengths.
+    // A stone that is turned, scaled and shifted has the same mounting, moved likewise: the gaps
+    // scale. A turn of the frame mixes rounding errors of 1e-16 of 100 lengths.
     const Solid stone = make_cut("oval");
     SettingOptions options;
     options.smoothness = 12;
@@ -210,8 +209,8 @@ TEST(Setting, HasTheRingThatWasAskedFor) {
     SettingOptions options;
     options.ring_diameter = 19;
     const Setting setting = make_setting(make_cut("round-brilliant"), {0, 0, 1}, options);
-    // The finger's hole: from its middle no vertex of the shank is nearer than the radius, but for
-    // the chords' sagitta, and some is.
+    // The finger's hole: no vertex of the shank is nearer to its middle than the radius, less the
+    // sagitta of the chords, and some vertex is that near.
     const auto shank = std::find_if(setting.parts.begin(), setting.parts.end(),
                                     [](const SettingPart& part) { return part.name == "shank"; });
     ASSERT_NE(shank, setting.parts.end());
