@@ -1,4 +1,4 @@
-// culet batch, as a laboratory runs it: many stones, some of them bad, on machines that die.
+// culet batch as a laboratory runs it: many stones, some of them bad, on machines that fail.
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = nlohmann::json;
 
-// Every file below a folder, by its path from there.
+// Every file below a folder, by its relative path.
 std::map<std::string, std::string> tree_of(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -43,7 +43,7 @@ std::map<std::string, std::string> tree_of(const fs::path& folder) {
     return files;
 }
 
-// The names of what is in one folder only, or differs.
+// The names of files that are in one folder only, or differ.
 std::vector<std::string> differences(const std::map<std::string, std::string>& a,
                                      const std::map<std::string, std::string>& b) {
     std::vector<std::string> names;
@@ -62,7 +62,7 @@ protected:
         fs::create_directory(folder_ / "stones");
         cut("emerald", "stones/mesh.obj");
     }
-    // A stone with a reading and without a material: fitted in a moment, not graded.
+    // A stone with one reading and without a material: quick to fit, not graded.
     void write_stone(const std::string& name, double depth) const {
         write("stones/" + name,
               "[stone]\nmesh = \"mesh.obj\"\nunit = \"mm\"\n"
@@ -116,11 +116,11 @@ TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
                              "stone.png", "job.json"})
         EXPECT_TRUE(fs::exists(folder_ / ("out/jobs/a/" + std::string(name)))) << name;
     EXPECT_FALSE(fs::exists(folder_ / "out/unfinished"));
-    // A job's grade is what culet grade says of its fitted stone.
+    // A job's grade is what culet grade gives for its fitted stone.
     const ProgramRun alone = run_culet(
         {"grade", file("stones/b.asc"), "--index", "1.6", "--tilts", "0", "--json", "-", "-q"});
     EXPECT_EQ(Json::parse(alone.out)["models"], json("out/jobs/b/grade.json")["models"]);
-    // The page has the picture in it, and the one that failed first.
+    // The page embeds the picture, and lists the failed stone first.
     const std::string page = tree_of(folder_ / "out")["index.html"];
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
     EXPECT_LT(page.find("bad.toml"), page.find("a, face up"));
@@ -135,7 +135,8 @@ TEST_F(BatchCommand, SharesMakeTheBytesOfOneRun) {
     EXPECT_FALSE(fs::exists(folder_ / "shares/table.csv"));
     batch({"--merge", file("shares"), "-q"});
     const auto one = tree_of(folder_ / "one");
-    EXPECT_EQ(one.size(), 5u + 7u * 4u);  // plan, table twice, page, jobs; each with three files
+    EXPECT_EQ(one.size(), 5u + 7u * 4u);  // plan, two tables, page and log of jobs; each job has
+                                          // three files
     EXPECT_EQ(one, tree_of(folder_ / "again"));
     EXPECT_EQ(one, tree_of(folder_ / "shares"));
 }
@@ -155,7 +156,7 @@ TEST_F(BatchCommand, ResumeDoesWhatHasChanged) {
     EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
                 HasSubstr("1 jobs done"));
     EXPECT_NE(before.at("jobs/s101/fit.json"), tree_of(folder_ / "out").at("jobs/s101/fit.json"));
-    // The mesh is a file of every stone's.
+    // Every stone uses the mesh file.
     std::ofstream(folder_ / "stones/mesh.obj", std::ios::app) << "# looked at\n";
     EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
                 HasSubstr("3 jobs done"));
@@ -163,7 +164,7 @@ TEST_F(BatchCommand, ResumeDoesWhatHasChanged) {
                 HasSubstr("3 jobs done"));
 }
 
-// The process and its workers are killed while they work; what stood as finished stands.
+// Kills the process and its workers while they work; finished results must stay.
 TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
     constexpr int k_stones = 24;
     write_stones(k_stones);
@@ -173,7 +174,7 @@ TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
         std::chrono::steady_clock::now() - start);
     const auto whole = tree_of(folder_ / "whole");
     std::mt19937 random(7);
-    // Of the time of a run that nobody disturbed: at this machine's speed, killed at work.
+    // A share of the time of an undisturbed run, so that the kill comes during work on any machine.
     std::uniform_real_distribution<double> share(0.02, 0.25);
     const std::string stones = file("stones"), out = file("out");
     int interrupted_at_work = 0;
@@ -189,14 +190,14 @@ TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
         int status = 0;
         ASSERT_EQ(::waitpid(child, &status, 0), child);
         interrupted_at_work += WIFSIGNALED(status) ? 1 : 0;
-        // What is done leaves nothing to disturb: from the beginning again.
+        // Nothing is left to disturb: start again.
         if (!WIFSIGNALED(status)) {
             ASSERT_THAT(differences(whole, tree_of(folder_ / "out")), IsEmpty())
                 << "after kill " << i;
             fs::remove_all(folder_ / "out");
         }
         if (!fs::exists(folder_ / "out/jobs")) continue;
-        // Whatever is under its name is whole: the bytes of a run that nobody disturbed.
+        // Any file under its final name is complete: the bytes of an undisturbed run.
         for (const auto& [name, bytes] : tree_of(folder_ / "out/jobs"))
             ASSERT_EQ(bytes, whole.at("jobs/" + name)) << name << " after kill " << i;
         for (const auto& entry : fs::directory_iterator(folder_ / "out/jobs"))
@@ -217,7 +218,7 @@ TEST_F(BatchCommand, ATableOfJobs) {
     EXPECT_EQ(batch({file("jobs.csv"), "-o", file("out"), "-q"}).exit_code, 1);
     const Json table = json("out/table.json");
     ASSERT_EQ(table["jobs"].size(), 4u);
-    // A folder's name has 100 bytes at most (docs/batch.md).
+    // A folder's name has at most 100 bytes (docs/batch.md).
     EXPECT_EQ(table["jobs"][3]["name"].get<std::string>().size(), 100u);
     EXPECT_EQ(json("out/jobs/second/fit.json")["options"]["iterations"], 50);
     EXPECT_EQ(table["jobs"][2]["status"], "failed");
@@ -254,7 +255,7 @@ TEST_F(BatchCommand, RefusesInOneLine) {
     EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
-// A file of the folder cannot break out of the results, or into the page.
+// A file name must not escape the results folder or inject markup into the page.
 TEST_F(BatchCommand, HostileNamesAreMadeHarmless) {
     fs::remove(folder_ / "stones/mesh.obj");
     write("stones/<script>\n.toml", "[stone\n");

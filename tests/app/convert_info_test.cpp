@@ -43,8 +43,8 @@ TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
     }
 }
 
-// A cutter's words go through a mesh and back; the index is the material's (quartz, docs of
-// materials: 1.544 ordinary, 1.553 extraordinary), or said to be unknown.
+// A cutter's words survive a mesh and back. The index is the material's (quartz, docs of materials:
+// 1.544 ordinary, 1.553 extraordinary), or said to be unknown.
 TEST_F(ConvertInfo, DesignKeepsItsWordsAndTheStonesIndex) {
     write(
         "words.asc",
@@ -64,7 +64,8 @@ TEST_F(ConvertInfo, DesignKeepsItsWordsAndTheStonesIndex) {
     EXPECT_NE(unknown.err.find("--material"), std::string::npos) << unknown.err;
 }
 
-// A float map of scale 2, which multiplies: a note of whichever command reads it.
+// A float map with a scale of 2, which multiplies its values: every command that reads it prints a
+// note.
 TEST_F(ConvertInfo, NotesOfAPictureAreSaidOnce) {
     const float light[3]{0.25f, 0.5f, 1};
     const std::string map =
@@ -88,7 +89,8 @@ TEST_F(ConvertInfo, MessagesGoToStderrAndResultsToStdout) {
     EXPECT_TRUE(run.out.empty());
     EXPECT_EQ(run.err, "next: culet render " + file("a.obj") +
                            " --material NAME -o stone.png (a picture)\n");
-    // Said on request, where planes miss a meet by more than rounding; this design's do not.
+    // Reported on request where planes miss a meet by more than rounding error; this design's do
+    // not.
     const std::string missing = CULET_SOURCE_DIR "/samples/dravite-step/making/truth.asc";
     for (const std::string& design : {k_design, missing}) {
         const ProgramRun more = run_culet({"convert", design, file("b.obj"), "-v"});
@@ -116,7 +118,7 @@ TEST_F(ConvertInfo, BrokenMeshIsConvertedWithAWarning) {
     const auto object = nlohmann::json::parse(info.out);
     EXPECT_EQ(object.at("faults").size(), 3u);
     EXPECT_EQ(object.at("faults")[0].at("kind"), "open");
-    // A cut design cannot hold it.
+    // A cut design cannot hold this mesh.
     refusal({"convert", file("open.obj"), file("open.asc")});
     EXPECT_FALSE(std::filesystem::exists(file("open.asc")));
 }
@@ -140,7 +142,7 @@ TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
 
 TEST_F(ConvertInfo, ToleranceOfMeets) {
     const ProgramRun run = run_culet({"info", k_design, "--meet-tolerance", "0", "--json", "-"});
-    // Joined it has 57; if each raw vertex joined three facets only there were 2 F - 4 = 142.
+    // Joined it has 57; if each raw vertex joined only three facets it would have 2 F - 4 = 142.
     const int vertices = nlohmann::json::parse(run.out).at("vertices");
     EXPECT_GT(vertices, 57);
     EXPECT_LE(vertices, 142);
@@ -201,8 +203,8 @@ TEST_F(ConvertInfo, SceneGoesToPovray) {
     EXPECT_FALSE(std::filesystem::exists(file("a.pov")));
 }
 
-// Two from one scene into one folder: each finds its files, and the mesh that the scene is made of
-// stays as it was.
+// Two exports of one scene into one folder: each finds its files, and the scene's mesh is
+// unchanged.
 TEST_F(ConvertInfo, SceneGoesToMitsubaAndPbrtInOneFolder) {
     EXPECT_EQ(run_culet({"convert", k_design, file("scene-1.obj"), "-q"}).exit_code, 0);
     const std::string mesh = text(file("scene-1.obj"));
@@ -222,8 +224,8 @@ TEST_F(ConvertInfo, SceneGoesToMitsubaAndPbrtInOneFolder) {
     EXPECT_EQ(text(file("scene-1.obj")), mesh);
 }
 
-// A file beyond the limit of its size (SIGXFSZ) is a failed write: a line, exit code 2, and nothing
-// left, not even a file under a temporary name.
+// A file over the size limit (SIGXFSZ) is a failed write: one line, exit code 2, and no file left,
+// not even a temporary one.
 TEST_F(ConvertInfo, AFileThatMayNotGrowIsRefusedInALine) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);

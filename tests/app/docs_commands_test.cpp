@@ -1,6 +1,5 @@
-// What the Markdown files tell people to type can be typed: every `culet COMMAND ... --option` in
-// them names a command and options that its help lists. Source of the expectation: the program's
-// help.
+// Every `culet COMMAND ... --option` in the Markdown files names a command and options that its
+// help lists. Expectation: the program's help.
 
 #include <gtest/gtest.h>
 
@@ -24,8 +23,8 @@ struct WrittenCommand {
     std::vector<std::string> options;
 };
 
-// "culet fit stone.toml --report FIT.json" as its command and options, wherever in a line it
-// stands. It ends at a backtick, a comment, a pipe or the line, which "\" continues.
+// "culet fit stone.toml --report FIT.json" as its command and options, anywhere in a line. It ends
+// at a backtick, a comment, a pipe or the end of a line that "\" does not continue.
 std::vector<WrittenCommand> commands_in(const fs::path& file) {
     std::ifstream in(file);
     std::vector<WrittenCommand> found;
@@ -40,7 +39,7 @@ std::vector<WrittenCommand> commands_in(const fs::path& file) {
         }
         const std::regex call(R"re((?:^|[ `/])culet ([a-z]+)((?: [^`#|;&]*)?))re");
         for (std::sregex_iterator it(line.begin(), line.end(), call), end; it != end; ++it) {
-            // In prose the name of the program is followed by a verb.
+            // In prose a verb follows the name of the program.
             const bool is_code = it->position() > 0 || line.rfind("culet ", 0) == 0;
             WrittenCommand written{
                 file.string() + ":" + std::to_string(number), (*it)[1].str(), {}};
@@ -61,7 +60,7 @@ std::string help_of(const std::string& command, std::map<std::string, std::strin
     if (it == known.end()) {
         const test::ProgramRun run = test::run_culet({command, "--help"});
         std::string text = run.exit_code == 0 ? run.out + run.err : "";
-        // Every cut has parameters of its own.
+        // Every cut has its own parameters.
         if (command == "cut") text += test::run_culet({"cut", "round-brilliant", "--help"}).out;
         it = known.emplace(command, text).first;
     }

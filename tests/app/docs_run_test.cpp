@@ -1,6 +1,6 @@
-// Runs the commands of the documents' code blocks, page by page and in their order, in a folder
-// that has the files they name, with pictures and searches made small. Source of the expectation:
-// a command that a page tells people to type ends with 0, or with 1 where the answer is doubtful.
+// Runs the commands of the documents' code blocks, page by page in order, in a folder with the
+// files they name, with small pictures and searches. Expectation: every command ends with 0, or
+// with 1 where the answer is doubtful.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path k_source = CULET_SOURCE_DIR;
 
-// Options that make a command small; one that it has already is left out.
+// Options that make a command small; options that the command already has are not added.
 struct Small {
     const char* command;
     std::vector<std::pair<std::string, std::string>> options;
@@ -39,8 +39,8 @@ const std::vector<Small> k_small = {
 // Other tests run these, on files that take minutes to make.
 const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline"};
 
-// The commands of a page's code blocks, fenced or indented: lines that begin with culet, and those
-// that a backslash continues. A line with a word in brackets is a summary of options.
+// The commands of a page's code blocks, fenced or indented: lines that begin with culet, with their
+// continuations. A line with a word in brackets is a summary of options.
 std::vector<std::string> commands_of(const fs::path& page) {
     std::ifstream in(page);
     std::vector<std::string> found;
@@ -70,7 +70,7 @@ std::vector<std::string> commands_of(const fs::path& page) {
 
 std::string made_small(const std::string& command) {
     std::string text = command.substr(0, command.find('#'));
-    // Nothing is opened on a machine that tests.
+    // A test opens nothing.
     text = std::regex_replace(text, std::regex(" --open"), "");
     for (const Small& small : k_small) {
         if (text.rfind("culet " + std::string(small.command), 0) != 0) continue;
@@ -95,7 +95,7 @@ protected:
 
     std::string log() const { return text("log"); }
 
-    // The files that the pages' commands name, of the sample of the dravite and of standard cuts.
+    // The files that the pages' commands name, from the dravite sample and standard cuts.
     void SetUp() override {
         const fs::path sample = k_source / "samples/dravite-step";
         fs::create_directory_symlink(k_source / "samples", folder() / "samples");

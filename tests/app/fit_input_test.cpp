@@ -1,5 +1,5 @@
-// Meshes and readings as people really bring them, through the command line: which are repaired,
-// and what is said of those that are not.
+// Meshes and readings as people bring them, through the command line: which are repaired, and what
+// is said of the others.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ Edit scaled(double factor) {
     return by_points(factor, 0, 0, factor, factor);
 }
 const Edit turned = by_points(0.8, -0.6, 0.6, 0.8, 1);
-const Edit mirrored = by_points(-1, 0, 0, 1, 1);  // and with it inside out
+const Edit mirrored = by_points(-1, 0, 0, 1, 1);  // also inside out
 const Edit each_facet_alone = [](Drawing& d) {
     Drawing apart;
     for (const auto& [name, loop] : d.faces) {
@@ -87,7 +87,7 @@ const Edit each_facet_alone = [](Drawing& d) {
         for (const std::size_t c : loop) {
             face.second.push_back(apart.corners.size());
             apart.corners.push_back(d.corners[c]);
-            // Not quite at one place: some microns of a stone of millimetres.
+            // Not quite coincident: some microns on a stone of millimetres.
             apart.corners.back()[0] += 0.003 * std::sin(double(apart.corners.size()));
         }
     }
@@ -124,7 +124,7 @@ protected:
     void add_readings(const std::string& rows) const {
         std::ofstream(file("readings.csv"), std::ios::app) << rows;
     }
-    /// The row of readings.csv that begins so, with another value.
+    /// Changes the value in the row of readings.csv that begins like this.
     void misread(const std::string& row, const std::function<double(double)>& change) const {
         std::string all = text_of(file("readings.csv"));
         const std::size_t at = all.find("\n" + row + ",");
@@ -155,8 +155,8 @@ TEST_F(FitInput, BadlyMadeMeshesAreMendedAndFitted) {
         const ProgramRun run = fit();
         EXPECT_EQ(run.exit_code, 0) << name << ": " << run.err;
         if (run.exit_code == 2) continue;
-        // The estimate of how far meets miss has two ends on this stone: the same readings agree
-        // with either.
+        // The estimate of how far meets miss has two local optima on this stone: the same readings
+        // agree with either.
         EXPECT_LT(report().at("chi2").get<double>(), report().at("chi2_limit").get<double>())
             << name;
         EXPECT_EQ(report().at("facets").size(), 57u) << name;

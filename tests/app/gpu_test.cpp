@@ -45,7 +45,7 @@ TEST_F(GpuProgramRuns, DrawAndNameTheDriver) {
     EXPECT_THAT(stats.dump(), HasSubstr("drawn by "));
 }
 
-// GLVND and Mesa look for drivers where these say; there are none.
+// GLVND and Mesa look for drivers in these places; there are none.
 TEST_F(GpuProgramRuns, SayWhatToInstallWhereThereIsNoDriver) {
     for (const char* folder : {"__EGL_VENDOR_LIBRARY_DIRS", "LIBGL_DRIVERS_PATH"})
         ASSERT_EQ(setenv(folder, "/nonexistent", 1), 0);

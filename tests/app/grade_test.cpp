@@ -137,7 +137,7 @@ TEST_F(GradeCommand, RefusesWithOneLineAndWritesNothing) {
     };
     const std::string round = file("round.obj");
     refused({round}, "--material");
-    refused({"round-brilliant"}, "--material");  // a cut that it knows
+    refused({"round-brilliant"}, "--material");  // a cut that the catalogue knows
     refused({round, "--material", "diamnd"}, "diamond");
     refused({round, "--index", "0.9"}, "above 1");
     refused({round, "--index", "nan"}, "index");
@@ -152,7 +152,7 @@ TEST_F(GradeCommand, RefusesWithOneLineAndWritesNothing) {
     refused({file("missing.asc")}, "missing.asc");
 }
 
-// Drawn by hand, the sample's facets are not planar.
+// The hand-drawn facets of the sample are not planar.
 TEST_F(GradeCommand, LeavesOutAMeshAsDrawnThatIsNoStone) {
     const ProgramRun run =
         run_culet({"grade", CULET_SOURCE_DIR "/samples/dravite-step/stone.toml", "--tilts", "0",

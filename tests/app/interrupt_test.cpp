@@ -1,4 +1,4 @@
-// SIGTERM while culet works: how soon it ends, with which exit code, and what it leaves.
+// SIGTERM while culet works: how soon it ends, its exit code, and what it leaves behind.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -21,10 +21,11 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-// A loop asks at least every 0.1 s of its processor time; two threads may both have just asked when
-// the signal comes, and the end itself (freeing memory, the last lines) takes as much again.
+// A loop checks at least every 0.1 s of its processor time. Two threads may both just have checked
+// when the signal comes, and the shutdown itself (freeing memory, the last lines) takes as long
+// again.
 constexpr double k_soon = 3 * 0.1;
-// Exact beams of a large picture are sorted, and freed, without being asked: 0.34 s were measured.
+// Exact beams of a large picture are sorted and freed without checks: 0.34 s was measured.
 constexpr double k_soon_beams = 0.3 + k_soon;
 
 class Interrupt : public test::ProgramTest {
@@ -82,7 +83,7 @@ TEST_F(Interrupt, EveryEngineEndsSoon) {
 TEST_F(Interrupt, WhatIsPlannedEndsSoon) {
     for (const std::string scene : {"scene.toml", "map.toml", "crystal.toml"}) {
         for (const double stop_at : {0.4, 1.0, 3.0}) {
-            // Takes half a minute: no picture is done before the last stop.
+            // Takes half a minute: no picture is finished before the last stop.
             expect_soon({"render", file(scene), "-o", file("picture.exr"), "--set",
                          "camera.size=[400,400]", "--tolerance", "0.003"},
                         stop_at);
@@ -121,7 +122,7 @@ TEST_F(Interrupt, AGradeOfManyTiltsEndsSoon) {
                     stop_at);
 }
 
-// What is best until then is written.
+// The best design so far is written.
 TEST_F(Interrupt, AnOptimisationEndsSoon) {
     for (const double stop_at : {0.3, 1.0}) {
         const ProgramRun run = run_culet({"optimize", file("stone.obj"), "--material", "diamond",

@@ -100,7 +100,7 @@ TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {
     }
 }
 
-// A window 9 radii away, its ball 10 mm in radius; the camera's file stands in for its distance.
+// A window 9 radii away from a ball of 10 mm radius; the camera's file replaces its distance.
 TEST_F(LightAndPhoto, ANearWindowBecomesAPlaneOfTheScene) {
     const Vec3 middle{-9, 2, 1}, u{0, 1.5, 0}, v{0, 0, 1};
     simulated::BallShot shot;
@@ -122,7 +122,7 @@ TEST_F(LightAndPhoto, ANearWindowBecomesAPlaneOfTheScene) {
     const double focal = 60 * std::sqrt(25.0 * 25 - 1);
     const simulated::Taken first = simulated::take(shot, dim);
     const std::string here = write(first.photo, "here.exr");
-    // Moved to the right by 240 pixels, 4 radii: as far away as before, to a thousandth.
+    // Moved to the right by 240 pixels, 4 radii: the same distance to a thousandth.
     simulated::BallShot beside = shot;
     beside.centre_x = 340;
     const Vec3 ray((100 - 309.5) / focal, 0, -1), other((340 - 309.5) / focal, 0, -1);
@@ -162,8 +162,8 @@ TEST_F(LightAndPhoto, ANearWindowBecomesAPlaneOfTheScene) {
                                          "-",
                                          "-q"};
     std::vector<std::string> near = words;
-    // Seen from the ball, the window is 20 degrees to the left of the camera and 6 above it: by
-    // the sine of half of that, times 60 pixels.
+    // From the ball the window is 20 degrees to the left of the camera and 6 above it: the sine of
+    // half of that, times 60 pixels.
     near.insert(near.end(), {"--near", "89,87"});
     const ProgramRun run = run_culet(near);
     ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -68,7 +68,7 @@ TEST_F(MainJob, FitRenderAndCompareEndInOneReport) {
     const std::string page = text(file("out/report.html"));
     EXPECT_NE(page.find("imulated photograph"), std::string::npos);
     EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-    // No temporary stays behind.
+    // No temporary file remains.
     for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
         EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
     }

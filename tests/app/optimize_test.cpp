@@ -31,7 +31,7 @@ TEST_F(OptimizeCommand, WritesADesignThatGradesAsItSays) {
     const nlohmann::json json = nlohmann::json::parse(stream);
     const double merit = json["merit"]["better"]["total"].get<double>();
     EXPECT_GT(merit, json["merit"]["start"]["total"].get<double>());
-    // The file's own index, and the tilts of the merit.
+    // The file's own index, and the merit's tilts.
     const ProgramRun graded =
         run_culet({"grade", file("better.asc"), "--tilts", "-30:30:10", "--json", "-", "-q"});
     ASSERT_EQ(graded.exit_code, 0) << graded.err;
@@ -45,7 +45,7 @@ TEST_F(OptimizeCommand, WritesADesignThatGradesAsItSays) {
     EXPECT_NEAR(mean, merit, 1e-6);
 }
 
-// What a design says of itself is its author's.
+// The design's own words are its author's.
 TEST_F(OptimizeCommand, KeepsTheDesignsWords) {
     const ProgramRun first = run_culet({"convert", file("round.obj"), file("round.asc")});
     ASSERT_EQ(first.exit_code, 0) << first.err;

@@ -25,7 +25,7 @@ std::string content(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Of processor time, so far.
+// Processor time so far.
 double seconds_of(pid_t child) {
     clockid_t clock{};
     timespec time{};
@@ -33,7 +33,7 @@ double seconds_of(pid_t child) {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// The status of its end; `stop_at` as run_culet has it.
+// The exit status; `stop_at` as in run_culet.
 int wait_for(pid_t child, double stop_at, double& cpu_after_stop) {
     const auto seconds = [](const timeval& t) {
         return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);

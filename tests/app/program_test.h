@@ -1,5 +1,5 @@
 #pragma once
-// Runs the built program as a user would.
+// Runs the built program like a user.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -15,18 +15,18 @@ struct ProgramRun {
     double cpu_after_stop = 0;  ///< seconds of processor time
 };
 
-/// `culet` with these arguments, no shell in between. `stop_at`: it gets SIGTERM when it has used
-/// so many seconds of processor time; 0: never.
+/// Runs `culet` with these arguments, without a shell. `stop_at`: seconds of processor time after
+/// which it gets SIGTERM; 0: never.
 ProgramRun run_culet(const std::vector<std::string>& arguments, double stop_at = 0);
 
 /// The fixture of the program's tests.
 class ProgramTest : public FolderTest {
 protected:
-    /// What the program says when it can do nothing: exit code 2, nothing on stdout, one line
-    /// `culet: error: ...`, which is returned.
+    /// Checks that the program refuses: exit code 2, nothing on stdout, one line `culet: error:
+    /// ...`, which is returned.
     static std::string refusal(const std::vector<std::string>& arguments);
     static std::string refusal_of(const ProgramRun& run);
-    /// A cut of the catalogue in this file.
+    /// Writes a cut of the catalogue to this file.
     void cut(const std::string& kind, const std::string& name) const;
     nlohmann::json json(const std::string& name) const;
 };

@@ -63,7 +63,7 @@ TEST_F(RayTables, ArePutIntoAFileAndLitAnew) {
     const ProgramRun aset = by_table({"-o", file("c.exr"), "--light", "aset"});
     EXPECT_EQ(aset.exit_code, 0) << aset.err;
     EXPECT_EQ(text("stone.rays"), table);
-    // The same drawn anew along the same rays: single precision is all that lies between.
+    // The same drawn again along the same rays: they differ only by single precision.
     const ProgramRun anew = render({"-o", file("d.exr"), "--light", "aset", "--engine", "reference",
                                     "--set", "render.samples=1"});
     EXPECT_EQ(anew.exit_code, 0) << anew.err;

@@ -53,13 +53,13 @@ TEST_F(BenchForm, CutFillInFit) {
     const ProgramRun fit = run_culet(
         {"fit", file("stone.toml"), "-o", file("fitted.obj"), "--report", file("fit.json")});
     EXPECT_LE(fit.exit_code, 1) << fit.err;
-    // 4 tiers, 2 tables and the weight stay empty of 28.
+    // Of 28 rows 4 tiers, 2 tables and the weight stay empty.
     EXPECT_THAT(fit.err, HasSubstr("7 rows"));
     const auto report = nlohmann::json::parse(read_text(file("fit.json")));
     EXPECT_EQ(report.at("readings").size(), 21u);
     EXPECT_THAT(report.at("notes").dump(), HasSubstr("7 rows"));
-    // The fitted stone knows what it was cut by: main C2 looks to azimuth 45, tooth 12 of 96 (docs:
-    // 90 - 360 x 12/96), and the sheet lists the tiers of a brilliant.
+    // The fitted stone keeps its design: main C2 is at azimuth 45, tooth 12 of 96 (docs: 90 - 360 x
+    // 12/96), and the sheet lists the tiers of a brilliant.
     for (const auto& facet : report.at("facets")) {
         if (facet.at("name") != "C2") continue;
         EXPECT_EQ(facet.at("tier"), "C");
@@ -91,7 +91,7 @@ TEST_F(BenchForm, OfADesignInMillimetres) {
     EXPECT_NEAR(scaled.at("caliper").at("max").get<double>(),
                 6.5 / design.at("w").get<double>() * design.at("caliper").at("max").get<double>(),
                 1e-9);
-    // Names of tiers went along.
+    // Names of tiers are kept.
     EXPECT_NE(read_text(file("oval.obj")).find("g A1.3\n"), std::string::npos);
 
     const ProgramRun form =
@@ -106,7 +106,7 @@ TEST_F(BenchForm, OfADesignInMillimetres) {
     EXPECT_TRUE(nlohmann::json::parse(read_text(file("fit.json"))).at("suspects").empty());
 }
 
-// STL keeps no names and a heart is not convex: what the form says still fits the mesh.
+// STL keeps no names, and a heart is not convex: the form must still fit the mesh.
 TEST_F(BenchForm, FitsTheMeshAsItIsRead) {
     for (const auto& [cut, mesh] : {std::pair("step", "step.stl"), std::pair("heart", "heart.obj"),
                                     std::pair("oval", "oval.asc")}) {
@@ -124,7 +124,7 @@ TEST_F(BenchForm, FitsTheMeshAsItIsRead) {
     }
 }
 
-// The design's own settings: mains 23 of its oval stand at indices 48 and 96.
+// The design's own settings: mains 23 of its oval are at indices 48 and 96.
 TEST_F(BenchForm, CuttingListOfADesign) {
     const ProgramRun run = run_culet({"info", k_form_design, "--cutting-list"});
     EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -1,4 +1,5 @@
-// culet refine: a stone whose readings are off, a photograph that culet drew, and the true planes.
+// culet refine on a stone with wrong readings, with a photograph drawn by culet, against the true
+// planes.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -51,8 +52,8 @@ std::string scene_of(const std::string& stone) {
            "[render]\ntolerance = 0.02\n";
 }
 
-// Root mean square angle between facets of the same name, degrees, after the turn that suits all of
-// them best: photographs do not tell how the stone as a whole stands.
+// Root mean square angle in degrees between facets of the same name, after the best common turn:
+// photographs do not determine the stone's orientation.
 double rms_deg(const Solid& solid, const Solid& truth) {
     glm::dmat3 sum(0.0);
     Vec3 turned(0);
@@ -87,7 +88,7 @@ protected:
         write("true-scene.toml", scene_of("true.toml"));
         write("scene.toml", scene_of("stone.toml"));
     }
-    // Inclinations and azimuths as a bench that is off by 0.3 degrees has them.
+    // Inclinations and azimuths with errors of 0.3 degrees.
     void write_stone() const {
         write_solid(read_, folder_ / "read.obj");
         std::string csv = "kind,of,value,sigma\n";
@@ -112,7 +113,7 @@ protected:
     Solid truth_, read_;
 };
 
-// Off by 0.3 degrees before; the aim of the command is 0.1.
+// Off by 0.3 degrees before; the command's aim is 0.1.
 TEST_F(RefineCommand, FindsFacetsThatReadingsHaveWrong) {
     const ProgramRun drawn =
         run_culet({"render", file("true-scene.toml"), "-o", file("photo.exr")});

@@ -1,5 +1,5 @@
-// The sample's simulated photograph (samples/dravite-step) is registered with the sample's scene
-// and its own fit, in the forms that a photograph has by the time it is used.
+// Registers the sample's simulated photograph (samples/dravite-step) with the sample's scene and
+// its own fit, in the forms that a photograph takes in use.
 
 #include <gtest/gtest.h>
 
@@ -62,8 +62,8 @@ protected:
 };
 std::unique_ptr<test::ScratchFolder> RegisterSample::folder_;
 
-/// Degrees between the directions from the stone (at the origin) to where the camera was found and
-/// where it stood (making/true-scene.toml).
+/// Degrees between the directions from the stone (at the origin) to the camera's estimated place
+/// and to the true one (making/true-scene.toml).
 double angle_to_truth(const ProgramRun& run) {
     const auto found = nlohmann::json::parse(run.out).at("camera").at("position");
     const std::string scene = text(k_sample_stone / "making/true-scene.toml");
@@ -79,8 +79,8 @@ double angle_to_truth(const ProgramRun& run) {
     return std::acos(std::min(1.0, dot / std::sqrt(a * b))) * 180 / std::numbers::pi;
 }
 
-// Expected: found, and where the camera stood to what is stated. It is some degrees: the sample's
-// fit leaves facets of the crown 0.02 mm off, which looks like a tilt.
+// The pose is found, and its error is within the stated one. That is some degrees, because the
+// sample's fit leaves crown facets 0.02 mm off, which looks like a tilt.
 void expect_found(const ProgramRun& run) {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const double stated = nlohmann::json::parse(run.out).at("sigma").at("angle_99_deg");
@@ -99,10 +99,9 @@ TEST_F(RegisterSample, IsFoundWhenCropped) {
     expect_found(registered(file("cropped.png")));
 }
 
-// Every limit can be set: what is taken by default is refused when more is asked for, in words that
-// name the option. And what a refusal advises is done: no option that it names is unknown or
-// rejected, and where it says that one accepts the pose or searches farther, what was refused is
-// not refused for that again.
+// Every limit can be set: a stricter limit refuses the default pose, in words that name the option.
+// And advice in a refusal can be followed: no option that it names is unknown or rejected, and
+// where an option accepts the pose or widens the search, the same refusal does not come again.
 TEST_F(RegisterSample, IsFoundAsItIsAndAdviceCanBeFollowed) {
     expect_found(registered(k_photo));
     const std::vector<std::vector<std::string>> strict{
@@ -127,7 +126,7 @@ TEST_F(RegisterSample, IsFoundAsItIsAndAdviceCanBeFollowed) {
                 if (limits[i] != name) call.insert(call.end(), {limits[i], limits[i + 1]});
             std::string value = (*at)[2];
             if (name == "--doubt") value = " 100";  // accepts more
-            if (name == "--mask") continue;         // of a picture that this test has not
+            if (name == "--mask") continue;         // for a picture that this test lacks
             if (value.empty() && !switches.insert(name).second) continue;
             call.push_back(name);
             if (!value.empty()) call.push_back(value.substr(1));

@@ -1,5 +1,5 @@
-// culet register as a user runs it: a photograph that culet drew itself, from another camera than
-// the scene's.
+// culet register as a user runs it: a photograph drawn by culet from another camera than the
+// scene's.
 
 #include <gtest/gtest.h>
 
@@ -48,13 +48,13 @@ TEST_F(Register, WritesASceneThatRendersAtOnce) {
     EXPECT_EQ(pose.at("schema"), 1);
     EXPECT_EQ(pose.at("status"), "found");
     EXPECT_EQ(pose.at("mirrored"), false);
-    // The place of the stone's middle and its size follow from the truth's camera: both look at a
+    // The position of the stone's middle and its size follow from the true camera: both look at a
     // point of the axis from 40 away.
     const auto position = pose.at("camera").at("position").get<std::vector<double>>();
     const double tilt = std::atan2(std::hypot(position[0], position[1]), position[2] + 0.5);
     EXPECT_NEAR(tilt, std::atan2(std::hypot(6.8, 3.1), 39.8), 0.01);
     EXPECT_EQ(text(file("out/overlay.png")).substr(1, 3), "PNG");
-    // The mesh is named from the new folder, and what else the scene says stays.
+    // The mesh's path is relative to the new folder; the rest of the scene stays.
     EXPECT_NE(text(file("out/posed.toml")).find("../stone.obj"), std::string::npos);
     EXPECT_EQ(
         run_culet({"render", file("out/posed.toml"), "-o", file("out/again.png"), "-q"}).exit_code,
@@ -74,7 +74,7 @@ TEST_F(Register, RefusesWithItsOutputsWritten) {
     EXPECT_NE(run.err.find("refused: "), std::string::npos) << run.err;
     const auto pose = json("pose.json");
     EXPECT_EQ(pose.at("status"), "refused");
-    // What to do ends the line that is shown.
+    // The displayed line ends with the remedy.
     const std::string remedy = pose.at("remedy").get<std::string>() + ".\n";
     ASSERT_GT(remedy.size(), 20u);
     EXPECT_EQ(run.err.substr(run.err.size() - remedy.size()), remedy) << run.err;

@@ -18,7 +18,7 @@ using test::run_culet;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The catalogue of effects, in the order of the plan.
+// The catalogue of effects, in the plan's order.
 const std::vector<std::string> k_lines{
     "dispersion",  "birefringence",      "polarization", "absorption",  "pleochroism",
     "aperture",    "coherence",          "depth",        "wavelengths", "samples",
@@ -102,7 +102,7 @@ TEST_F(RenderPlan, ExplainsAsJson) {
     for (const char* key : {"engine", "engine_why", "error_bound", "error_bound_deltaE00",
                             "seconds", "seconds_everything", "seconds_planning", "samples"})
         EXPECT_TRUE(plan.contains(key)) << key;
-    // On stdout it stands alone.
+    // Nothing else is on stdout.
     const ProgramRun alone = render("tourmaline-across.toml", {"--explain", "--json", "-"});
     EXPECT_EQ(alone.exit_code, 0);
     ASSERT_TRUE(nlohmann::json::accept(alone.out)) << alone.out;
@@ -139,13 +139,13 @@ TEST_F(RenderPlan, VerifiesAPicture) {
                   found["noise"].get<double>(),
               found["error_bound"]);
     EXPECT_GT(found["deltaE00"], 0);
-    // The stats carry the plan too.
+    // The stats contain the plan too.
     EXPECT_EQ(json("stats.json")["plan"]["items"].size(), k_lines.size());
 }
 
 TEST_F(RenderPlan, AVerificationThatFailsIsToldByTheExitCode) {
-    // Without the split, which this scene is made for: the picture is there, and not to be trusted.
-    // Larger than the others, so that the verdict stands clear of its noise.
+    // Without the split, on which this scene depends: the picture is written, but not to be
+    // trusted. It is larger than the others so that noise cannot change the verdict.
     const ProgramRun run = render(
         "zircon-doubling.toml", {"-o", file("picture.png"), "--verify", "--effects", "none",
                                  "--stats", file("stats.json"), "--set", "camera.size=[128,128]"});
@@ -162,7 +162,7 @@ TEST_F(RenderPlan, StatsHaveNoVerificationUnlessAsked) {
     EXPECT_FALSE(nlohmann::json::parse(run.out).contains("verification"));
 }
 
-// The plan of STATS.json holds all that was chosen: the same picture comes out, byte for byte.
+// The plan in STATS.json is complete: it gives the same picture, byte for byte.
 TEST_F(RenderPlan, APlanThatWasKeptDrawsTheSamePicture) {
     for (const std::string scene : {"garnet-depth.toml", "tourmaline-across.toml"}) {
         ASSERT_EQ(render(scene, {"-o", file("first.exr"), "--stats", file("first.json"),
@@ -217,7 +217,7 @@ TEST_F(RenderPlan, ATurntableIsPlannedAndCheckedOnce) {
     EXPECT_THAT(unnumbered.err, HasSubstr("frame-####.png"));
 }
 
-// A program in the place of ffmpeg writes down what it was asked for.
+// A stand-in for ffmpeg records its arguments.
 TEST_F(RenderPlan, AFilmIsMadeByFfmpegOrRefused) {
     const std::string before = std::getenv("PATH");
     const auto film = [&](const std::string& path) {
@@ -238,7 +238,7 @@ TEST_F(RenderPlan, AFilmIsMadeByFfmpegOrRefused) {
         fs::permissions(folder_ / "bin/ffmpeg", fs::perms::owner_all);
         return film(file("bin") + ":" + before);
     };
-    // The last word is where the film goes; the word after -i names the pictures.
+    // The last word is the film's path; the word after -i names the pictures.
     const ProgramRun with = pretend(
         "for word; do last=$word; done\n"
         "while [ \"$1\" != -i ]; do shift; done\n"

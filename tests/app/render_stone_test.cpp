@@ -52,7 +52,7 @@ TEST_F(RenderStone, SaysTheSizeThatItTakes) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
 }
 
-// Quartz, whose tolerance the allowance decides after a second.
+// Quartz, whose tolerance the time budget decides after a second.
 TEST_F(RenderStone, SaysHowNearThePictureIsWhereNobodyAskedForATolerance) {
     const std::string stone = file("stone.obj");
     const ProgramRun run = run_culet({"render", stone, "--material", "quartz", "--size", "20", "-o",
@@ -84,8 +84,8 @@ TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
     EXPECT_TRUE(nlohmann::json::parse(stats.out).contains("error_bound"));
 }
 
-// The work allowed is counted: threads and load change nothing.
-// Quartz, whose tolerance the allowance decides after a second.
+// Work is counted: threads and load change nothing. Quartz, whose tolerance the work budget decides
+// after a second.
 TEST_F(RenderStone, WhatIsAllowedGivesTheSameBytesOnAnyNumberOfThreads) {
     for (const std::string threads : {"1", "3"}) {
         const ProgramRun run = run_culet(
@@ -117,7 +117,7 @@ TEST_F(RenderStone, RefusesInOneLineAndWritesNothing) {
     refused({stone, "--material", "diamond"}, "-o IMAGE");
 }
 
-// A plain shading is never planned nor held against the truth: what asks for that is refused.
+// Plain shadings are never planned or verified: such requests are refused.
 TEST_F(RenderStone, PlainShadingsAreDrawnAndSayWhatTheyAre) {
     for (const char* engine : {"flat", "gouraud", "phong", "whitted"}) {
         const ProgramRun run =

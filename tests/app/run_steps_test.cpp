@@ -1,5 +1,5 @@
-// `culet run` with every subset of its three steps: the page shows what was made, and what cannot
-// be done is said before anything is made.
+// `culet run` with every subset of its three steps: the page shows what was made, and impossible
+// requests are refused before anything is made.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using test::run_culet;
 class RunSteps : public test::ProgramTest {
 protected:
     RunSteps() {
-        // Small and quick: what is tested is which steps are shown.
+        // Small and quick: the test is about which steps appear.
         write("scene.toml",
               "stone = \"" + k_sample + "/stone.toml\"\n[camera]\nposition = [0, 0, 120]\n" +
                   "look_at = [0, 0, 0]\nup = [0, 1, 0]\nfov = 5.6\nsize = [120, 100]\n" +
@@ -45,7 +45,7 @@ protected:
     bool shows(const std::string& what) const { return page().find(what) != std::string::npos; }
     bool made(const std::string& name) const { return fs::exists(file("out/" + name)); }
 
-    /// Fitted, rendered, compared: what the page shows and which files are there.
+    /// Fitted, rendered, compared: what the page shows and which files exist.
     void expect_steps(bool fitted, bool rendered, bool compared) const {
         EXPECT_EQ(shows("<section id=\"fit\""), fitted);
         EXPECT_EQ(made("fitted.obj"), fitted);
@@ -53,7 +53,8 @@ protected:
         EXPECT_EQ(made("render.png"), rendered);
         EXPECT_EQ(shows("<section id=\"pictures\""), compared);
         EXPECT_EQ(made("scores.json"), compared);
-        // A picture always: of the comparison, of the render, or the drawing, not folded.
+        // There is always a picture: of the comparison, of the render, or the drawing, not
+        // collapsed.
         EXPECT_EQ(shows("<section id=\"changes\""), rendered && !compared);
         EXPECT_EQ(shows("<section id=\"drawing\" aria"), fitted && !rendered && !compared);
     }
@@ -75,7 +76,7 @@ TEST_F(RunSteps, FitAndRender) {
 }
 
 TEST_F(RunSteps, RenderAndCompare) {
-    // Another light than the photograph's: whatever the verdict, it is shown.
+    // Another light than the photograph's: it is shown whatever the verdict.
     EXPECT_LE(run(render_ + compare_).exit_code, 1);
     expect_steps(false, true, true);
 }

@@ -1,4 +1,4 @@
-// culet setting, as a jeweller runs it.
+// culet setting as a jeweller runs it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
     EXPECT_GE(json.at("least_gap"), json.at("clearance"));
     const TriangleMesh mesh = read_triangle_mesh(file("ring.obj"));
     EXPECT_EQ(mesh.triangles.size(), json.at("triangles").get<std::size_t>());
-    // The scene is read back: the stone, the metal on a ground, all of it before the camera.
+    // Reads the scene back: the stone and the metal on a ground, all in front of the camera.
     const Scene scene = read_scene(file("ring.toml"));
     EXPECT_EQ(scene.stone.material.id, "peridot");
     ASSERT_EQ(scene.objects.size(), 2u);
@@ -50,7 +50,7 @@ TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
     double lowest = 1e9;
     for (const Vec3& v : metal->mesh->vertices) lowest = std::min(lowest, v.z);
     EXPECT_NEAR(ground->point.z, lowest, 1e-4);
-    // As metals.h has it.
+    // As in metals.h.
     const auto& f0 = *std::get<MetalMaterial>(scene.objects[0].material).f0;
     EXPECT_NEAR(std::get<Rgb>(f0.value)[1], 0.730, 1e-12);
 }

@@ -1,5 +1,5 @@
-// Slips of the command line and of files, as a person makes them: each is answered in one line that
-// says what to do. And the list of materials.
+// Typical slips in command lines and files: each is answered in one line that says what to do. And
+// the list of materials.
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@ using test::run_culet;
 
 class Slips : public test::ProgramTest {
 protected:
-    // Exit code 2 and one line of error that holds all of `words`.
+    // Exit code 2 and one error line that contains all of `words`.
     static void expect_answer(const std::vector<std::string>& arguments,
                               const std::vector<std::string>& words) {
         const std::string said = refusal(arguments);
         for (const std::string& word : words)
             EXPECT_NE(said.find(word), std::string::npos) << word << " in " << said;
     }
-    // A cube's stone, a scene of it and a job.
+    // A cube's stone file, scene and job.
     void write_files() const {
         cut("round-brilliant", "hand.obj");
         write("stone.toml", "[stone]\nmesh = \"hand.obj\"\n");
@@ -45,14 +45,14 @@ TEST_F(Slips, BareProgramSaysWhatToBeginWith) {
 }
 
 TEST_F(Slips, MisspeltOptionsAndCommandsAreAnsweredWithTheNearest) {
-    // Even where something that must be given is missing too.
+    // Even if a required option is missing too.
     expect_answer({"render", "scene.toml", "--tollerance", "0.1"},
                   {"culet render", "\"--tollerance\"", "\"--tolerance\""});
     expect_answer({"fit", "stone.toml", "--drawin=a.svg"}, {"\"--drawing\""});
     expect_answer({"info", "--materiels"}, {"\"--materials\""});
     expect_answer({"rendr", "scene.toml"}, {"\"render\""});
     expect_answer({"stone.toml"}, {"culet info stone.toml"});
-    // A parameter of a cut, which lies one command deeper.
+    // A parameter of a cut, one command deeper.
     expect_answer({"cut", "round-brilliant", "--pavilion-angel", "41", "-o", file("a.obj")},
                   {"--pavilion-angle"});
 }
@@ -67,7 +67,7 @@ TEST_F(Slips, UnitsBehindNumbersAreTakenOrTold) {
     const ProgramRun units = cut("units.obj", {"--diameter", "6.52mm", "--table", "58%"});
     EXPECT_EQ(units.exit_code, 0) << units.err;
     EXPECT_EQ(text(file("units.obj")), text(file("plain.obj")));
-    // A decimal comma and other units of length are as good.
+    // A decimal comma and other units of length work too.
     EXPECT_EQ(cut("comma.obj", {"--diameter", "6,52", "--table", "58"}).exit_code, 0);
     EXPECT_EQ(text(file("comma.obj")), text(file("plain.obj")));
     EXPECT_EQ(cut("cm.obj", {"--diameter", "0.652cm"}).exit_code, 0);
@@ -119,7 +119,7 @@ TEST_F(Slips, SwappedPhotographAndRenderAreTold) {
                   {"photographs come first"});
     expect_answer({"compare", file("photo.png"), file("stone.toml"), "-o", file("out")},
                   {"is a stone file"});
-    // In order, or said to be simulated, nothing of the kind is said.
+    // No warning where the order is right or the pictures are said to be simulated.
     for (const std::vector<std::string>& order :
          {std::vector<std::string>{file("photo.png"), file("render.png")},
           {file("render.png"), file("photo.png"), "--simulated"}}) {

@@ -24,7 +24,7 @@ protected:
     static void expect_refused(const ProgramRun& run, const std::string& why) {
         EXPECT_THAT(refusal_of(run), HasSubstr(why));
     }
-    // A cube with edges of 2: six facets, four upright ones tilted a little.
+    // A cube with edges of 2: six facets, the four upright ones slightly tilted.
     void write_cube(const std::string& readings) const {
         write("cube.obj",
               "v 1 1 1\nv -1 1 1\nv -1 -1 1\nv 1 -1 1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 -1\nv 1 -1 "

@@ -1,4 +1,4 @@
-// culet view as a user runs it: a page, what it says, what it refuses.
+// culet view as a user runs it: a page, its content, what it refuses.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_F(ViewCommand, MakesAPageOfACutByItsName) {
     EXPECT_EQ(stone.at("cut").at("kind"), "round-brilliant");
     EXPECT_THAT(page.at("items").at(0).at("picture").get<std::string>(),
                 HasSubstr("data:image/png;base64,"));
-    // Nothing is fetched: no address but those of namespaces stands in the page.
+    // Nothing is fetched: the page contains no addresses but those of namespaces.
     EXPECT_EQ(text("a.html").find("https://"), std::string::npos);
 }
 

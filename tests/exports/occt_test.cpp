@@ -1,5 +1,5 @@
-// STEP files read by Open CASCADE, which shares nothing with what wrote them: one valid solid, the
-// volume and the facets' names of the stone.
+// STEP files read by Open CASCADE, which shares nothing with the writer: one valid solid with the
+// stone's volume and facet names.
 
 #include <gtest/gtest.h>
 

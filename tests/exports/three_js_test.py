@@ -1,5 +1,6 @@
-"""A stone as GLB, opened by three.js in Chromium: three_js_test.py CULET FOLDER-OF-THREE.JS. What three.js finds
-is held against the mesh that was converted: size, facets, volume; and the picture shows the stone."""
+"""A stone as GLB, opened by three.js in Chromium: three_js_test.py CULET FOLDER-OF-THREE.JS.
+Compares what three.js finds with the converted mesh: size, facets, volume; and the picture shows
+the stone."""
 import base64
 import pathlib
 import subprocess
@@ -85,7 +86,7 @@ def check(cut, material, browser, folder):
     found = browser.wait(SCRIPT)
     vertices, facets = mesh_of(mesh)
     size = [max(v[k] for v in vertices) - min(v[k] for v in vertices) for k in range(3)]
-    # Metres, +y up; single precision of coordinates that are as large as the stone: 6e-8 of it, twice.
+    # Metres, +y up; coordinates in single precision: 6e-8 of the stone's size, twice.
     expected = [size[0] / 1000, size[2] / 1000, size[1] / 1000]
     for axis, (have, want) in enumerate(zip(found["size"], expected)):
         assert abs(have - want) < 2e-7 * max(expected), (cut, axis, have, want)
@@ -93,7 +94,7 @@ def check(cut, material, browser, folder):
     assert abs(found["volume"] / volume - 1) < 1e-5, (cut, found["volume"], volume)
     assert sorted(found["facets"]) == sorted(name for name, _ in facets), (cut, found["facets"])
     assert found["meshes"] == 1, found["meshes"]
-    # The stone is a third of the picture's side or more across.
+    # The stone spans at least a third of the picture's side.
     assert found["lit"] > 200 * 200 / 12, (cut, found["lit"])
     print(f"{cut}: {len(facets)} facets, {found['volume'] * 1e9:.4f} mm3, {found['lit']} pixels")
 

@@ -32,7 +32,7 @@ std::vector<std::pair<double, double>> circles(const std::string& svg) {
     return found;
 }
 
-// The middle, on a logarithmic axis, of 1 and 100 is 10.
+// The middle of 1 and 100 on a logarithmic axis is 10.
 TEST(Chart, IsLogarithmicWhereAsked) {
     Chart chart = two_points(1, 0.01, 100, 1);
     chart.series[0].points.push_back({10, 0.1, "", ""});
@@ -89,13 +89,13 @@ TEST(Chart, SeriesWithoutANameGoWithTheOneBefore) {
                     {"", {{1, 2, {}, {}}, {2, 3, {}, {}}}, true, false, true},
                     {"other", {{1, 3, {}, {}}, {2, 4, {}, {}}}, true, false, false}};
     const std::string svg = draw_chart_svg(chart);
-    // Its line in the chart, no entry in the key, and the next colour for the next name.
+    // Its line in the chart has no entry in the key, and the next name gets the next colour.
     EXPECT_EQ(count_of(svg, "stroke-dasharray"), 1u);
     EXPECT_NE(svg.find("#d55e00"), std::string::npos);
     EXPECT_EQ(svg.find("#009e73"), std::string::npos);
 }
 
-// Names that are wider than the chart together.
+// Names that are wider together than the chart.
 TEST(Chart, ALongKeyHasTwoLines) {
     Chart chart;
     for (const char* name : {"a rather long name", "another rather long name", "a third long name",

@@ -31,10 +31,10 @@ const CuttingStep& step_called(const CuttingSheet& sheet, const std::string& tie
 
 TEST(CuttingSheet, TellsWhatEachTierOfABrilliantIsCutTo) {
     // As textbooks cut a standard brilliant: halves to a point, mains from it, the girdle where
-    // both meet, upper halves to the girdle's width; then all is given by meets. The mains meet
-    // each other on the halves' edges at any depth: that is no stop, so their depth is a length.
-    // Depths by the cut's proportions: a diameter of 6.5 mm, a pavilion main at 40.75 degrees from
-    // the girdle's edge to the middle, a girdle of 3 % (docs of culet cut).
+    // both meet, upper halves to the girdle's width; then everything follows from meets. The mains
+    // meet each other on the halves' edges at any depth, which is not a stop, so their depth is a
+    // length. Depths by the cut's proportions: a diameter of 6.5 mm, a pavilion main at 40.75
+    // degrees from the girdle's edge to the middle, a girdle of 3 % (docs of culet cut).
     const CuttingSheet sheet = brilliant();
     const auto words = [&](const char* tier) {
         return depth_words(step_called(sheet, tier), sheet.unit, 6.5);
@@ -71,7 +71,7 @@ TEST(CuttingSheet, OfADesignWithoutMeetsIsCutToSize) {
 TEST(CuttingSheet, PageAndTextSayTheSame) {
     CuttingSheet sheet = brilliant();
     sheet.sigmas_deg.assign(sheet.steps.size(), 0.12);
-    sheet.sigmas_deg.front() = 0.034;  // a machine is read to a hundredth
+    sheet.sigmas_deg.front() = 0.034;  // a machine is read to a hundredth of a degree
     const std::string page = cutting_sheet_page(sheet), text = cutting_sheet_text(sheet);
     EXPECT_THAT(page, Not(HasSubstr("<b>brilliant</b>")));
     EXPECT_THAT(page, HasSubstr("<svg"));

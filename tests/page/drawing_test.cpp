@@ -33,7 +33,7 @@ Vec3 towards_viewer(ViewSide side) {
                                         : Vec3(0, -1, 0);
 }
 
-// A cube with a bevelled edge: from above one sees its top and the bevel, from below its base.
+// A cube with a bevelled edge: its top and the bevel are visible from above, its base from below.
 Solid bevelled(const std::string& top = "T") {
     const NamedPlane planes[] = {{top, {Vec3(0, 0, 1), 1}},      {"B", {Vec3(0, 0, -1), 1}},
                                  {"E", {Vec3(1, 0, 0), 1}},      {"W", {Vec3(-1, 0, 0), 1}},
@@ -51,7 +51,7 @@ double area_of(const std::vector<glm::dvec2>& corners) {
     return std::abs(twice) / 2;
 }
 
-// The polygon that is drawn for a facet.
+// The polygon drawn for a facet.
 std::vector<glm::dvec2> drawn(const std::string& svg, const std::string& name) {
     const std::size_t facet = svg.find("<title>" + name + "</title>");
     if (facet == std::string::npos) return {};
@@ -74,7 +74,7 @@ std::vector<Solid> stones() {
 }
 
 // Orthographic projection: a facet's picture has its area times the cosine of its tilt (closed
-// form), to the two decimals in which corners are written.
+// form), to the two decimals of corners.
 TEST(Drawing, HasTheProjectedAreas) {
     for (const Solid& solid : stones()) {
         for (const ViewSide side : k_sides) {
@@ -91,7 +91,7 @@ TEST(Drawing, HasTheProjectedAreas) {
                 EXPECT_NEAR(area_of(corners) / expected, 1, 0.01) << facet.name;
                 all += area_of(corners);
             }
-            // No hidden facet is drawn: those in sight fill the outline once.
+            // Hidden facets are not drawn: the visible ones fill the outline once.
             double front = 0;
             for (const Facet& facet : solid.facets) {
                 front += area(solid, facet) *
@@ -118,7 +118,7 @@ TEST(Drawing, NamesEveryFacetInSightOnce) {
     }
 }
 
-// Names inside a facet stay inside: the corners of the box of the text lie within the outline.
+// The box of a text inside a facet lies within the facet's outline.
 TEST(Drawing, KeepsNamesWithinTheirFacets) {
     for (const Solid& solid : stones()) {
         for (const ViewSide side : k_sides) {
@@ -175,7 +175,7 @@ TEST(Drawing, ShowsTheFacetsThatFaceTheViewer) {
     EXPECT_THAT(crown, HasSubstr("aria-label=\"T\""));
     EXPECT_THAT(crown, HasSubstr("aria-label=\"C\""));
     EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"B\"")));
-    EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"E\"")));  // on edge
+    EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"E\"")));  // edge-on
     EXPECT_THAT(pavilion, HasSubstr("aria-label=\"B\""));
     EXPECT_THAT(pavilion, Not(HasSubstr("aria-label=\"T\"")));
     const std::string girdle = draw_facets_svg(bevelled(), ViewSide::girdle);
@@ -183,7 +183,7 @@ TEST(Drawing, ShowsTheFacetsThatFaceTheViewer) {
     EXPECT_THAT(girdle, Not(HasSubstr("aria-label=\"N\"")));
 }
 
-// The bevel lies at +x: right of the top from above, left as the stone is turned over.
+// The bevel lies at +x: right of the top from above, left when the stone is turned over.
 TEST(Drawing, HasTheFramesItPromises) {
     const std::string crown = draw_facets_svg(bevelled(), ViewSide::crown);
     EXPECT_THAT(crown, HasSubstr("viewBox=\"0 0 1000 1000\""));
@@ -198,7 +198,7 @@ TEST(Drawing, HasTheFramesItPromises) {
     for (const auto& c : drawn(draw_facets_svg(below, ViewSide::pavilion), "C")) {
         EXPECT_LT(c.x, 500);
     }
-    // From the side z is up: the top's edge lies above all else, so no point of S is above it.
+    // From the side z is up: the top's edge is the highest, so no point of S is above it.
     const auto side = drawn(draw_facets_svg(bevelled(), ViewSide::girdle), "S");
     ASSERT_GE(side.size(), 5u);
     double high = 1000, right_of_high = 0;
@@ -246,7 +246,7 @@ TEST(Drawing, EscapesAndShortensHostileNames) {
     EXPECT_THAT(svg, HasSubstr("…</text>"));
 }
 
-// 1 000 facets of equal size in sight: every one has its title, names only as many as have room.
+// 1 000 visible facets of equal size: every one has its title, but only those with room show names.
 TEST(Drawing, OfAThousandFacetsIsWhole) {
     std::vector<NamedPlane> planes{{"B", {Vec3(0, 0, -1), 0.1}}};
     for (int i = 0; i < 1000; ++i) {
@@ -291,7 +291,8 @@ TEST(FitPaint, ColoursFacetsByTheirWorstReading) {
     EXPECT_THAT(paint.legend.mark, HasSubstr("suspect"));
 }
 
-// A vertical facet's normal moves by the root of the squares of both its angles: 0.03, 0.04, 0.05.
+// The direction of a vertical facet's normal has an uncertainty of the root of the squares of both
+// its angles: 0.03, 0.04, 0.05.
 TEST(FitPaint, ColoursFacetsByHowFarTheirNormalsMayBeOff) {
     const Solid solid = bevelled();
     const FitPaint paint = fit_paint(solid, k_report, FitColour::uncertainty);
@@ -301,7 +302,7 @@ TEST(FitPaint, ColoursFacetsByHowFarTheirNormalsMayBeOff) {
     EXPECT_EQ(paint.legend.to, "0.050 or more");
     EXPECT_EQ(of("C").colour, css_colour(ColourMap::uncertainty, 1));
     EXPECT_EQ(of("T").colour, css_colour(ColourMap::uncertainty, 0));
-    // What is left open does not set the scale, and is marked.
+    // Open facets do not set the scale, and are marked.
     EXPECT_TRUE(of("B").marked);
     EXPECT_THAT(of("B").about, HasSubstr("inclination"));
 }
@@ -316,7 +317,7 @@ TEST(FitPaint, OfNoReportIsPlain) {
                               FitColour::residual));
 }
 
-// Told apart without hues: lightness (CIE luminance) falls all the way.
+// Distinguishable without hues: lightness (CIE luminance) falls all the way.
 TEST(ColourMaps, OfDrawingsGetDarkerAllTheWay) {
     for (const ColourMap map : {ColourMap::residual, ColourMap::uncertainty}) {
         double before = 2;

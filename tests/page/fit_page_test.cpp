@@ -1,5 +1,5 @@
-// Reports as `culet fit --report` writes them (docs/fit-report.md), cut down by hand; what the
-// page must say of them is worked out by hand.
+// Reports as `culet fit --report` writes them (docs/fit-report.md), shortened by hand; the page's
+// content is worked out by hand.
 
 #include "page/fit_page.h"
 
@@ -111,7 +111,7 @@ TEST(FitPage, TakesForeignTextForText) {
 }
 
 TEST(FitPage, NamesTheSlipAndWhatToDo) {
-    // As the fit's report has them, and the value that would be right.
+    // As in the fit's report, with the right value.
     const std::string doubt = "readings.csv line 10: inclination of C5 38.3° is 4.5° away";
     EXPECT_THAT(fit_card(view(slipped())),
                 says(doubt, "It is left out; the other readings agree with this stone."));

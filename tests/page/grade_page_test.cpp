@@ -65,7 +65,7 @@ TEST(GradePage, CallsAStoneAndItsDrawingByTheStonesName) {
 TEST(GradePage, CountsOfEightOnlyWhatAStandardBrilliantHas) {
     EXPECT_EQ(counted_of_eight(7, "heart"), "7 of 8 hearts");
     EXPECT_EQ(counted_of_eight(12, "heart"), "12 hearts");
-    // One heart is as even as can be.
+    // A single heart is perfectly even.
     GradeDesign one = design("Mine");
     one.json.replace(one.json.find("{\"count\": 8"), 11, "{\"count\": 1");
     EXPECT_THAT(grade_page({{one}, "0.2", "", {}}), Not(HasSubstr("98.0")));
@@ -93,7 +93,7 @@ TEST(GradePage, DrawsLightPathsByHowTheyEnd) {
     const std::string drawing = section_drawing(k_section);
     EXPECT_THAT(drawing, HasSubstr("class=\"path-leak\""));
     EXPECT_THAT(drawing, HasSubstr("azimuth 22.5"));
-    // 2 wide and 2 high, 640 across, with air of 4 on every side.
+    // 2 wide and 2 high, 640 across, with a margin of 4 on every side.
     EXPECT_THAT(drawing, HasSubstr("viewBox=\"-4 -4 648 648\""));
     EXPECT_EQ(section_drawing("{}"), "");
     EXPECT_THROW(section_drawing("[]"), InputError);

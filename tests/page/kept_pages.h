@@ -1,6 +1,6 @@
 #pragma once
-// Pages that a browser test opens (pages_in_browser_test.py): whoever makes one keeps it, where
-// CULET_KEPT_PAGES names a folder.
+// Pages that a browser test opens (pages_in_browser_test.py): tests store theirs in the folder
+// CULET_KEPT_PAGES, if it is set.
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace culet::test {
 
-/// Right to left, with tags and quotes, and longer than any line without a place to break it.
+/// Right to left, with tags and quotes, and longer than a line without any place to break it.
 inline std::string hostile_name() {
     return "שם של אבן \"'><img src=x onerror=\"document.title='x'\"> " + std::string(140, 'W');
 }

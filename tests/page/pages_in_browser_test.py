@@ -1,5 +1,5 @@
-"""Every kind of page that the tests of the rooms make, with hostile names, on the screen of a telephone
-and on paper."""
+"""Every kind of page that the other tests make, with hostile names, on a telephone's screen and on
+paper."""
 import base64
 import os
 import pathlib
@@ -37,7 +37,7 @@ class PagesInBrowserTest(unittest.TestCase):
                 self.browser.open(page)
                 self.browser.run("for (const part of document.querySelectorAll('details')) part.open = true")
                 self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
-                # What is cut off by a box of its own can be scrolled to.
+                # What overflows a scrollable box of its own can be reached.
                 cut = self.browser.run("""return [...document.querySelectorAll('main *')].filter((e) =>
                     e.getBoundingClientRect().right > 391 && !e.closest('.scroll, svg, pre')).map((e) => e.outerHTML.slice(0, 80))""")
                 self.assertEqual(cut, [])

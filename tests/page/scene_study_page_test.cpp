@@ -80,7 +80,7 @@ TEST(SceneStudyPage, WritesAPlainTable) {
     const std::string text = scene_study_table(scene_study().dump());
     EXPECT_THAT(text, HasSubstr("preview, 3 wavelengths"));
     EXPECT_THAT(text, HasSubstr("<=0.0020"));
-    for (const char c : text) EXPECT_GT(c, 0) << text;  // plain letters only
+    for (const char c : text) EXPECT_GT(c, 0) << text;  // ASCII only
 }
 
 TEST(SceneStudyPage, SurvivesJsonOfUnexpectedShape) {

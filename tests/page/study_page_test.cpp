@@ -54,7 +54,7 @@ TEST(StudyPage, WritesAPlainTable) {
     const std::string text = study_table(study().dump());
     EXPECT_THAT(text, HasSubstr("most steps  100 *            2/2      2/2    2/2"));
     EXPECT_THAT(text, HasSubstr("1.020"));
-    for (const char c : text) EXPECT_GT(c, 0) << text;  // plain letters only
+    for (const char c : text) EXPECT_GT(c, 0) << text;  // ASCII only
 }
 
 TEST(StudyPage, OfAnEmptyStudySaysWhy) {

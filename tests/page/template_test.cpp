@@ -1,4 +1,4 @@
-// What a template may ask for, and that it escapes: rules of the mustache manual, mustache(5), and
+// What a template may contain, and that it escapes: rules of the mustache manual, mustache(5), and
 // of page/template.h.
 
 #include "page/template.h"
@@ -34,7 +34,7 @@ TEST(Template, RefusesNamesThatAreNotThere) {
     }
 }
 
-// Of page/template.h: what stands as it is says so by its name.
+// Rule of page/template.h: unescaped values have names that say so.
 TEST(Template, FilesWriteNothingUnescapedButWhatIsNamedSo) {
     const std::regex raw(R"(\{\{(\{|&)\s*([a-z_.]*))"), named(R"(.*_(html|svg|css|js|json))");
     for (const char* folder :

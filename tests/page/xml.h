@@ -1,5 +1,5 @@
 #pragma once
-// Reading back what was drawn.
+// Reads drawings back.
 
 #include <cctype>
 #include <cstring>
@@ -9,8 +9,8 @@
 
 namespace culet::test {
 
-/// What is wrong with ` name="value" name="value"`. By hand: the library's regular expressions
-/// recurse for every letter.
+/// The fault in ` name="value" name="value"`. Parsed by hand because the library's regular
+/// expressions recurse for every letter.
 inline std::string attribute_fault(const std::string& text) {
     std::set<std::string> seen;
     for (std::size_t at = 0; (at = text.find_first_not_of(" \n", at)) != std::string::npos;) {
@@ -27,8 +27,7 @@ inline std::string attribute_fault(const std::string& text) {
     return "";
 }
 
-/// What is wrong with the nesting, the attributes or the entities of a text that should be XML;
-/// empty when nothing is.
+/// The fault in nesting, attributes or entities of an XML text; empty if there is none.
 inline std::string xml_fault(const std::string& text) {
     for (std::size_t at = text.find('&'); at != std::string::npos; at = text.find('&', at + 1)) {
         bool known = false;

@@ -1,4 +1,4 @@
-"""The Python module against the program: same input, same answer. Run by CTest; by hand:
+"""The Python module against the program: same input, same answer. CTest runs it; by hand:
 PYTHONPATH=build/python CULET=build/culet /usr/bin/python3 -m unittest discover tests/python"""
 
 import ast
@@ -26,7 +26,7 @@ GARNET = SAMPLES / "effects" / "garnet-depth.toml"
 
 
 def program(*arguments):
-    """What the program does with the same input; its exit code may be 1: not to be trusted."""
+    """Runs the program on the same input. Its exit code may be 1: not to be trusted."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode in (0, 1), done.stderr
     return done
@@ -52,7 +52,7 @@ class Stones(Scratch):
         count = len(stone.facets)
         self.assertEqual(stone.normals.shape, (count, 3))
         np.testing.assert_allclose(np.linalg.norm(stone.normals, axis=1), 1, atol=1e-12)
-        # The divergence theorem, over triangles: an independent sum of the volume.
+        # The divergence theorem over triangles: an independent sum of the volume.
         corners, facet = stone.triangles
         a, b, c = (stone.vertices[corners[:, i]] for i in range(3))
         volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
@@ -138,7 +138,8 @@ class Pictures(Scratch):
         self.assertEqual(picture.spectral.shape, (bands, 24, 24))
         self.assertEqual(picture.stokes.shape, (4, bands, 24, 24))
         np.testing.assert_array_equal(picture.stokes[0], picture.spectral)
-        # No light is more than wholly polarised: half floats and sums of paths round.
+        # No light is polarised by more than 100 %, up to rounding of half floats and of sums of
+        # paths.
         s0, rest = picture.stokes[0], picture.stokes[1:]
         self.assertTrue((np.sqrt((rest**2).sum(0)) <= s0 * (1 + 1e-5) + 1e-6).all())
         self.assertGreater(np.abs(rest).max(), 0)
@@ -150,7 +151,7 @@ class Pictures(Scratch):
         again = culet.load(self.folder / "p.exr")
         np.testing.assert_array_equal(np.asarray(again), np.asarray(picture))
         np.testing.assert_allclose(again.coverage, picture.coverage, atol=1e-3)
-        # Parts are arrays: what belongs to the whole does not stick to them.
+        # Slices are plain arrays: attributes of the whole picture do not carry over.
         self.assertIsNone((2 * picture[:10]).coverage)
         copy = pickle.loads(pickle.dumps(picture))
         np.testing.assert_array_equal(copy.coverage, picture.coverage)
@@ -197,7 +198,7 @@ class Comparisons(Scratch):
     PHOTO = SAMPLES / "dravite-step" / "simulated-photo.png"
 
     def test_of_a_picture_with_itself_match(self):
-        # A picture beside itself: correlation 1.
+        # A picture against itself: correlation 1.
         compared = culet.compare(self.PHOTO, self.PHOTO)
         self.assertEqual(compared.verdict, "match")
         program("compare", self.PHOTO, self.PHOTO, "-o", self.folder, "--json",
@@ -232,7 +233,7 @@ class LongWork(Scratch):
         ended.set()
         other.join()
         self.assertTrue(told and all(0 <= f <= 1 for f in told))
-        # Another thread ran meanwhile: without the lock released it would have stood still.
+        # Another thread ran meanwhile, which it could not if the lock were held.
         self.assertGreater(len(ticks), 5)
 
     def test_tells_of_short_work_too(self):

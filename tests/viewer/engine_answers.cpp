@@ -1,4 +1,4 @@
-// Answers of the engine as the program has it, for wasm_engine_test.js: one JSON object on stdout.
+// The native engine's answers for wasm_engine_test.js: one JSON object on stdout.
 
 #include <fmt/format.h>
 

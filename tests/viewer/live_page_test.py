@@ -1,5 +1,5 @@
-"""Pages that culet wrote, in Chromium: the engine of the command line in WebAssembly. The pixels are
-held against `culet render`, by the very command that the page offers to copy."""
+"""Pages that culet wrote, in Chromium, with the WebAssembly engine. Compares the pixels with `culet
+render`, by the very command that the page offers to copy."""
 import base64
 import json
 import pathlib
@@ -16,7 +16,7 @@ SHOTS, CULET = pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).reso
 
 
 def culet(*words, good=(0, 1), cwd=None):
-    """Runs culet; a fit may say that its answer is not to be trusted (1)."""
+    """Runs culet; a fit may end with 1 (not to be trusted)."""
     done = subprocess.run([CULET, *words], capture_output=True, text=True, timeout=300, cwd=cwd)
     if done.returncode not in good: raise AssertionError(f"culet {' '.join(map(str, words))}: {done.stderr}")
     return done
@@ -46,7 +46,8 @@ class LivePageTest(PageActions, unittest.TestCase):
         self.browser.rest()
 
     def differing(self):
-        """Runs the page's command; the share of pixels that differ by more than 1 of 255 from the page's."""
+        """Runs the page's command. Returns the share of pixels that differ by more than 1 of 255
+        from the page's."""
         command = self.browser.run("return culet_page.command.line()")
         steps = [shlex.split(part) for part in command.split(" && ")]
         for step in steps:
@@ -142,7 +143,7 @@ class LivePageTest(PageActions, unittest.TestCase):
         self.shots("gallery", ["light"])
 
     def test_a_report_opens_the_stone(self):
-        """One click on the report's picture: the viewer draws in the page inside the page."""
+        """A click on the report's picture starts the viewer in the embedded page."""
         culet("run", SOURCE / "samples" / "cutters-evening" / "job.toml", "-o", self.folder / "report")
         driver = self.browser.driver
         driver.get((self.folder / "report" / "report.html").as_uri())
@@ -157,7 +158,7 @@ class LivePageTest(PageActions, unittest.TestCase):
         self.assertFalse(self.browser.run("return document.getElementById('viewer').open"))
 
     def test_figures(self):
-        """Reported, and held only to what no machine should miss."""
+        """The figures are reported; only limits that every machine keeps are checked."""
         self.open_page("brilliant.html", width=1156, height=800)
         first = self.browser.run("return Number(document.getElementById('stage').dataset.firstPictureMs)")
         size = (self.folder / "brilliant.html").stat().st_size

@@ -1,5 +1,5 @@
-"""The page of the viewer in Chromium, with a stand-in for the engine: what a person does must change
-the picture or what is drawn over it, by hand and by keyboard alone, and nothing may land in the console."""
+"""The viewer's page in Chromium with a stand-in for the engine. Each action, by hand and by
+keyboard alone, must change the picture or the overlay, and the console must stay empty."""
 import json
 import pathlib
 import re
@@ -17,15 +17,15 @@ from viewer_pages import Browser, made_up_document, page_text
 
 
 class PageActions:
-    """What a person does with a page; `self.browser` has it open."""
+    """A person's actions on the page that `self.browser` has open."""
 
     def seen(self):
-        """Whatever a person sees of the stone: pixels, and what is drawn over them."""
+        """Everything visible of the stone: pixels, and the overlay."""
         self.browser.rest()
         return self.browser.picture(), self.browser.run("return document.getElementById('overlay').innerHTML")
 
     def click(self, selector):
-        """Opens the tab that holds it, and clicks on it or on its label, as a hand would."""
+        """Opens the tab that contains it, and clicks on it or its label."""
         self.browser.run("""const node = document.querySelector(arguments[0]), panel = node.closest('[role=tabpanel]');
             if (panel) document.getElementById(panel.getAttribute('aria-labelledby')).click();
             const label = node.id && document.querySelector(`label[for="${node.id}"]`);
@@ -46,7 +46,7 @@ class PageActions:
         chain.perform()
 
     def check_controls(self, cut="crown-angle"):
-        """Each control in turn: the picture, or what is drawn over it, must change."""
+        """Uses each control in turn: the picture or the overlay must change."""
         for switch in ["light-by-hand"]:
             self.click(f"[data-name={switch}]")
             before = self.seen()
@@ -133,11 +133,12 @@ class PageTest(PageActions, unittest.TestCase):
         self.drag(60, -40)
         after, _, _ = self.browser.run(turn)
         box = self.browser.run("const r = document.getElementById('hand').getBoundingClientRect(); return [r.width, r.height]")
-        # Where the drag began and ended, on the ball (within 0.7 of its radius; beyond, a hyperbola); that point of the stone must have gone along.
+        # Start and end of the drag on the ball (within 0.7 of its radius; beyond, a hyperbola):
+        # that point of the stone must have moved along.
         start = [(box[0] / 2 + 20 - middle[0]) / radius, (middle[1] - box[1] / 2 - 10) / radius]
         end = [start[0] + 60 / radius, start[1] + 40 / radius]
         moved = self.browser.run("""const [q0, q1, a] = arguments; const p = Turn.back(q0, Turn.on_ball(...a)); return Turn.of(q1, p);""", before, after, start)
-        # A pixel of the screen: pointers move by whole ones.
+        # One screen pixel: pointers move by whole ones.
         self.assertAlmostEqual(moved[0], end[0], delta=1.5 / radius)
         self.assertAlmostEqual(moved[1], end[1], delta=1.5 / radius)
 
@@ -179,7 +180,7 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertIn("T", card)
         self.assertIn("34.500\u00b0 \u00b1 0.020\u00b0", card)
         self.assertIn("none: it is level", card)
-        # P8 of the fit is suspect: said in words, not by a colour.
+        # P8 of the fit is suspect: words say so, not only a colour.
         self.browser.run("culet_page.pointing.point(20)")
         self.assertIn("suspect", self.browser.run("return document.getElementById('facet-card').innerText"))
 
@@ -217,11 +218,11 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertTrue(self.browser.run("return document.getElementById('help').open"))
         ActionChains(self.browser.driver).send_keys(Keys.ESCAPE).perform()
         self.assertFalse(self.browser.run("return document.getElementById('help').open"))
-        # Tabs by arrows, as tabs do.
+        # Arrow keys switch tabs.
         self.browser.run("document.getElementById('tab-light').focus()")
         ActionChains(self.browser.driver).send_keys(Keys.ARROW_RIGHT).perform()
         self.assertEqual(self.browser.run("return document.activeElement.id"), "tab-stone")
-        # A material by its first letters.
+        # Selects a material by its first letters.
         field = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-name=material]")
         field.send_keys("sapph" + Keys.ARROW_DOWN + Keys.ENTER)
         self.assertEqual(self.browser.run("return culet_page.state.get('material')"), "sapphire_blue")
@@ -275,7 +276,7 @@ class PageTest(PageActions, unittest.TestCase):
         self.browser.rest()
 
     def test_stone_that_is_not_convex_turns(self):
-        """By rays: coarse frames while it moves, and the engine's whole picture once it rests."""
+        """Drawn by rays: coarse frames while it moves, the engine's full picture at rest."""
         document = made_up_document()
         document["items"][0]["stones"][0]["convex"] = False
         self.open(document)
@@ -295,7 +296,8 @@ class PageTest(PageActions, unittest.TestCase):
             self.assertEqual(self.browser.run("return getComputedStyle(document.getElementById(arguments[0])).objectFit", picture), "contain")
 
     def test_frames_are_coarser_only_where_that_helps(self):
-        """30 ms of beams and 10 of pixels in a frame of 33 ms: at a quarter of the resolution it would take 31."""
+        """Beams take 30 ms and pixels 10, with 33 ms per frame: a quarter of the resolution would
+        still take 31."""
         self.open()
         scale = self.browser.run("const loop = culet_page.loop; loop.scale = 1; for (let i = 0; i < 50; ++i) loop.adapt(30 + 10 * loop.scale ** 2, 10 * loop.scale ** 2); return loop.scale")
         self.assertGreater(scale, 0.95)
@@ -332,7 +334,7 @@ class PageTest(PageActions, unittest.TestCase):
         self.browser.run("culet_page.state.set({material: 'refuse_me'})")
         self.browser.rest()
         self.assertEqual(self.browser.run("return document.getElementById('trouble-text').textContent"), "a line for people")
-        # And the page lives on.
+        # The page continues to work.
         self.browser.run("culet_page.put_away(); culet_page.state.set({material: null})")
         before = self.seen()
         self.drag(50, 20)
@@ -346,8 +348,8 @@ class PageTest(PageActions, unittest.TestCase):
         self.browser.rest()
 
     def test_gpu_sums_its_passes_and_samples(self):
-        """The stand-in's kernel is known: its middle is 0.2, 0.4, 0.8 times a half, from two passes, and the
-        mean over samples is what each of them is."""
+        """The stand-in's kernel is known: its middle is 0.2, 0.4, 0.8 times a half, from two
+        passes, and the mean over samples equals each sample."""
         self.gpu_page()
         self.assertTrue(self.browser.run("return culet_page.gpu.shown"), self.browser.run("return culet_page.gpu.refusal()"))
         pixels = self.browser.run("""const c = document.getElementById('gpu-picture'), copy = document.createElement('canvas');
@@ -389,7 +391,7 @@ class PageTest(PageActions, unittest.TestCase):
         before = self.seen()
         self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.hdr'));")
         self.assertNotEqual(before, self.seen())
-        # Nobody knows how bright it is.
+        # Its brightness is unknown.
         self.assertEqual(self.browser.run("return culet_page.exposure()"), "auto")
         self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.txt'));")
         self.assertIn("room.txt is no panorama", self.browser.run("return document.getElementById('trouble').innerText"))
@@ -425,10 +427,12 @@ class PageTest(PageActions, unittest.TestCase):
         self.click("[data-name=png]")
         self.assertTrue(self.downloaded(".png").startswith(b"\x89PNG"))
         self.browser.wait("await culet_page.panels.save.film();")
-        self.assertTrue(self.downloaded(".webm").startswith(b"\x1a\x45\xdf\xa3"))  # EBML, of which WebM is made
+        self.assertTrue(self.downloaded(".webm").startswith(b"\x1a\x45\xdf\xa3"))  # EBML, the
+                                                                                   # container of
+                                                                                   # WebM
 
     def test_film_is_four_seconds_long(self):
-        """As the page promises, by the page's own clock: how long a loaded machine takes is not asked."""
+        """Measured by the page's own clock, so that a loaded machine passes."""
         self.open()
         milliseconds, frames = self.browser.wait("""const {setTimeout: timeout} = window, {now} = performance, {stop} = MediaRecorder.prototype;
             let clock = 0, begin = null, end = null, frames = 0;
@@ -439,10 +443,10 @@ class PageTest(PageActions, unittest.TestCase):
             performance.now = now; window.setTimeout = timeout; MediaRecorder.prototype.stop = stop; culet_page.loop.paused = false;
             return [end - begin, frames];""")
         self.assertAlmostEqual(milliseconds, 4000)
-        self.assertEqual(frames, 100)  # 25 a second
+        self.assertEqual(frames, 100)  # 25 per second
 
     def downloaded(self, ending):
-        """The file with that ending, once the browser has written it."""
+        """The file with that extension, once the browser has written it."""
         for _ in range(100):
             for file in pathlib.Path(self.browser.folder).iterdir():
                 if file.suffix == ending and file.stat().st_size > 0: return file.read_bytes()

@@ -1,4 +1,4 @@
-// The engine behind a page against the renderer of the command line: same scene, same bytes.
+// The page's engine against the command line's renderer: same scene, same bytes.
 
 #include "viewer/engine/viewer_engine.h"
 
@@ -133,7 +133,7 @@ TEST(ViewerEngine, DrawsTheBytesOfTheCommandLine) {
     }
 }
 
-// A view by the camera of the call is that of the scene's keys.
+// A view from the call's camera equals that from the scene's keys.
 TEST(ViewerEngine, LooksAsAScenesCameraDoes) {
     const Stone stone = stone_of("round-brilliant", "diamond");
     Opened page(stone, k_jeweller);
@@ -146,7 +146,7 @@ TEST(ViewerEngine, LooksAsAScenesCameraDoes) {
                  {"camera.size=[90,90]", "camera.position=[3,-20,25]", "camera.look_at=[0,0,-0.5]",
                   "camera.up=[0,0,1]", "camera.fov=15"});
     EXPECT_EQ(page.engine.pixels(), expected);
-    // And after another view, drawn quickly.
+    // The same after another, quickly drawn view.
     Json other = of_size(90);
     other["camera"] = {
         {"position", {0, 0, 40}}, {"look_at", {0, 0, 0}}, {"up", {0, 1, 0}}, {"width", 8}};
@@ -156,7 +156,7 @@ TEST(ViewerEngine, LooksAsAScenesCameraDoes) {
     EXPECT_EQ(page.engine.pixels(), expected);
 }
 
-// A quarter about z takes x to y: rows of the matrix, and light.rotate, say the same.
+// A quarter about z takes x to y: matrix rows and light.rotate agree.
 TEST(ViewerEngine, TurnsLightsByRowsOfAMatrix) {
     const Stone stone = stone_of("step", "diamond");
     Opened page(stone, k_jeweller);
@@ -176,7 +176,7 @@ TEST(ViewerEngine, TurnsLightsByRowsOfAMatrix) {
     EXPECT_EQ(apart, 0);
 }
 
-// Expectation: the program's own quick picture, and its reference with one ray a pixel.
+// Expectation: the program's own quick picture, and its reference with one ray per pixel.
 TEST(ViewerEngine, DrawsAStoneThatIsNotConvexByRays) {
     Stone heart = stone_of("heart", "diamond");
     heart.convex = false;
@@ -200,7 +200,7 @@ TEST(ViewerEngine, DrawsAStoneThatIsNotConvexByRays) {
     EXPECT_EQ(drawn("beams"), shown_bytes(render(scene).picture, scene.film, true));
 }
 
-// The middle of a convex facet that is seen is on that facet.
+// The middle of a visible convex facet lies on that facet.
 TEST(ViewerEngine, OutlinesAreOfTheFacetsThatRaysMeet) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     Json view = of_size(400);
@@ -226,7 +226,7 @@ TEST(ViewerEngine, OutlinesAreOfTheFacetsThatRaysMeet) {
     EXPECT_EQ(page.call("facet", corner).at("facet"), -1);
 }
 
-// Expectation: conservation, as `culet probe` has it: all weights and losses are 1.
+// Expectation: conservation, as in `culet probe`: all weights and losses add up to 1.
 TEST(ViewerEngine, PathsAreThoseOfProbe) {
     const Stone stone = stone_of("round-brilliant", "diamond");
     Opened page(stone, k_jeweller);
@@ -241,7 +241,7 @@ TEST(ViewerEngine, PathsAreThoseOfProbe) {
     EXPECT_EQ(paths.at("paths")[0].at("facets")[0], "T");
 }
 
-// A furnace: light of 1 from everywhere is 1 in every pixel of a stone that absorbs nothing, less
+// A furnace: with light of 1 from everywhere every pixel of a stone without absorption is 1, less
 // what is not followed.
 TEST(ViewerEngine, APanoramaOfOneIsAFurnace) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
@@ -273,12 +273,12 @@ TEST(ViewerEngine, CutsWithOtherProportions) {
     EXPECT_EQ(page.engine.pixels(), rendered(expected, k_jeweller, {"camera.size=[70,70]"}));
     EXPECT_NE(page.refusal("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 650.0}}}}),
               "none");
-    // The one before is still there.
+    // The previous one is still there.
     page.call("set", {{"stone", 0}, {"settings", Json::array()}});
 }
 
-// The page asks nothing that the engine does not know, and docs/viewer.md has all calls, in their
-// order. `start` is the worker's own.
+// The page calls nothing unknown to the engine, and docs/viewer.md lists all calls in order.
+// `start` is the worker's own.
 TEST(ViewerEngine, HasTheCallsOfThePageAndOfItsDocumentation) {
     const auto names_in = [](const std::filesystem::path& file, const char* pattern) {
         const std::string text = read_text(std::filesystem::path(CULET_SOURCE_DIR) / file);
@@ -305,7 +305,7 @@ TEST(ViewerEngine, HasTheCallsOfThePageAndOfItsDocumentation) {
     EXPECT_GT(asked, 5u);
 }
 
-// What is refused leaves everything as it was.
+// A refused call changes nothing.
 TEST(ViewerEngine, SaysWhatIsWrongInOneLine) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     page.call("draw", of_size(40));

@@ -1,4 +1,4 @@
-"""Pages of the viewer for the tests: with a stand-in for the engine, or as culet wrote them; and a
+"""Pages of the viewer for the tests, with a stand-in for the engine or as culet wrote them; and a
 browser to open them in."""
 import base64
 import json
@@ -21,7 +21,7 @@ PAGE = SOURCE / "viewer" / "page"
 
 
 def made_up_stone(role="stone", pavilion_deg=41.0, fitted=False, table=1.7):
-    """A table, eight crown and girdle facets, eight pavilion facets: closed, convex, 25 facets."""
+    """A table, eight crown, eight girdle and eight pavilion facets: closed, convex, 25 facets."""
     r, crown, girdle = 3.0, 1.0, 0.15
     depth = r * math.tan(math.radians(pavilion_deg))
     ring = lambda radius, z: [[radius * math.cos(math.radians(45 * i + 22.5)),
@@ -69,7 +69,7 @@ def made_up_document(items=1, two=False):
 
 
 def page_text(document, worker=None, engine="stand-in"):
-    """The template filled as viewer_page.cpp fills it."""
+    """The template, filled as viewer_page.cpp fills it."""
     scripts = [(PAGE / name).read_text() for name in (PAGE / "scripts.txt").read_text().split()]
     worker = (pathlib.Path(__file__).parent / "stand_in_worker.js").read_text() if worker is None else worker
     values = {"title": document["title"], "picture": document["items"][0]["picture"], "engine": engine, "worker_js": worker,
@@ -80,7 +80,7 @@ def page_text(document, worker=None, engine="stand-in"):
 
 
 class Browser:
-    """Headless Chromium, by chromedriver; `errors` are what its console said."""
+    """Headless Chromium through chromedriver; `errors` are its console's errors."""
 
     def __init__(self, width=1280, height=800, options=()):
         self.folder = tempfile.mkdtemp(prefix="culet-viewer-")
@@ -97,7 +97,7 @@ class Browser:
         self.resize(width, height)
 
     def resize(self, width, height):
-        # The window of headless Chromium is wider than 500; the page's own size is set apart from it.
+        # Headless Chromium's window is wider than 500; this sets the page's own size.
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600})
 
@@ -116,7 +116,7 @@ class Browser:
         return self.driver.execute_script(script, *arguments)
 
     def wait(self, script):
-        """Of an async script's promise, what it becomes."""
+        """The result of an async script's promise."""
         answer = self.driver.execute_async_script(
             "const done = arguments[arguments.length - 1];"
             f"(async () => {{ {script} }})().then((v) => done([v ?? null]), (e) => done({{error: String(e && e.stack || e)}}));")
@@ -125,7 +125,7 @@ class Browser:
         return answer[0]
 
     def rest(self):
-        """Until the whole picture is drawn."""
+        """Waits until the full picture is drawn."""
         self.wait("while (!culet_page.ready() && document.getElementById('trouble').hidden) await new Promise((r) => setTimeout(r, 20));"
                   "await new Promise((r) => setTimeout(r, 30)); await culet_page.loop.idle();")
 
