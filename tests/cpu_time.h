@@ -1,5 +1,5 @@
 #pragma once
-// What a piece of work takes: time of all threads of this process, and time that passes.
+// Measures work: processor time of all threads of this process, and elapsed time.
 
 #include <time.h>
 
@@ -20,8 +20,8 @@ inline Clocks clocks() {
     return {read(CLOCK_PROCESS_CPUTIME_ID), read(CLOCK_MONOTONIC)};
 }
 
-/// The quickest of several runs, each clock by itself: what else the machine does can only add.
-/// Runs at least `least` times, and until `seconds` have passed.
+/// The least time of several runs, separately for each clock, because other load can only add. Runs
+/// at least `least` times, and until `seconds` have passed.
 template <class Work>
 Clocks quickest(const Work& work, int least, double seconds) {
     Clocks best{1e300, 1e300};

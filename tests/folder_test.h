@@ -19,7 +19,7 @@ protected:
         std::ofstream(folder_ / name, std::ios::binary) << content;
         return file(name);
     }
-    /// What a file holds; a name is one of the folder, a whole path any file's.
+    /// The content of a file: a name within the folder, or a whole path.
     std::string text(const std::string& name) const {
         std::ifstream stream(folder_ / name, std::ios::binary);
         return {std::istreambuf_iterator<char>(stream), {}};

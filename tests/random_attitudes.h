@@ -1,5 +1,5 @@
 #pragma once
-// Directions, frames and numbers at random from a fixed seed.
+// Random directions, frames and numbers from a fixed seed.
 
 #include <array>
 #include <cmath>
@@ -27,8 +27,8 @@ public:
         const Vec3 a = direction(), b = across(a, 1);
         return {a, b, glm::cross(a, b)};
     }
-    /// Normal to n, which is of length 1, and of the given length. Drawn again beside n, where
-    /// their product has few digits left: what is not square by 1e-14 moves a wave by as much.
+    /// A vector of the given length normal to the unit vector n. Redraws near n, where the cross
+    /// product loses digits: an error of 1e-14 in the right angle moves a wave by as much.
     Vec3 across(const Vec3& n, double length) {
         Vec3 v = glm::cross(n, direction());
         while (glm::length(v) < 0.1) v = glm::cross(n, direction());

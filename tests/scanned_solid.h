@@ -1,6 +1,6 @@
 #pragma once
-// A stone as a scanner wrote it: `nv nf ne`, then `i x y z` for each vertex, then for each facet
-// `i n a b c d` (a x + b y + c z + d = 0) and a line of its vertices; lines with # are comments.
+// A stone as a scanner wrote it: `nv nf ne`, then `i x y z` for each vertex, then for each facet `i
+// n a b c d` (a x + b y + c z + d = 0) and a line of its vertices; lines with # are comments.
 
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@
 
 namespace culet {
 
-/// What the planes enclose; the vertices are not looked at. The scanner holds the table down: half
-/// a turn about x puts it up. Throws InputError when it is no such file.
+/// The solid that the planes enclose; the vertices are ignored. The scanner holds the table down,
+/// so the solid is turned by half a turn about x. Throws InputError for an invalid file.
 inline Solid scanned_solid(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::vector<std::string> lines;

@@ -1,5 +1,5 @@
 #pragma once
-// A folder of a test's own, gone when the test is over.
+// A temporary folder for one test, removed at its end.
 
 #include <cstdlib>
 #include <filesystem>

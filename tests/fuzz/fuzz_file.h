@@ -1,6 +1,6 @@
 #pragma once
-// For readers that take a file: the bytes go through one in memory, and nothing but InputError may
-// come out.
+// For readers that take a file: the bytes go through a file in memory; only InputError may be
+// thrown.
 
 #include <unistd.h>
 

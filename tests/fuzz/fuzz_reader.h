@@ -1,6 +1,6 @@
 #pragma once
-// What every reader's fuzzer does with the bytes: parse, check, write, and let nothing but
-// InputError out.
+// What every reader's fuzzer does with the bytes: parse, check, write. Only InputError may be
+// thrown.
 
 #include <cstddef>
 #include <cstdint>

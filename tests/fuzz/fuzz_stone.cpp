@@ -1,5 +1,5 @@
-// A stone file: [stone], [material], [[reading]] and [fit]. Its mesh is not there, so that what is
-// read before it counts; the readings are read by themselves.
+// A stone file: [stone], [material], [[reading]] and [fit]. Its mesh does not exist, so this tests
+// what is read before the mesh; the readings are read separately.
 
 #include "fit/fit.h"
 #include "fit/readings/measurement.h"

@@ -1,14 +1,14 @@
 // Cases of kind "crystal": one face of a crystal. Expectations: the oracle of tests/render, another
-// derivation in 100 digits, for the very doubles that culet is given.
+// derivation in 100 digits, for the same doubles as culet's.
 //
-// [crystal]: principal indices n + spread * pattern; `outside`, the index around it (1).
-//   lies = random | axis_along_normal | axis_in_facet; `off`: and turned from there by so many
-//   radians. The axis is the first principal axis.
-//   wave = random | normal | optic_axis | outside | inside: how the light arrives: with any K; with
-//   none; along an optic axis but for `past` radians; with |K| of the index outside (critical from
-//   within, grazing from without) times 1 + past; with |K| of the smallest index inside times
-//   1 - past.
-//   draws, seed: so many faces of the kind.
+// [crystal]: principal indices n + spread * pattern; `outside`, the surrounding index (1).
+//   lies = random | axis_along_normal | axis_in_facet; `off`: then turned by so many radians. The
+//   axis is the first principal axis.
+//   wave = random | normal | optic_axis | outside | inside: how the light arrives. random: with any
+//   K; normal: with none; optic_axis: `past` radians from an optic axis; outside: with |K| of the
+//   index outside (critical from within, grazing from without) times 1 + past; inside: with |K| of
+//   the smallest index inside times 1 - past.
+//   draws, seed: the number of faces, and the seed of the draws.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ namespace culet::hard {
 
 namespace {
 
-// v turned towards the direction across it by an angle.
+// v turned by an angle towards the perpendicular direction `across`.
 Vec3 leaning(const Vec3& v, const Vec3& across, double angle) {
     return std::cos(angle) * v + std::sin(angle) * across;
 }
@@ -39,7 +39,7 @@ std::array<Vec3, 3> frame_about(const Vec3& axis, RandomAttitudes& random) {
     return {axis, b, glm::cross(axis, b)};
 }
 
-// An optic axis: of a uniaxial crystal its axis, of a biaxial one a binormal (Born & Wolf 15.3).
+// The axis of a uniaxial crystal, a binormal of a biaxial one (Born & Wolf 15.3).
 Vec3 optic_axis(const oracle::Face& face) {
     std::array<int, 3> rising{0, 1, 2};
     std::sort(rising.begin(), rising.end(), [&](int a, int b) { return face.n[a] < face.n[b]; });
@@ -88,8 +88,8 @@ std::vector<oracle::Face> make_faces(const TomlTable& t) {
             face.K = smallest * (1 - past) * along;
         } else if (wave == "optic_axis") {
             Vec3 axis = optic_axis(face);
-            // Such that the face can be lit from outside too where possible: the normal leans from
-            // the axis by up to half a radian.
+            // Keeps the face lit from outside too where possible: the normal leans from the axis by
+            // up to half a radian.
             face.normal = leaning(axis, random.across(axis, 1), random.between(0.05, 0.5));
             axis = leaning(axis, random.across(axis, 1), past);
             std::array<double, 3> sorted = face.n;
@@ -110,7 +110,7 @@ struct Case {
     double textbook_wave = 0, textbook_field = 0;
 };
 
-// The two ways of the oracle beside the textbook's four roots: each against the nearest.
+// Compares the oracle's two waves with the textbook's four roots, each with the nearest.
 void judge_textbook(Case& c) {
     for (const oracle::Face& face : c.faces) {
         const oracle::Answer truth = oracle::solve(face);
@@ -157,7 +157,7 @@ Subject crystal_subject(const HardCase&, const HardPoint&, const TomlTable& para
     figure("wave_normals", &FaceJudge::Worst::wave);
     figure("rays", &FaceJudge::Worst::ray);
     figure("energy", &FaceJudge::Worst::imbalance);
-    // The same calls, now under the eye of the floating-point flags, and nothing that is no number.
+    // The same calls, with floating-point flags checked and without NaN results.
     is["finite"] = [c] {
         int bad = 0;
         for (const oracle::Face& face : c->faces) {

@@ -10,7 +10,7 @@ namespace culet::hard {
 
 namespace {
 
-// Vectors are arrays of std: their operators must be named.
+// Vectors are std::arrays, so their operators must be named.
 using oracle::operator+;
 using oracle::operator-;
 using oracle::operator*;
@@ -26,7 +26,7 @@ ExactPlane exact(const Plane& plane) {
     return {oracle::exact(plane.normal), Real(plane.offset)};
 }
 
-// Cramer's rule; of three planes with a determinant, in 100 digits.
+// Cramer's rule in 100 digits, for three planes with a non-zero determinant.
 bool meet(const ExactPlane& a, const ExactPlane& b, const ExactPlane& c, RealVec& point) {
     const RealVec bc = oracle::cross(b.normal, c.normal);
     const Real determinant = oracle::dot(a.normal, bc);
@@ -71,7 +71,7 @@ ExactJudgement judge_solid(std::span<const NamedPlane> planes, const Solid& soli
             std::max(judgement.vertex_error,
                      glm::length(oracle::rounded(point - oracle::exact(solid.vertices[v]))));
         for (const NamedPlane& p : planes) {
-            // Far below is far below in doubles too.
+            // A point far below is far below in doubles too.
             if (height_above(p.plane, solid.vertices[v]) < -1e-9 * reach) continue;
             const ExactPlane q = exact(p.plane);
             if (oracle::dot(q.normal, point) - q.offset > Real("1e-70") * Real(reach)) {

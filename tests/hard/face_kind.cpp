@@ -1,9 +1,9 @@
 // Cases of kind "face": one face between two isotropic media. Expectations: Fresnel's formulas in
-// 100 digits, for the very doubles that culet is given.
+// 100 digits, for the same doubles as culet's.
 //
 // [face]: n1, n2; `at` = critical | grazing | brewster | normal | angle_deg; `past`: radians beyond
-// that angle of incidence (before it when negative). `at` = q: the normal part of the wave vector
-// itself, `q` of the q of the critical angle.
+// that angle of incidence (negative: before it). `at` = q: the normal component of the wave vector
+// itself, `q` times that of the critical angle.
 
 #include <fmt/format.h>
 
@@ -152,11 +152,11 @@ Subject face_subject(const HardCase&, const HardPoint&, const TomlTable& paramet
                                  std::abs(std::norm(f.r_p) + f.t_p * f.t_p - 1)),
                         std::nan(""), ""};
     };
-    // A path may be followed either way: as much goes in as would come out.
+    // Reciprocity: the transmission is the same in both directions.
     is["reversed"] = [c] {
         if (c->found.total) return Measured{};
         const FaceAmplitudes back = fresnel(c->n2, c->n1, c->found.q2);
-        // What the last place of q2 does to the way back: from grazing it is nearly all.
+        // The effect of the last place of q2 on the reverse path: nearly everything at grazing.
         double sensitivity = 0;
         for (const int sign : {-1, 1}) {
             const Real q2 = sqrt(Real(c->n2) * c->n2 - Real(c->n1) * c->n1 + Real(c->q1) * c->q1) *
@@ -171,7 +171,7 @@ Subject face_subject(const HardCase&, const HardPoint&, const TomlTable& paramet
             sensitivity / 2.220446049250313e-16, ""};
     };
     is["finite"] = [c] {
-        // What a person would call the call: same numbers, none of them NaN, no invalid operation.
+        // A sane call: same numbers, no NaN, no invalid operation.
         const FaceAmplitudes f = fresnel(c->n1, c->n2, c->q1);
         const bool finite = std::isfinite(std::abs(f.r_s)) && std::isfinite(std::abs(f.r_p)) &&
                             std::isfinite(f.t_s) && std::isfinite(f.t_p) && std::isfinite(f.q2);

@@ -1,14 +1,14 @@
-// Cases of kind "fit": readings of a stone that is known. Expectations: that stone; and that the
-// answer says of itself what it is worth.
+// Cases of kind "fit": readings of a known stone. Expectations: that stone, and an honest statement
+// of how far the answer can be trusted.
 //
 // [stone] as in hard_solids.h (shape = "brilliant": 73 facets, exact meets). [readings]:
 //   set = all (inclinations, azimuths, edges, widths, depth) | angles | lengths | one | none
 //   angle_sigma_deg, length_sigma (of the diameter), `sigma`: factor on both
-//   noise: in standard deviations, drawn from `seed`; alternate: every reading off by so many of
-//   its own, by turns up and down; repeat: so many of each; exact_conflict_deg: two exact readings
-//   of one facet that differ by so much
-// [mesh]: shaken, by so much of the diameter; or shaken_of_shortest_edge, by so much of the truth's
-// shortest edge. [expect]: status, one or several.
+//   noise: in standard deviations, drawn from `seed`; alternate: every reading is off by so many of
+//   its sigmas, up and down in turn; repeat: the number of copies of each; exact_conflict_deg: the
+//   difference of two exact readings of one facet. [mesh]: shaken, by so much of the diameter; or
+//   shaken_of_shortest_edge, by so much of the truth's shortest edge. [expect]: status, one or
+//   several.
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -72,7 +72,8 @@ std::vector<Reading> make_readings(const TomlTable& t, const Solid& truth,
         for (std::int64_t k = 0; k < repeat; ++k) {
             all.push_back(r);
             if (repeat > 1) all.back().id += fmt::format("#{}", k);
-            // Instruments do not say more than 90 degrees: there a pair cannot lie on both sides.
+            // Instruments do not show more than 90 degrees, so a pair there cannot be on both
+            // sides.
             const bool upright =
                 r.kind == ReadingKind::inclination && r.value + by_turns * r.sigma > radians(90);
             if (!upright) all.back().value += by_turns * r.sigma * (k % 2 == 0 ? 1 : -1);
@@ -93,7 +94,7 @@ std::vector<Reading> make_readings(const TomlTable& t, const Solid& truth,
     return all;
 }
 
-// Areas of facets and their angles to the vertical, beside the truth's: whatever the pose.
+// Compares areas of facets and their angles to the vertical with the truth's, in any pose.
 double shape_error(const Solid& solid, const Solid& truth, double scale = 1) {
     const double size = diameter(truth);
     double worst = 0;
@@ -116,7 +117,7 @@ int not_numbers(const FitResult& result) {
         bad += !(f.sigma_offset >= 0) && !std::isnan(f.sigma_offset);
     }
     for (const FittedReading& r : result.readings) {
-        // An azimuth of a facet that is level within its uncertainty: nothing is said of it.
+        // An azimuth of a facet that is level within its uncertainty is left out.
         if (!r.left_out.empty()) continue;
         bad += !std::isfinite(r.fitted + r.residual);
         bad += !(r.redundancy >= -1e-9 && r.redundancy <= 1 + 1e-9);
@@ -187,7 +188,7 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
                         c->result().message};
     };
     is["finite"] = [c] { return Measured{double(not_numbers(c->result())), std::nan(""), ""}; };
-    // Whatever the readings: a stone that could be cut, or the word that it is none.
+    // Whatever the readings: a stone that could be cut, or a statement that it is none.
     is["sound_or_says_so"] = [c] {
         const FitResult& r = c->result();
         if (r.status == FitStatus::not_converged) return Measured{};
@@ -216,7 +217,7 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         if (other.status != c->result().status) return Measured{1e300, std::nan(""), other.message};
         return Measured{shape_error(other.solid, c->result().solid), std::nan(""), ""};
     };
-    // What was in memory before says nothing: new memory is filled with other bytes each time.
+    // Earlier contents of memory must not matter: new memory is filled with other bytes each time.
     is["same_again"] = [c] {
         double apart = 0;
         std::optional<FitResult> before;

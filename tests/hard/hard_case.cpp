@@ -58,14 +58,14 @@ std::vector<HardPoint> points_of(const TomlTable& sweep) {
             point.x = std::nan("");
         }
         for (const std::string& parameter : *parameters) {
-            // Words stay words, though TOML knows `nan` and `inf` as numbers.
+            // Words stay words, though TOML reads `nan` and `inf` as numbers.
             point.overrides.push_back(std::isnan(point.x)
                                           ? fmt::format("{}=\"{}\"", parameter, value)
                                           : fmt::format("{}={}", parameter, value));
         }
         points.push_back(std::move(point));
     }
-    // Where the values do not say how hard they are.
+    // Where the swept values do not say how hard they are.
     if (const auto x = sweep.numbers("x")) {
         if (x->size() != points.size()) sweep.fail("x", "as many `x` as `values`");
         for (std::size_t i = 0; i < points.size(); ++i) points[i].x = (*x)[i];
@@ -135,7 +135,7 @@ std::vector<HardCase> read_corpus(const fs::path& folder) {
 
 namespace {
 
-// As read_toml does with a setting: a number, or else a word.
+// Like read_toml does with a setting: a number if possible, else a word.
 void set(toml::table& root, const std::string& setting) {
     const std::size_t equals = setting.find('=');
     std::vector<std::string> names;

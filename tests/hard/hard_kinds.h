@@ -1,6 +1,6 @@
 #pragma once
-// What can be asked of a hard case. A kind of case makes, from the parameters of its file, a
-// subject: what its invariants measure, by the names that the file uses.
+// The kinds of hard cases. A kind builds a subject from the parameters of a case's file; the
+// subject measures the invariants that the file names.
 
 #include <functional>
 #include <limits>
@@ -12,9 +12,9 @@
 namespace culet::hard {
 
 struct Measured {
-    double error = 0;  ///< against the invariant's limit; NaN fails
-    /// How much more than itself one unit in the last place of the input does to the true answer;
-    /// NaN: not measured.
+    double error = 0;  ///< compared with the invariant's limit; NaN fails
+    /// Change of the true answer, in units in its last place, per unit in the last place of the
+    /// input; NaN: not measured.
     double condition = std::numeric_limits<double>::quiet_NaN();
     std::string about;  ///< for people, when it fails
 };
@@ -23,7 +23,7 @@ using Measure = std::function<Measured()>;
 
 struct Subject {
     std::map<std::string, Measure> invariants;
-    /// Textbook ways to the same figure as the invariant of that name.
+    /// Textbook methods for the same figure as the invariant of that name.
     struct Contrast {
         std::string invariant, name;
         Measure measure;

@@ -1,4 +1,4 @@
-// Registers every file of the corpus as a test of its own: Hard_<section>.<name>.
+// Registers every file of the corpus as a separate test: Hard_<section>.<name>.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ private:
     HardCase case_;
 };
 
-// A corpus that was not found must not pass for one that holds.
+// A corpus that is not found must not pass.
 TEST(HardCorpus, HasCasesInEverySection) {
     std::set<std::string> found;
     for (const HardCase& one : read_corpus(CULET_SOURCE_DIR "/tests/hard"))

@@ -59,13 +59,13 @@ Measured measured(const Measure& measure, bool may_be_refused = false) {
     }
 }
 
-// Dividing nothing by nothing, comparing with no number and the like leave this flag behind.
+// 0/0, comparisons with NaN and the like set this flag.
 bool invalid_operation() {
     return std::fetestexcept(FE_INVALID) != 0;
 }
 
-// Counts the program's own time, so that a busy machine is no hang; what waits for ever is caught
-// by the time limit of the test.
+// Counts the program's own time, so that a busy machine does not look like a hang. The test's time
+// limit catches what waits for ever.
 void set_limit(double seconds) {
     std::signal(SIGPROF, give_up);
     itimerval limit{};

@@ -7,8 +7,8 @@
 
 namespace culet::hard {
 
-/// Fails the running test for whatever does not hold, and leaves the figures in `results` as
-/// SECTION.NAME.json for the page. Ends the program when the case takes longer than it may.
+/// Fails the running test for every invariant that does not hold. Writes the figures for the page
+/// to `results` as SECTION.NAME.json. Ends the program when the case exceeds its time limit.
 void run_case(const HardCase& hard_case, const std::filesystem::path& results);
 
 }  // namespace culet::hard

@@ -17,7 +17,8 @@ namespace culet::hard {
 
 namespace {
 
-// A lat-long map in linear light as PFM, the one format that holds any float: rows from the bottom.
+// Writes a lat-long map in linear light as PFM, the one format that holds any float: rows from the
+// bottom.
 void write_map(const TomlTable& map, const std::filesystem::path& file) {
     map.refuse_unknown({"width", "value", "texel", "texels", "poison"});
     const int width = static_cast<int>(map.integer("width").value_or(16)), height = width / 2;
@@ -39,7 +40,7 @@ void write_map(const TomlTable& map, const std::filesystem::path& file) {
 }  // namespace
 
 Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTable& parameters) {
-    // A folder for each case: several may run at once.
+    // A folder per case: several may run at once.
     const std::filesystem::path folder = std::filesystem::path(CULET_HARD_RESULTS) / "scenes" /
                                          (hard_case.section + "." + hard_case.name);
     std::filesystem::create_directories(folder);
@@ -52,7 +53,7 @@ Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTa
     }
     write_text(folder / (name + ".toml"), scene_text(hard_case, point, name + ".obj"));
     Scene scene = read_scene(folder / (name + ".toml"));
-    scene.stone.solid = solid;  // as it is: a mesh that is read may be repaired
+    scene.stone.solid = solid;  // exactly as it is: reading a mesh may repair it
     return scene;
 }
 

@@ -8,17 +8,18 @@
 
 namespace culet::hard {
 
-/// Read by render/scene/scene_io.h from a file in the results folder, which stays for whoever wants
-/// to look at it with `culet render`.
+/// Read by render/scene/scene_io.h from a file in the results folder, which stays there for
+/// inspection with `culet render`.
 Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTable& parameters);
 
-/// Stone, crystal, camera and lights together. Throws for environment maps, which cannot turn.
+/// Turns stone, crystal, camera and lights together. Throws for environment maps, which cannot be
+/// turned.
 Scene turned(Scene scene, const Turn& turn);
-/// The same in other units of length: `factor` as many to the same thing.
+/// The same scene in other units of length: lengths are multiplied by `factor`.
 Scene scaled(Scene scene, double factor);
-/// Facets in another order.
+/// With the facets in another order.
 Scene reordered(Scene scene, unsigned seed);
-/// Every number of stone, crystal and camera one unit in the last place up or down.
+/// With every number of stone, crystal and camera one unit in the last place up or down.
 Scene nudged(Scene scene, unsigned seed);
 
 }  // namespace culet::hard

@@ -1,7 +1,7 @@
-// hard_search [--cases N | --seconds S] [--seed K] [--keep FOLDER]: looks for hard cases. Each is a
-// case file with every number drawn between easy and absurd; one that does not hold stays in FOLDER
-// (found/ in the results folder), ready to be copied into the corpus.
-// hard_search --again FILE...: runs such files again.
+// hard_search [--cases N | --seconds S] [--seed K] [--keep FOLDER]: searches for hard cases. Each
+// is a case file with every number drawn between easy and absurd. A case that fails is kept in
+// FOLDER (found/ in the results folder), ready to be copied into the corpus. hard_search --again
+// FILE...: runs such files again.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ private:
     std::mt19937_64 random_;
 };
 
-// `scale`: of shapes whose diameter is some 2 to 3.5.
+// `scale`: of shapes with a diameter of some 2 to 3.5.
 std::string stone(Draw& draw, double scale = 1, double turned = 0.7) {
     const std::string shape = draw.one_of(
         {"random", "twins", "nick", "culet", "box", "bipyramid", "sphere", "cut", "culet"});
@@ -154,7 +154,7 @@ std::string picture_case(Draw& draw) {
     const double z = draw.uniform(-1, 1), a = draw.uniform(0, 6.28), r = std::sqrt(1 - z * z);
     const char* engine = draw.one_of({"beams", "beams", "preview", "reference"});
     const int samples = draw.chance(0.5) ? 1 : 4;
-    // The preview is flat over its beams and bounds only what it cut; and samples of a pixel are
+    // The preview is constant over each beam and bounds only its pruning; and its pixel samples are
     // not the reference's.
     const bool bounded = engine == std::string_view("beams") && samples == 1;
     return "kind = \"picture\"\n" + stone(draw) +
@@ -198,7 +198,7 @@ std::string crystal_case(Draw& draw) {
 }
 
 std::string fit_case(Draw& draw) {
-    // Readings are made as of a stone that stands upright: of a turned one they are no stone's.
+    // Readings assume an upright stone: those of a turned one would match no stone.
     return "kind = \"fit\"\n" + stone(draw, draw.chance(0.5) ? 1 : draw.power(-9, 9), 0.2) +
            "contract = 1e-9\n" +
            fmt::format("shift = {}\n", draw.chance(0.7) ? 0 : draw.power(0, 6)) +

@@ -40,7 +40,7 @@ std::vector<NamedPlane> twins(const TomlTable& stone) {
 std::vector<NamedPlane> nick(const TomlTable& stone) {
     const double size = 2 * std::sqrt(3.0) * stone.number("size").value_or(0.1);
     std::vector<NamedPlane> planes = box(2, 2, 2);
-    // The edge at x = z = 1 loses a strip, the corner at (-1, -1, 1) a triangle, of that width.
+    // The edge at x = z = 1 loses a strip of that width, the corner at (-1, -1, 1) a triangle.
     planes.push_back(plane("edge", {1, 0, 1}, std::sqrt(2.0) - size / 2));
     planes.push_back(plane("corner", {-1, -1, 1}, std::sqrt(3.0) - size / std::sqrt(6.0)));
     return planes;
@@ -89,7 +89,7 @@ std::vector<NamedPlane> bipyramid(const TomlTable& stone) {
     return planes;
 }
 
-// Fibonacci's lattice on the sphere.
+// Fibonacci lattice on the sphere.
 std::vector<NamedPlane> sphere(const TomlTable& stone) {
     const int facets = static_cast<int>(stone.number("facets").value_or(100));
     std::vector<NamedPlane> planes;

@@ -21,10 +21,10 @@ namespace culet::hard {
 ///   random     `facets` random planes round a sphere, from `seed`
 ///   cut        of the catalogue: `cut` by name, in mm; `tilt_deg` turns one facet, `facet`
 std::vector<NamedPlane> hard_planes(const TomlTable& stone);
-/// The solid of these planes; `contract`: as a fraction of the diameter, near meets are joined.
+/// The solid of these planes. `contract`: joins near meets, as a fraction of the diameter.
 Solid hard_solid(const TomlTable& stone);
 
-/// A rotation by a quaternion at random, or a mirror image, ...
+/// A random rotation by a quaternion, or a mirror image.
 struct Turn {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     Vec3 operator()(const Vec3& v) const { return v.x * x + v.y * y + v.z * z; }
@@ -34,7 +34,7 @@ Plane turned(const Plane& plane, const Turn& turn);
 Solid turned(Solid solid, const Turn& turn);
 Solid scaled(Solid solid, double factor);
 
-/// One unit in the last place up, down or not at all; 0 stays.
+/// Changes the value by one unit in the last place up, down or not at all; 0 stays.
 double nudged(double value, unsigned& state);
 Vec3 nudged(const Vec3& value, unsigned& state);
 

@@ -1,5 +1,5 @@
-// make_stability_page RESULTS PAGE: the page of what hard_tests left in RESULTS, and verdicts.txt
-// beside it.
+// make_stability_page RESULTS PAGE: writes the page of the results that hard_tests left in RESULTS,
+// and verdicts.txt beside it.
 
 #include <cstdio>
 #include <exception>

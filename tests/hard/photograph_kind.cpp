@@ -2,8 +2,8 @@
 //
 // [photo] and [render]: picture = stone | black | flat | white_pixel | noise; `value`: of flat and
 // of the pixel; `gain` on all; `poison` = nan | inf: of some pixels, which come through a file.
-// [mask]: pixels, so many in the middle of the stone; 0: none given.
-// [expect]: verdict, one or several.
+// [mask]: pixels, the number in the middle of the stone; 0: no mask. [expect]: verdict, one or
+// several.
 
 #include <fmt/format.h>
 

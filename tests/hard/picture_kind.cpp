@@ -1,8 +1,8 @@
 // Cases of kind "picture": a whole render. Expectations: the reference renderer, the furnace (in a
-// light of 1 from everywhere nothing but what was cut is darker), and what moving everything
-// together must leave as it is.
+// light of 1 from everywhere only what was pruned is darker), and invariance when everything moves
+// together.
 //
-// Scenes name their engine; comparisons draw with the reference beside it. [view]: look_at_stone.
+// Scenes name their engine; comparisons also draw with the reference. [view]: look_at_stone.
 
 #include <fmt/format.h>
 
@@ -63,8 +63,8 @@ RenderResult with_threads(Scene scene, int threads) {
     return render(scene);
 }
 
-// The camera's own direction, at `from` diameters when given, and a lens that fits the picture to
-// the stone times `fill`.
+// Keeps the camera's direction; moves it to `from` diameters when given, with a lens that fits the
+// picture to the stone times `fill`.
 void look_at_stone(const TomlTable& view, Scene& scene) {
     view.refuse_unknown({"from", "fill"});
     Camera& camera = scene.camera;
@@ -89,7 +89,7 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
     std::string refusal;
     try {
         c->scene = hard_scene(hard_case, point, parameters);
-        c->scene.settings.threads = 1;  // floating-point flags are a thread's own
+        c->scene.settings.threads = 1;  // floating-point flags are per thread
         if (const auto view = parameters.table("view")) look_at_stone(*view, c->scene);
     } catch (const InputError& error) {
         refusal = error.what();
@@ -120,7 +120,7 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
         }
         return Measured{most, std::nan(""), ""};
     };
-    // Mean radiance and all that did not arrive make up the light of the furnace.
+    // Mean radiance and all losses add up to the furnace's light.
     is["energy"] = [c] {
         const RenderStats& s = c->result().stats;
         return Measured{std::abs(s.mean_radiance + s.remainder + s.cut + s.absorbed - 1),
@@ -130,7 +130,7 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
     is["lost_area"] = [c] {
         return Measured{std::abs(c->result().stats.lost_area), std::nan(""), ""};
     };
-    // Of what the picture's own bound allows.
+    // Relative to the picture's own bound.
     is["within_its_bound"] = [c] {
         Scene reference = c->scene;
         reference.settings.engine = "reference";
@@ -155,7 +155,7 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
         const RenderResult many = with_threads(c->scene, 5);
         return Measured{many.picture.rgb == c->result().picture.rgb ? 0.0 : 1.0, std::nan(""), ""};
     };
-    // Every instruction set that this processor has, beside the one that is chosen.
+    // Every instruction set of this processor, against the chosen one.
     is["instruction_sets"] = [c] {
         const Picture first = c->result().picture;
         const std::vector<std::string> targets = shading_targets();
@@ -193,7 +193,7 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
         return Measured{apart(render(nudged(c->scene, 5)).picture, c->result().picture),
                         std::nan(""), ""};
     };
-    // As much brighter as its lights: against the same scene in a light of 1.
+    // As bright as its lights: against the same scene in a light of 1.
     is["as_bright_as_its_light"] = [c] {
         Scene plain = c->scene;
         const double was = c->scene.lights.constant;

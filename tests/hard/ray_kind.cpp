@@ -1,5 +1,5 @@
 // Cases of kind "ray": the whole tree of light paths behind eye rays. Expectations: energy balance,
-// and what turning, scaling and reordering must leave as it is.
+// and invariance under turning, scaling and reordering.
 //
 // [ray]: aim = vertex | edge | facet | facet_plane | down | random | edge_line | leaves_by_vertex |
 // leaves_by_edge; `miss`: beside it by so many diameters (facet_plane, edge_line: out of the plane
@@ -152,7 +152,7 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
     c->size = diameter(c->scene.stone.solid);
     c->rays = make_rays(parameters.table("ray").value(), c->scene.stone.solid,
                         c->scene.stone.material.index[0].at(589.3));
-    // Rays have their own eyes; the camera only has to stand somewhere outside.
+    // Rays have their own eyes; the camera only has to be somewhere outside.
     c->scene.camera.look_at = centroid(c->scene.stone.solid);
     c->scene.camera.position = c->scene.camera.look_at + 40 * c->size * Vec3{0, 0, 1};
     Subject subject;
@@ -188,7 +188,7 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
             return 1.0;
         });
     };
-    // On an edge either side may answer, but nothing else.
+    // On an edge either neighbour may answer, but nothing else.
     is["one_of_its_neighbours"] = [c] {
         return worst_ray(*c, [&](const EyeRay& ray, unsigned i) {
             const double here = radiance(c->scene, ray);
@@ -243,8 +243,8 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
             return apart(radiance(c->scene, ray), radiance(c->scene, beside));
         });
     };
-    // The same stone as glass of the mean index: where the principal indices fall together, so must
-    // the pictures.
+    // The same stone as glass of the mean index: where the principal indices are equal, so must the
+    // pictures be.
     is["isotropic_limit"] = [c] {
         Scene glass = c->scene;
         Material& m = glass.stone.material;

@@ -1,6 +1,6 @@
 // Cases of kind "solid": planes in, a solid out. Expectations: 100-digit arithmetic
-// (exact_solid.h), and that moving, turning, scaling or reordering the input moves the answer and
-// nothing else.
+// (exact_solid.h), and that moving, turning, scaling or reordering the input has only that effect
+// on the answer.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ struct Case {
     std::vector<NamedPlane> planes;
     Solid solid;
     ExactJudgement judgement;
-    double reach = 0;  // of coordinates: their rounding unit is 2^-53 of it
+    double reach = 0;  // largest coordinate: their rounding error is 2^-53 of it
 };
 
 std::vector<NamedPlane> by(std::vector<NamedPlane> planes, auto change) {
@@ -39,7 +39,7 @@ Solid solid_of(const std::vector<NamedPlane>& planes) {
     return intersect_half_spaces(planes).solid;
 }
 
-// Facets by name have as many corners, and every corner lies near one of the other's.
+// Facets of the same name have equally many corners, and every corner lies near one of the other's.
 Measured same_solid(const Solid& a, const Solid& b, double unit) {
     if (a.facets.size() != b.facets.size() || a.vertices.size() != b.vertices.size()) {
         return {1e300, std::nan(""),
@@ -68,8 +68,8 @@ Measured same_solid(const Solid& a, const Solid& b, double unit) {
 
 Measured sound(const Case& c) {
     std::vector<Fault> faults = find_faults(c.solid);
-    // Two facets that a goniometer would take for one are worth a word to people; they are no fault
-    // of the solid.
+    // Two facets that a goniometer cannot distinguish deserve a note, but are no fault of the
+    // solid.
     std::erase_if(faults, [](const Fault& f) { return f.kind == FaultKind::repeated_plane; });
     return {static_cast<double>(faults.size()), std::nan(""),
             faults.empty() ? "" : faults.front().what};
@@ -97,8 +97,8 @@ Measured read_back(const Case& c) {
         const Solid back = parse_mesh(mesh_text(c.solid, format), format).solid;
         Measured m;
         if (format == MeshFormat::stl) {
-            // No names, no planes: a triangle soup that must still close up. Facets that single
-            // precision does not tell apart are one there.
+            // A triangle soup without names and planes must still close. Facets that single
+            // precision cannot distinguish become one.
             const double off = std::abs(volume(back) / volume(c.solid) - 1);
             m.error = is_closed(back) && off < 1e-6 ? 0 : 1e300;
         } else {
@@ -110,8 +110,8 @@ Measured read_back(const Case& c) {
     return worst;
 }
 
-// A ray from inside leaves where the stone ends: in long double the point lies on the plane that it
-// is said to leave through, and above no other.
+// A ray from inside leaves at the stone's surface: in long double the point lies on the plane of
+// the reported facet, and above no other.
 double misses(const Case& c, const Vec3& from, const Vec3& direction, const BodyHit& hit) {
     using Long = long double;
     const auto height = [&](const Plane& p) {
@@ -123,7 +123,7 @@ double misses(const Case& c, const Vec3& from, const Vec3& direction, const Body
     };
     double worst = std::abs(height(c.solid.facets[std::size_t(hit.facet)].plane));
     for (const Facet& f : c.solid.facets) worst = std::max(worst, height(f.plane));
-    // The distance has the rounding of what it is made of over how steeply the ray runs.
+    // The distance has the rounding error of its terms over the cosine to the facet's normal.
     const double steep = glm::dot(c.solid.facets[std::size_t(hit.facet)].plane.normal, direction);
     return worst * std::max(steep, 1e-3);
 }
@@ -159,7 +159,7 @@ Measured rays_leave(const Case& c) {
     return worst;
 }
 
-// The watertight body that needs no convexity, and the one that is but planes: the same way out.
+// The watertight body for any solid against the one made of planes: the same exit.
 Measured bodies_agree(const Case& c) {
     const ConvexBody planes(c.solid);
     const PolyhedronBody surface(c.solid);
@@ -167,8 +167,8 @@ Measured bodies_agree(const Case& c) {
     with_rays(c, 100, [&](const Vec3& from, const Vec3& direction) {
         if (!planes.contains(from) || !surface.contains(from)) return;
         const BodyHit a = planes.exit(from, direction), b = surface.exit(from, direction, -1);
-        // By an edge they may leave through either facet, and each distance has the rounding of
-        // its facet's plane over how steeply the ray runs to it.
+        // At an edge they may leave through either facet, and each distance has the rounding error
+        // of its facet's plane over the cosine to its normal.
         const double steep =
             std::min(glm::dot(c.solid.facets[std::size_t(a.facet)].plane.normal, direction),
                      glm::dot(c.solid.facets[std::size_t(b.facet)].plane.normal, direction));
@@ -220,7 +220,7 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
         return Measured{c->judgement.volume_error, c->judgement.volume_condition, ""};
     };
     is["planar"] = [c] { return Measured{planarity(c->solid) / c->reach, std::nan(""), ""}; };
-    // Near meets joined: as many corners as the design means, none off its planes by more.
+    // Near meets joined: as many corners as the design intends, none farther off its planes.
     is["meets_join"] = [c, parameters] {
         const TomlTable expect = parameters.table("expect").value();
         const double within = expect.number("join").value() * diameter(c->solid);
@@ -287,7 +287,7 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
                                              p.offset *= 1 + some(random);
                                          }),
                                       1);
-            m.error /= 1e-12 * m.condition;  // of what the change may do
+            m.error /= 1e-12 * m.condition;  // relative to the effect of the change
             return m;
         });
     };

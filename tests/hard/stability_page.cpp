@@ -20,10 +20,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Errors of nothing are drawn here, below one rounding unit.
+// Zero errors are drawn here, below one rounding unit.
 constexpr double k_floor = 1e-17;
 
-// The worst of one invariant over a case's sweep.
+// The worst point of an invariant over a case's sweep.
 struct Worst {
     double error = 0, limit = 0, condition = std::nan("");
     double margin = std::numeric_limits<double>::infinity();  // limit over error, the smallest
@@ -76,11 +76,11 @@ std::string margin_words(const Worst& w) {
 
 struct Place {
     double x;
-    std::string label;  // where the axis does not say it
+    std::string label;  // for axes of words
 };
 
-// Where a point stands on the axis: 0 a decade to the left of the least on a logarithmic one, where
-// all stands by its size.
+// A point's place on the axis; on a logarithmic axis 0 is a decade to the left of the smallest, and
+// points go by their magnitude.
 Place place_of(const Json& point, const Json& result) {
     const double x = number_at(point, "x").value_or(std::nan(""));
     if (!true_at(result, "log_x")) return {x, ""};
@@ -102,7 +102,8 @@ ChartPoint point_at(const Place& place, double error, const std::string& about) 
     return p;
 }
 
-// One chart: an invariant with its limit and the textbook's ways, or several invariants together.
+// One chart: an invariant with its limit and the textbook's methods, or several invariants
+// together.
 std::string chart_of(const Json& result, const std::vector<std::string>& invariants,
                      const std::string& title, bool with_contrasts) {
     Chart chart;
@@ -171,14 +172,14 @@ std::string charts_of(const Json& result) {
     for (const std::string& name : contrasted) {
         text += chart_of(result, {name}, "Beside the textbook: " + plain(name), true);
     }
-    // What is counted, and must be 0, is no curve.
+    // Counts that must be 0 have no curve.
     for (const auto& [name, w] : worst_of(result)) {
         if (w.limit > 0 &&
             std::find(contrasted.begin(), contrasted.end(), name) == contrasted.end()) {
             others.push_back(name);
         }
     }
-    // As many series as a reader, and the palette, can tell apart.
+    // As many series as a reader, and the palette, can distinguish.
     constexpr std::size_t k_most = 6;
     for (std::size_t first = 0; first < others.size(); first += k_most) {
         const std::vector<std::string> some(
@@ -232,7 +233,7 @@ std::vector<View> overview(const std::vector<HardCase>& corpus, const std::vecto
                     of = name;
                 }
             }
-            // A point that could not be made has no invariants.
+            // A point that could not be computed has no invariants.
             for (const Json& p : array_at(results[i], "points"))
                 failed += !p.contains("invariants");
         }

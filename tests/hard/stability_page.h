@@ -1,5 +1,5 @@
 #pragma once
-// docs/stability.html: every hard case, what is hard about it, and how far it is from breaking.
+// docs/stability.html: every hard case, why it is hard, and its margin.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace culet::hard {
 
-/// The page from the results that `run_case` left, one JSON text a case in the corpus's order;
-/// empty: not run.
+/// The page from the results of `run_case`, one JSON text per case in the corpus's order; empty:
+/// not run.
 std::string stability_page(const std::vector<HardCase>& corpus,
                            const std::vector<std::string>& results);
 
-/// One line an invariant and point, `section.case x invariant holds|fails`: what must be the same
-/// of every compiler, flag and processor.
+/// One line per invariant and point, `section.case x invariant holds|fails`: it must be the same
+/// for every compiler, flag and processor.
 std::string verdicts(const std::vector<std::string>& results);
 
 }  // namespace culet::hard

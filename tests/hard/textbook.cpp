@@ -34,7 +34,7 @@ Coefficients operator-(Coefficients a, const Coefficients& b) {
     for (std::size_t i = 0; i < 5; ++i) a[i] -= b[i];
     return a;
 }
-// What is beyond q^4 cancels in the determinant.
+// Terms beyond q^4 cancel in the determinant.
 Coefficients operator*(const Coefficients& a, const Coefficients& b) {
     Coefficients product{};
     for (std::size_t i = 0; i < 5; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// The textbook's ways, in doubles, to hold beside culet's: they are right on paper and lose digits
-// where it is hard.
+// Textbook methods in doubles, for comparison with culet's: correct on paper, but they lose digits
+// in hard cases.
 
 #include <array>
 #include <complex>
@@ -17,8 +17,8 @@ struct FacePowers {
 /// Snell as k = 1 - eta^2 (1 - c^2), Fresnel as differences over sums, T = 1 - R.
 FacePowers textbook_face(double n1, double n2, double cosine);
 
-/// Booker's quartic: det(N N^T - N^2 I + eps) = 0 multiplied out in q, N = K + q n. All four roots
-/// by the eigenvalues of the companion matrix; vibrations as null vectors by cross products.
+/// Booker's quartic: det(N N^T - N^2 I + eps) = 0 expanded in q, N = K + q n. The four roots are
+/// the eigenvalues of the companion matrix; vibrations are null vectors by cross products.
 struct TextbookWave {
     std::complex<double> q;
     ComplexVec3 E;  ///< of length 1
@@ -27,8 +27,8 @@ std::array<TextbookWave, 4> textbook_waves(const std::array<Vec3, 3>& axes,
                                            const std::array<double, 3>& n, const Vec3& K,
                                            const Vec3& normal);
 
-/// A polygon mesh made planar vertex by vertex: every corner goes to the mean of its projections on
-/// the best planes of its facets, `sweeps` times.
+/// Makes a polygon mesh planar vertex by vertex: every corner moves to the mean of its projections
+/// on the best planes of its facets, `sweeps` times.
 void relax_vertices(Solid& solid, int sweeps);
 
 }  // namespace culet::hard

@@ -1,6 +1,6 @@
 // culet is under the MIT licence, so it may use CGAL's kernels, which are under the LGPL, but none
-// of CGAL's packages under the GPL. Source of the expectation: the line SPDX-License-Identifier in
-// CGAL's own headers.
+// of CGAL's packages under the GPL. Expectation: the line SPDX-License-Identifier in CGAL's own
+// headers.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct Header {
     std::set<std::string> includes;
 };
 
-// What stands in `line` between `before` and the next of `ends`, or nothing.
+// The text in `line` between `before` and the next of `ends`; empty if there is none.
 std::string between(const std::string& line, const std::string& before, const char* ends) {
     const std::size_t at = line.find(before);
     if (at == std::string::npos) return "";
@@ -70,7 +70,7 @@ TEST(CgalHeaders, AreOfTheAllowedList) {
     EXPECT_GT(found, 0);
 }
 
-// Also what the allowed headers include, on any condition.
+// Also covers what the allowed headers include, under any condition.
 TEST(CgalHeaders, AreUnderTheLgplWithAllThatTheyInclude) {
     std::set<std::string> open = k_allowed, seen;
     while (!open.empty()) {
@@ -78,7 +78,7 @@ TEST(CgalHeaders, AreUnderTheLgplWithAllThatTheyInclude) {
         open.erase(open.begin());
         const fs::path file = fs::path(CULET_CGAL_FOLDER) / name;
         if (!seen.insert(name).second) continue;
-        // CGAL has headers that only other compilers or its own tests bring.
+        // Some headers come only with other compilers or CGAL's own tests.
         if (!fs::exists(file) && !k_allowed.contains(name)) continue;
         const Header header = read(file);
         EXPECT_TRUE(header.licence.starts_with("LGPL") || header.licence == "BSL-1.0")

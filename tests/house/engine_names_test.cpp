@@ -1,5 +1,6 @@
-// An engine's name has one home (render/scene/engine_name.h, and the engine itself): whoever
-// compares or sets an engine elsewhere names the constant, so that a new one touches no other file.
+// An engine's name is defined once (render/scene/engine_name.h, and the engine itself). Code
+// elsewhere that compares or sets an engine uses the constant, so that a new engine touches no
+// other file.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ TEST(EngineNames, StandInNoOtherFileAsText) {
             std::ifstream text(file);
             std::string line;
             for (int number = 1; std::getline(text, line); ++number) {
-                // What people read may say `engine = "..."`: a quote before it is escaped.
+                // Texts for people may say `engine = "..."`, with an escaped quote.
                 line = std::regex_replace(line, std::regex(R"re(\\")re"), "'");
                 EXPECT_FALSE(std::regex_search(line, as_text))
                     << file.string() << ":" << number << ": " << line;

@@ -1,5 +1,5 @@
-// Dependencies point one way: a file includes its own room and the floors it may see.
-// Source of the expectation: the table of rooms in docs/architecture.md.
+// Dependencies point one way: a file includes its own room and the rooms that it may see.
+// Expectation: the table of rooms in docs/architecture.md.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(Rooms, IncludeOnlyWhatTheyMaySee) {
     }
 }
 
-// The room's own includes of a file, as paths from the source folder.
+// A file's includes of its own room, as paths from the source folder.
 std::set<std::string> includes_of(const fs::path& file) {
     const std::regex quoted_line(R"(^\s*#\s*include\s*"([^"]+)\")");
     std::set<std::string> found;
@@ -66,11 +66,11 @@ std::set<std::string> includes_of(const fs::path& file) {
     return found;
 }
 
-// Heavy libraries stay behind small headers: whatever a room shows to other rooms, with all that it
-// includes, holds only lower rooms, GLM and the standard library (docs/architecture.md). Headers
-// that stay inside their room may show Eigen or OpenCV to their neighbours.
-// The one exception is small dense algebra: its header shows <Eigen/Core>, which is cheap, so that
-// Eigen's decompositions, which are not, compile once for all rooms.
+// Heavy libraries stay behind small headers: headers that a room shows to other rooms, with all
+// their includes, contain only lower rooms, GLM and the standard library (docs/architecture.md).
+// Headers inside a room may use Eigen or OpenCV. The one exception is small dense algebra: its
+// header includes <Eigen/Core>, which is cheap, so that Eigen's expensive decompositions compile
+// once for all rooms.
 const std::string k_shows_eigen = "stone/numbers/dense_algebra.h";
 
 TEST(Rooms, ShowNoHeavyLibraryToOtherRooms) {
@@ -81,8 +81,8 @@ TEST(Rooms, ShowNoHeavyLibraryToOtherRooms) {
     for (const auto& [room, visible] : k_may_see) {
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
             if (!is_source(entry.path())) continue;
-            // In WebAssembly these stand in for files of other rooms, so they see these from
-            // inside.
+            // In WebAssembly these replace files of other rooms, so they include those rooms'
+            // private headers.
             if (entry.path().filename() == "stand_ins.cpp") continue;
             for (const std::string& header : includes_of(entry.path())) {
                 if (!header.starts_with(room + "/")) open.insert(header);
@@ -107,13 +107,12 @@ TEST(Rooms, ShowNoHeavyLibraryToOtherRooms) {
     }
 }
 
-// Folders inside a room do not include each other in circles; files that stand in no folder count
-// as one.
+// Folders of a room do not include each other in cycles; files outside of folders count as one.
 TEST(Rooms, HaveFoldersThatIncludeEachOtherOneWay) {
     const fs::path source(CULET_SOURCE_DIR);
     for (const std::string room :
          {"stone", "page", "fit", "render", "viewer", "compare", "refine", "app", "python"}) {
-        // Of each folder those that it includes, at last also through others.
+        // For each folder those that it includes, directly or through others.
         std::map<std::string, std::set<std::string>> seen_from;
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
             if (!is_source(entry.path())) continue;
@@ -153,9 +152,9 @@ TEST(Rooms, AndTheirTestsNeedNoBench) {
     }
 }
 
-// Pages are made from template files (templates/*.html.mustache), which escape by default: no tag
-// stands in a string of the program. Drawings are SVG, made where they are computed; Mitsuba's
-// scenes are XML.
+// Pages are made from template files (templates/*.html.mustache), which escape by default: no
+// string of the program contains a tag. Exceptions: drawings are SVG, made where they are computed;
+// Mitsuba's scenes are XML.
 TEST(Rooms, KeepHtmlInTemplateFiles) {
     const std::set<std::string> drawings{"page/chart.cpp", "page/drawing.cpp",
                                          "compare/photo/calibration_board.cpp",

@@ -1,6 +1,6 @@
-// Every relative link and every anchor in the Markdown files of the repository leads somewhere.
-// Source of the expectation: the files themselves; anchors are GitHub's (lower case, blanks become
-// hyphens, punctuation goes, repeated headings get -1, -2), and `<a id="...">`.
+// Every relative link and anchor in the repository's Markdown files leads somewhere. Expectation:
+// the files themselves; anchors are GitHub's (lower case, blanks become hyphens, punctuation is
+// dropped, repeated headings get -1, -2), and `<a id="...">`.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Code has no links: it is blanked, line breaks kept, so that line numbers stay right.
+// Code has no links: it is blanked, and line breaks stay so that line numbers remain right.
 std::string without_code(const std::string& text) {
     std::string kept;
     std::istringstream lines(text);
@@ -68,7 +68,7 @@ std::vector<Link> links_of(const std::string& markdown) {
 }
 
 std::string slug(const std::string& heading) {
-    // A link in a heading counts by its text.
+    // A link in a heading counts as its text.
     const std::string text =
         std::regex_replace(heading, std::regex(R"re(\[([^\]]*)\]\([^)]*\))re"), "$1");
     std::string slug;
@@ -126,7 +126,7 @@ std::vector<fs::path> markdown_files() {
     return files;
 }
 
-// What is wrong with the links of one text that stands at `file`; empty: nothing.
+// The faults in the links of the text at `file`.
 std::vector<std::string> faults(const fs::path& file, const std::string& text) {
     std::vector<std::string> faults;
     for (const auto& [target, line] : links_of(text)) {
@@ -168,7 +168,7 @@ TEST(MarkdownLinks, OfEveryPageStandInTheTableOfContents) {
     }
 }
 
-// The check itself: broken links of every kind are found, at their lines, and no others.
+// Tests the check itself: it finds broken links of every kind, at their lines, and no others.
 TEST(MarkdownLinks, ThatAreBrokenAreFound) {
     const fs::path here = fs::path(CULET_SOURCE_DIR) / "docs" / "README.md";
     const std::string text =

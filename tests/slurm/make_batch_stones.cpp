@@ -1,5 +1,5 @@
-// Stones as cutters bring them, as files: make_batch_stones COUNT FOLDER writes stone-00001.toml
-// with its mesh and an evening's readings, and so on. The same names hold the same stones.
+// Stone files as cutters bring them: make_batch_stones COUNT FOLDER writes stone-00001.toml with
+// its mesh and an evening's readings, and so on. The same name always holds the same stone.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// A stranger's program: culet's installed headers and libraries are enough to build it.
+// A third-party program: culet's installed headers and libraries suffice to build it.
 #include <cstdio>
 
 #include "stone/material/material.h"
