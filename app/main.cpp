@@ -51,8 +51,8 @@ int run(int argc, char** argv) {
         "Examples:\n"
         "  culet cut round-brilliant -o brilliant.obj\n"
         "  culet fit stone.toml -o fitted.obj --report fit.json\n"
-        "Exit codes: 0 good, 1 done but not to be trusted, 2 could not be done, 3 our fault, 130 "
-        "interrupted.");
+        "Exit codes: 0 good, 1 done but not to be trusted, 2 could not be done, 3 an error in "
+        "culet, 130 interrupted.");
     int exit_code = exit_good;
     add_command_fit(program, exit_code);
     add_command_render(program, exit_code);
@@ -111,15 +111,15 @@ int main(int argc, char** argv) {
     } catch (const culet::InternalError& error) {
         return complain(
             culet::exit_internal,
-            fmt::format("{} (a fault of culet itself: please report it)", error.what()));
+            fmt::format("{} (an error in culet itself: please report it)", error.what()));
     } catch (const std::bad_alloc&) {
         return complain(culet::exit_impossible, "not enough memory for this input");
     } catch (const std::exception& error) {
         return complain(
             culet::exit_internal,
-            fmt::format("{} (a fault of culet itself: please report it)", error.what()));
+            fmt::format("{} (an error in culet itself: please report it)", error.what()));
     } catch (...) {
         return complain(culet::exit_internal,
-                        "unknown failure (a fault of culet itself: please report it)");
+                        "unknown failure (an error in culet itself: please report it)");
     }
 }

@@ -43,7 +43,7 @@ void say_what_changed(const std::string& what, const FitResult& given, FitResult
     if (what.empty()) return;
     const double before = given.statistics.chi2, after = result.statistics.chi2;
     const std::string note =
-        fmt::format("as everything was given, chi-square is {:.1f}; with this change ({}) {:.1f}",
+        fmt::format("with everything as given, chi-square is {:.1f}; with this change ({}) {:.1f}",
                     before, what, after);
     result.log.changed.push_back({what, result.message, before, after, "chi-square"});
     result.log.notes.push_back(note);

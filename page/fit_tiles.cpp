@@ -72,8 +72,8 @@ std::string facets_tile(const Json& fit) {
             return from != facet.end() && number_at(*from, "inclination").value_or(0) > 0.5;
         });
         return tile("Facets read", fmt::format("{} of {}", read, facets.size()),
-                    source == "catalogue" ? "the rest supposed near the design"
-                                          : "the rest supposed near the mesh as drawn");
+                    source == "catalogue" ? "the rest assumed near the design"
+                                          : "the rest assumed near the mesh as drawn");
     }
     const std::set<std::string> open = open_facets(fit);
     return tile("Facets", std::to_string(facets.size()),

@@ -18,7 +18,7 @@ Json parsed_object(const std::string& text, const char* what) {
     if (text.empty()) return Json::object();
     Json json = Json::parse(text, nullptr, false);
     if (json.is_object()) return json;
-    throw InputError(std::string(what) + ": is no JSON object");
+    throw InputError(std::string(what) + ": is not a JSON object");
 }
 
 template <typename Json>

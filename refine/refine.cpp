@@ -186,10 +186,10 @@ void describe(const std::vector<PhotographCase>& cases, FitResult& result) {
 
 std::vector<std::string> photograph_words(const std::string& name,
                                           const PhotographFinding& finding) {
-    std::vector<std::string> lines{fmt::format(
-        "{}: differs from the stone's picture by {:.3f} (root mean square of the root of light), "
-        "by {:.3f} before; it tells {:.0f} of the planes' moves",
-        name, finding.rms, finding.rms_before, finding.parameters_determined)};
+    std::vector<std::string> lines{
+        fmt::format("{}: differs from the stone's picture by {:.3f} (root mean square of the root "
+                    "of light), by {:.3f} before; it determines {:.0f} combinations of the planes",
+                    name, finding.rms, finding.rms_before, finding.parameters_determined)};
     for (const PhotographFinding::Place& place : finding.contradictions) {
         lines.push_back(fmt::format(
             "{}: at {:.0f}, {:.0f} (facet {}) {}, {:.0f} times what is usual: dust, an inclusion, "

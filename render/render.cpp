@@ -75,8 +75,8 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
             if (!now.merged_waves && now.leave == Planner::Leave::likely &&
                 !scene.settings.meter->limited())
                 tried.push_back(
-                    "what was left out matters more than its pilot saw: drawn with all that is not "
-                    "sure to change nothing");
+                    "an effect that was left out matters more than its pilot showed: drawn again "
+                    "with every effect that may matter");
         } catch (const OverBudget&) {
             if (seconds_before == 0) throw;
             break;  // keep the picture with fewer effects and its error

@@ -56,7 +56,7 @@ std::string packed_engine() {
     const std::string bytes = read_text(file, k_most_bytes);
     constexpr std::string_view k_magic{"\0asm", 4};  // WebAssembly Core Specification, 5.5.16
     if (!bytes.starts_with(k_magic))
-        throw InputError(file, "is no WebAssembly: make it again with `sh viewer/engine.sh`");
+        throw InputError(file, "is not WebAssembly: make it again with `sh viewer/engine.sh`");
     return base64(gzipped(bytes));
 }
 

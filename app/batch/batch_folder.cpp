@@ -54,7 +54,8 @@ int try_lock(const fs::path& folder, int tries) {
     }
     if (taken) {
         ::close(lock);
-        throw InputError(folder, "another culet batch is at work on this share: wait for its end");
+        throw InputError(folder,
+                         "another culet batch is running on this share: wait until it ends");
     }
     struct stat status {};
     if (::fstat(lock, &status) == 0 && status.st_nlink > 0) return lock;
@@ -103,7 +104,8 @@ BatchFolder::BatchFolder(fs::path folder, const std::string& work) : folder_(std
         // A worker of a killed batch holds its lock until it is killed too, a moment later.
         lock_ = try_lock(work_, k_tries);
     }
-    if (lock_ < 0) throw InputError(work_, "comes and goes: is another culet batch at work?");
+    if (lock_ < 0)
+        throw InputError(work_, "appears and disappears: is another culet batch running?");
     // Remove what a killed process left.
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(work_, ignored)) {

@@ -140,7 +140,7 @@ JobColumns columns_of_jobs(const CsvRow& header, const fs::path& file) {
         if (name.empty()) continue;
         if (name.find('.') == std::string::npos) name = lower_case(name);
         if (!seen.insert(name).second)
-            throw InputError(file, header.line, fmt::format("column \"{}\" stands twice", name));
+            throw InputError(file, header.line, fmt::format("column \"{}\" appears twice", name));
         const int at = static_cast<int>(i);
         if (name == "stone") {
             columns.stone = at;
@@ -208,7 +208,7 @@ BatchList read_job_table(const fs::path& file) {
         const auto [first, is_new] = lines.emplace(job.name, table.rows[r].line);
         if (!is_new)
             throw InputError(file, table.rows[r].line,
-                             fmt::format("the job \"{}\" stands in line {} already: give each a "
+                             fmt::format("the job \"{}\" appears in line {} already: give each a "
                                          "name of its own in a column name",
                                          job.name, first->second));
         list.jobs.push_back(std::move(job));

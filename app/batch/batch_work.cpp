@@ -245,7 +245,7 @@ int work_on_job(const BatchList& list, const BatchJob& job, const BatchSettings&
         throw;
     } catch (const std::exception& error) {
         code = fail(work.record, exit_internal,
-                    fmt::format("{} (a fault of culet itself: please report it)", error.what()));
+                    fmt::format("{} (an error in culet itself: please report it)", error.what()));
     }
     write_record(work.record, work.folder);
     return code;

@@ -192,9 +192,9 @@ void refuse_results(const BatchList& list, const BatchFolder& folder, const Batc
         std::error_code problem;
         const fs::path there = job_folder(folder.path(), list.jobs[i].name);
         if (share.has(i) && fs::exists(there, problem))
-            throw InputError(there,
-                             "is there already: --resume goes on with these results, "
-                             "another -o keeps them");
+            throw InputError(
+                there,
+                "exists already: --resume continues with these results, another -o keeps them");
     }
 }
 
@@ -205,8 +205,8 @@ void keep_plan(const std::string& plan, const BatchFolder& folder, bool resume) 
     if (there && read_text(file) == plan) return;
     if (there && !resume)
         throw InputError(file,
-                         "is of another batch, or of other settings: --resume does anew what "
-                         "has changed, another -o keeps these results");
+                         "is of another batch or other settings: --resume does again what has "
+                         "changed, another -o keeps these results");
     folder.write(k_plan_file, plan);
 }
 

@@ -135,8 +135,8 @@ void add_command_batch(CLI::App& program, int& exit_code) {
                      "one share of the jobs: K from 0 to N - 1; all shares write to one folder")
         ->type_name("K/N");
     batch->add_flag("--resume", command->resume,
-                    "go on with results that are there: finished jobs whose files and settings "
-                    "are as they were stay");
+                    "continue with results that are there: finished jobs whose files and settings "
+                    "have not changed are kept");
     batch
         ->add_option("--merge", command->merge,
                      "table.csv, table.json and index.html of all results in the folder")

@@ -132,7 +132,7 @@ int run_cut(const std::string& name, const CutOptions& options) {
         write_solid(solid, options.out);
     }
     if (!options.json.empty()) write_text(options.json, proportions);
-    say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm3", name,
+    say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm³", name,
                     solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
                     volume(solid)),
         options.common.quiet || options.json == "-");

@@ -177,7 +177,7 @@ void add_solid_options(CLI::App& command, InfoOptions& options) {
         ->capture_default_str();
     command
         .add_option("--width", options.width,
-                    "tell of a mesh or cut design at this width (W), in mm")
+                    "describe a mesh or cut design at this width (W), in mm")
         ->type_name("6.5mm");
     command.add_flag("--cutting-list", options.describe.cutting_list,
                      "of a mesh or cut design: angle and index settings, tier by tier");
@@ -197,8 +197,8 @@ void add_solid_options(CLI::App& command, InfoOptions& options) {
         ->type_name("TEETH");
     command
         .add_option("--goniometer", options.describe.cutting.shown_deg,
-                    "what yours shows, degrees: facets of a tier that differ by less are cut "
-                    "alike (0.1)")
+                    "step of your machine's scale, degrees: facets of a tier that differ by less "
+                    "are cut alike (0.1)")
         ->check(CLI::Range(0.001, 5.0))
         ->type_name("DEG");
     add_form_options(command, options.form);
@@ -207,7 +207,7 @@ void add_solid_options(CLI::App& command, InfoOptions& options) {
                     "for the weight in the form, and the stone file")
         ->type_name("NAME");
     command.add_flag("--may-be-concave", options.describe.may_be_concave,
-                     "a dented stone is no fault");
+                     "a stone that is not convex is not a fault");
 }
 
 }  // namespace

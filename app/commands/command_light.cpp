@@ -144,7 +144,7 @@ void say_light(const LightProbe& probe, bool quiet) {
                 "near light: {:.4g} x {:.4g}, {:.4g} away{}, radiance {:.4g}, {:.4g}, {:.4g}",
                 2 * glm::length(light.window.u), 2 * glm::length(light.window.v), light.distance,
                 light.from == "parallax"
-                    ? fmt::format(" +- {:.2g}", light.distance_sigma)
+                    ? fmt::format(" ± {:.2g}", light.distance_sigma)
                     : fmt::format(" ({})", light.from == "distance" ? "given" : light.from),
                 light.radiance[0], light.radiance[1], light.radiance[2]),
             quiet);

@@ -150,9 +150,9 @@ int run_outline(const OutlineArguments& a) {
     say(fmt::format("{} outlines, {} points; the stone is {:.3f} to {:.3f} mm wide",
                     outlines.size(), points, scale * widths.least, scale * widths.largest),
         a.common.quiet);
-    say(fmt::format("axis {:.2f} px from the middle (+- {:.2f}), turned {:.3f} degrees in the "
-                    "picture (+- {:.3f}), camera {:.3f} degrees above the table (+- {:.3f}); "
-                    "outlines agree within {:.2f} px",
+    say(fmt::format("axis {:.2f} ± {:.2f} px from the middle, turned {:.3f} ± {:.3f} degrees in "
+                    "the picture, camera {:.3f} ± {:.3f} degrees above the table; outlines agree "
+                    "within {:.2f} px",
                     table.axis_px, table.sigma_axis_px, degrees(table.roll),
                     degrees(table.sigma_roll), degrees(table.elevation),
                     degrees(table.sigma_elevation), table.residual_px),

@@ -49,24 +49,23 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
         say("refused: " + pose.trouble + ". " + pose.remedy + ".", quiet);
         return;
     }
-    say(fmt::format("found: {:.1f} degrees from the start, {:.3f} times its size; sure to {:.2f} "
-                    "degrees and {:.2f} pixels (99 %)",
+    say(fmt::format("found: {:.1f} degrees from the start, {:.3f} times its size; uncertainty "
+                    "±{:.2f} degrees, ±{:.2f} px (99 %)",
                     degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
                     pose.sigmas.shift_99_px),
         quiet);
     if (pose.sigmas.angle_99 > k_sure_pose)
-        say("that is not very sure: tilt the stone by 10 to 20 degrees and take it larger, or fit "
-            "it to more readings; culet compare looks for a surer one by the picture itself",
+        say("the view is uncertain: photograph the stone larger and tilted by 10 to 20 degrees, or "
+            "fit it to more readings; culet compare refines the view by the picture itself",
             quiet);
     if (pose.mirrored)
         say("the photograph is mirrored: turn it left to right before it is compared", quiet);
     if (!pose.chirality_known)
-        say("a stone of this symmetry looks alike in a mirror: taken as not mirrored", quiet);
+        say("a stone of this symmetry equals its mirror image: taken as not mirrored", quiet);
     if (pose.look_alikes > 0)
-        say(fmt::format(
-                "the stone looks alike from {} other view{}: the one nearest to the scene's "
-                "camera was taken",
-                pose.look_alikes, pose.look_alikes == 1 ? "" : "s"),
+        say(fmt::format("the stone looks the same from {} other view{}: the one nearest to the "
+                        "scene's camera was taken",
+                        pose.look_alikes, pose.look_alikes == 1 ? "" : "s"),
             quiet);
 }
 

@@ -112,7 +112,7 @@ int run_study(const StudyCommand& command) {
         say(fmt::format("limit: {}", study.limit_message), command.common.quiet);
     }
     if (!study.left_out.empty()) {
-        say(fmt::format("{} rows not reached within {:g} s; raise --budget, or lower --draws",
+        say(fmt::format("{} rows were not reached within {:g} s; raise --budget, or lower --draws",
                         study.left_out.size(), options.budget_seconds),
             command.common.quiet);
     }

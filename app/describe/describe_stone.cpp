@@ -89,7 +89,7 @@ Description describe_stone_file(const DescribeOptions& options) {
     object["volume_mm3"] = volume_mm3;
     if (const auto density = stone.material.density_g_cm3) {
         object["carat"] = carat(volume_mm3, *density);
-        about.lines.push_back(fmt::format("volume {:.5g} mm3, {:.4g} ct at {:g} g/cm3", volume_mm3,
+        about.lines.push_back(fmt::format("volume {:.5g} mm³, {:.4g} ct at {:g} g/cm3", volume_mm3,
                                           carat(volume_mm3, *density), *density));
     }
     describe_solid(stone.solid, stone.convex && !options.may_be_concave, options.facet_table,

@@ -98,7 +98,7 @@ StoneUncertainty uncertainty_of(const FitResult& result) {
 StoneUncertainty uncertainty_in(const fs::path& report, const Stone& stone) {
     const ReportJson json = ReportJson::parse(read_text(report), nullptr, false);
     if (!json.is_object() || !json.contains("facets") || !json["facets"].is_array())
-        throw InputError(report, "is no report of culet fit (--report FIT.json writes one)");
+        throw InputError(report, "is not a report of culet fit (--report FIT.json writes one)");
     const double ratio = unit_ratio(json, stone);
     std::vector<std::string> names;
     std::vector<FacetUncertainty> sigmas;

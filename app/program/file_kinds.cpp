@@ -86,8 +86,8 @@ void require_photographs_first(const std::vector<std::string>& pictures, bool si
     for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
         if (extension_of(pictures[i]) == "toml") {
             throw InputError(pictures[i],
-                             fmt::format("is no picture: photographs come first and a scene last, "
-                                         "culet compare {} {} -o DIR",
+                             fmt::format("is not a picture: photographs come first and a scene "
+                                         "last, culet compare {} {} -o DIR",
                                          last, pictures[i]));
         }
         require_kind(pictures[i], {FileKind::picture}, "culet compare");

@@ -164,14 +164,14 @@ void add_uncertainty(const RenderOptions& options, const Scene& scene,
         if (found.sigma_luminance[p] > 0 && light > 0)
             relative.push_back(found.sigma_luminance[p] / static_cast<float>(light));
     }
-    say(fmt::format("what the readings leave open moves half of the stone's pixels by more than "
+    say(fmt::format("the readings' uncertainty changes half of the stone's pixels by more than "
                     "{:.0f} % (one sigma, {} draws{}); culet compare PHOTO {} shows where a "
-                    "photograph is within it",
+                    "photograph lies within it",
                     relative.empty() ? 0 : 100 * double(quantile(relative, 0.5)), found.draws,
                     found.correlated ? "" : ", facets taken as independent", options.out),
         quiet);
     if (found.left_out > 0)
-        say(fmt::format("{} draws were no closed stone and are left out", found.left_out), quiet);
+        say(fmt::format("{} draws gave no closed stone and are left out", found.left_out), quiet);
     if (uncertainty.unknown > 0)
         say(fmt::format("{} facets have no uncertainty in {} and count as known exactly",
                         uncertainty.unknown, options.uncertainty),
@@ -229,14 +229,13 @@ int run_render(const RenderOptions& options) {
     output.look_as(options.exposure, options.tonemap, scene);
     const bool nears_truth = engine_of(scene.settings).approaches_truth();
     if (options.verify && !nears_truth)
-        throw InputError(
-            fmt::format("--verify holds a picture against the truth, which engine {} "
-                        "does not draw",
-                        scene.settings.engine));
+        throw InputError(fmt::format(
+            "--verify compares a picture with the reference, which cannot judge engine {}",
+            scene.settings.engine));
     if (options.verify && scene.has_objects())
         throw InputError(
-            "--verify holds a picture against the truth at some pixels; with objects or several "
-            "stones that is as noisy as the picture: say --set render.samples=256");
+            "--verify compares some pixels with the reference; with objects or several stones the "
+            "reference is as noisy as the picture: say --set render.samples=256");
     const bool paced = !saved && allow_usual_time(scene);
 
     const bool quiet = options.common.quiet;

@@ -52,8 +52,8 @@ void add_settings(CLI::App& command, RenderOptions& options, CLI::Option* plan) 
         ->excludes(plan);
     command
         .add_option("--check", options.check,
-                    "full: drawn until it is within the tolerance; estimate: drawn once, and held "
-                    "against the truth; none: drawn once")
+                    "full: drawn until it is within the tolerance; estimate: drawn once, and "
+                    "compared with the reference; none: drawn once")
         ->check(CLI::IsMember({"none", "estimate", "full"}))
         ->excludes(plan);
 }
@@ -96,7 +96,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command.add_flag("--explain", options.explain,
                      "print what would be simulated, left out, and why; draw nothing");
     command.add_flag("--verify", options.verify,
-                     "hold some pixels against the reference with everything on");
+                     "compare some pixels with the reference, every effect on");
     CLI::Option* const uncertainty =
         command
             .add_option("--uncertainty", options.uncertainty,

@@ -10,15 +10,14 @@ namespace culet {
 
 void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet) {
     if (std::isnan(stats.error_bound) && check == Check::none) {
-        say("not checked: nobody knows how near the picture is", quiet);
+        say("not checked: the picture's error is unknown", quiet);
         return;
     }
     if (std::isnan(stats.error_bound)) {
         if (!paced) return;  // a note says why
-        say(fmt::format(
-                "a rough picture, nobody knows how near: one that is checked takes more than "
-                "about {} s; --tolerance 0.2 draws it",
-                k_usual_seconds),
+        say(fmt::format("a rough picture of unknown error: one that is checked takes more than "
+                        "about {} s; --tolerance 0.2 draws it",
+                        k_usual_seconds),
             quiet);
         return;
     }
@@ -39,8 +38,8 @@ void say_all_about(const RenderStats& stats) {
             false);
     }
     say(fmt::format(
-            "{} rays, {} beams in {:.2f} s; remainder {:.2g}, cut {:.2g}, error bound "
-            "{:.2g} of the mean",
+            "{} rays, {} beams in {:.2f} s; light not followed {:.2g}, light cut {:.2g}, error "
+            "bound {:.2g} of the mean",
             stats.rays, stats.beams,
             stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check,
             stats.remainder, stats.cut, stats.error_bound),

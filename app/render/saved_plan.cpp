@@ -13,7 +13,8 @@ namespace culet {
 SavedPlan read_saved_plan(const std::filesystem::path& file) {
     using Json = nlohmann::json;
     const Json stats = Json::parse(read_text(file), nullptr, false);
-    if (stats.is_discarded()) throw InputError(file, "is no JSON: --plan takes what --stats wrote");
+    if (stats.is_discarded())
+        throw InputError(file, "is not JSON: --plan takes what --stats wrote");
     // `--explain --stats` writes the plan itself.
     const Json plan = stats.is_object() && stats.contains("plan") ? stats["plan"] : stats;
     if (!plan.is_object() || !plan.contains("settings") || !plan["settings"].is_object() ||

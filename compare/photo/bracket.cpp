@@ -88,9 +88,9 @@ private:
 
     void check(const Photo& photo, const std::filesystem::path& file) {
         if (photo.not_finite > 0) {
-            throw InputError(file, fmt::format("{} samples are no numbers (NaN or infinite): "
-                                               "export it again",
-                                               photo.not_finite));
+            throw InputError(
+                file, fmt::format("{} samples are not numbers (NaN or infinite): export it again",
+                                  photo.not_finite));
         }
         const std::string size = fmt::format("{} x {} pixels", photo.width, photo.height);
         if (size_.empty()) {
@@ -242,7 +242,7 @@ private:
         result_.exposure_ratios.push_back(ratio);
         if (std::abs(std::log2(ratio)) > 0.15) {
             result_.notes.push_back(fmt::format(
-                "{} to {}: the pictures say {:.2f} times the ratio of exposures that was stated",
+                "{} to {}: by the pictures, the ratio of exposures is {:.2f} times the stated one",
                 shots_[bright].name, shots_[dark].name, ratio));
         }
     }

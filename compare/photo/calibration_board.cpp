@@ -137,8 +137,9 @@ LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& picture
     }
     for (const BoardPicture& picture : result.pictures) {
         if (picture.corners < k_least_corners) {
-            result.notes.push_back(fmt::format("{}: left out, {} corners of the board found",
-                                               picture.name, picture.corners));
+            result.notes.push_back(
+                fmt::format("{}: left out, only {} corners of the board were found", picture.name,
+                            picture.corners));
         }
     }
     if (static_cast<int>(used.size()) < k_least_pictures) {

@@ -100,8 +100,8 @@ double parse_exposure(const std::string& text) {
     if (stops) value = std::exp2(value);
     if (!(std::isfinite(value) && value > 0)) {
         throw InputError(
-            fmt::format("\"{}\" is no exposure: write seconds, 1/125 or 0.008, or "
-                        "stops against the first, -2EV",
+            fmt::format("\"{}\" is not an exposure: write seconds, 1/125 or 0.008, or stops "
+                        "against the first, -2EV",
                         text));
     }
     return value;

@@ -17,8 +17,7 @@ Lens read_lens(const std::filesystem::path& file) {
     const auto table = root.table("lens");
     if (!table) {
         throw InputError(file,
-                         "is no camera file: it has no table [lens] (culet camera writes "
-                         "one)");
+                         "is not a camera file: it has no table [lens] (culet camera writes one)");
     }
     table->refuse_unknown(
         {"size", "focal_px", "principal_px", "distortion", "residual_px", "pictures", "camera"});

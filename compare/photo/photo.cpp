@@ -37,7 +37,7 @@ void note_camera(Photo& photo, const std::string& bytes) {
         photo.not_photometric = photo.shot.processed;
     } else if (format == "JPEG" && photo.photometric) {
         photo.photometric = false;
-        photo.not_photometric = "a JPEG, whose tone curve is the camera's own secret";
+        photo.not_photometric = "a JPEG, whose tone curve is the camera's own";
     }
     if (format == "JPEG") photo.encoding += " JPEG";
 }

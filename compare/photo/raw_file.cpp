@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t k_most_bytes = std::size_t{1} << 30;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
-    throw InputError(file, fmt::format("is no raw file that can be read here ({}); raw files can "
-                                       "be converted to DNG or 16-bit TIFF first",
+    throw InputError(file, fmt::format("is not a raw file that can be read here ({}); raw files "
+                                       "can be converted to DNG or 16-bit TIFF first",
                                        why));
 }
 

@@ -82,8 +82,8 @@ GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
     grey.over_exposed = clipped / n;
     if (grey.over_exposed > 0.02) {
         throw InputError(
-            fmt::format("{:.0f} % of the grey card is over-exposed: it says nothing "
-                        "about white; expose it darker",
+            fmt::format("{:.0f} % of the grey card is over-exposed: white cannot be found from it; "
+                        "expose it darker",
                         100 * grey.over_exposed));
     }
     std::array<double, 3> middle{};

@@ -137,11 +137,11 @@ void warn_of_look_alikes(const PoseTask& task, FoundPose& pose) {
         if (!other.symmetric || other.mirrored != pose.mirrored || other.lead > -k_tie ||
             other.start_angle <= task.options.search)
             continue;
-        pose.warnings.push_back(fmt::format(
-            "turned by {:.0f} degrees the stone looks alike and fits the photograph somewhat "
-            "better: the view nearer to the scene's camera was taken. If the stone was held the "
-            "other way round, turn the scene's camera",
-            degrees(other.turn)));
+        pose.warnings.push_back(
+            fmt::format("turned by {:.0f} degrees the stone looks nearly the same and fits the "
+                        "photograph somewhat better: the view nearer to the scene's camera was "
+                        "taken. If the stone was held the other way round, turn the scene's camera",
+                        degrees(other.turn)));
         return;
     }
 }

@@ -29,8 +29,8 @@ void judge_by_rotations(Comparison& result) {
     if (result.null_draws < 20 || !zncc.z) {
         result.verdict = Verdict::no_evidence;
         result.reason =
-            "the render is much the same however it is turned, so that this test "
-            "cannot tell a match from chance";
+            "the render looks much the same however it is turned, so this test cannot tell a match "
+            "from chance";
         return;
     }
     const double enough = result.geometry_only ? k_match_cw_ssim : k_match_zncc;

@@ -146,9 +146,8 @@ MaybeVerdict unsettled(const Fit& fit) {
     }
     if (fit.finished.converged) return {};
     return no_stone(
-        fmt::format("the fit does not settle ({} steps): some part of the stone is hardly held by "
-                    "the readings; "
-                    "look at the suspects, read more, or give [fit] a prior",
+        fmt::format("the fit did not converge in {} steps: the readings hardly determine some part "
+                    "of the stone; check the suspects, read more, or give [fit] a prior",
                     fit.finished.iterations));
 }
 
@@ -198,11 +197,11 @@ std::string too_good(const Fit& fit) {
     constexpr double k_exactly = 1e6;
     const double times = std::sqrt(statistics.dof / std::max(statistics.chi2, 1e-300));
     return fmt::format(
-        "the readings agree {} (a chi-square of {:.3g} or less, where {:.0f} is expected, comes by "
-        "chance less often than once in {:.0f} times): the sigmas are too large, or values were "
-        "copied or computed",
+        "the readings agree {}: the sigmas are too large, or values were copied or computed "
+        "(chi-square {:.3g} where {:.0f} is expected; by chance less often than once in {:.0f} "
+        "times)",
         times < k_exactly ? fmt::format("{:.2g} times better than their sigmas allow", times)
-                          : "exactly, as their sigmas do not allow",
+                          : "exactly, which their sigmas make unlikely",
         statistics.chi2, statistics.dof, 1 / fit.level);
 }
 

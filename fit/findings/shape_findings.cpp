@@ -81,8 +81,8 @@ std::string OpenShape::words(const ShapeFinding& finding) const {
         return fmt::format("the readings leave no room for facet {}", first);
     }
     if (finding.kind == Shapes::facet_open) {
-        return fmt::format("facet {} has an area of {:.2g} {}2, sigma {:.2g}: it may not be there",
-                           first, finding.value, name_of(result_.unit), finding.sigma);
+        return fmt::format("facet {} has an area of {:.2g} ± {:.2g} {}²: it may not be there",
+                           first, finding.value, finding.sigma, name_of(result_.unit));
     }
     std::string edge = first + "|" + finding.facets[1];
     if (finding.facets.size() > 2) {
@@ -90,11 +90,10 @@ std::string OpenShape::words(const ShapeFinding& finding) const {
                             name_list({finding.facets.begin() + 2, finding.facets.end()}));
     }
     const bool vanishes = finding.kind == Shapes::edge_vanishes;
-    return fmt::format(
-        "{}edge {} {} {} long, sigma {}: {}", vanishes ? "the readings want " : "", edge,
-        vanishes ? "to be" : "is", length_words(finding.value, result_.unit),
-        length_words(finding.sigma, result_.unit),
-        vanishes ? "it is held at zero" : "the readings do not tell on which side of zero");
+    return fmt::format("{}edge {} {} {} ± {} long: {}", vanishes ? "the readings want " : "",
+                       edge, vanishes ? "to be" : "is", length_words(finding.value, result_.unit),
+                       length_words(finding.sigma, result_.unit),
+                       vanishes ? "it is held at zero" : "the readings leave its sign open");
 }
 
 void OpenShape::add(Shapes kind, std::vector<std::string> facets, double unit, double value,

@@ -52,7 +52,7 @@ std::string verdict(const FitResult& result) {
     switch (result.status) {
         case FitStatus::converged:
             if (!(statistics.dof > 0)) {
-                return "This stone has these readings: there are no more than it needs, so that "
+                return "This stone has these readings: there are only as many as it needs, so that "
                        "none checks another.";
             }
             return "The readings agree with this stone: they are " + misfit_words(statistics) + ".";
@@ -95,8 +95,8 @@ std::string supposed(const FitResult& result) {
     int read = 0;
     for (const FittedFacet& f : result.facets) read += f.read_inclination > 0.5;
     return fmt::format(
-        "The inclinations of {} of {} facets rest on the readings; the rest is supposed to be near "
-        "{}: tiers within {:.2g} degrees, the facets of a tier alike within {:.2g}.",
+        "The inclinations of {} of {} facets rest on the readings; the rest are assumed to lie "
+        "near {}: tiers within {:.2g} degrees, the facets of a tier alike within {:.2g}.",
         read, result.facets.size(),
         prior.source == Prior::Source::catalogue ? "the design that the mesh was made by"
                                                  : "the mesh as it was drawn",
@@ -108,8 +108,8 @@ std::string missed_meets(const FitResult& result) {
     const MeetReport& meets = result.statistics.meets;
     if (result.statistics.prior.source == Prior::Source::none || !meets.estimated) return {};
     return fmt::format(
-        "By the readings the planes may miss their common corners by {:.2g} {}: the mesh has short "
-        "edges there ([fit] meets = \"exact\" closes them).",
+        "Within the readings the planes may miss their common corners by {:.2g} {}: the mesh has "
+        "short edges there ([fit] meets = \"exact\" closes them).",
         meets.sigma, name_of(result.unit));
 }
 
@@ -134,7 +134,8 @@ std::string least_sure(const FitResult& result) {
         worst.push_back(fmt::format("{} ({:.2g} degrees)", sigmas[i].second, sigmas[i].first));
     }
     return fmt::format(
-        "Least sure are {}; half of the facets are known to {:.2g} degrees or better.",
+        "The least certain facets are {}; half of the facets are known to ±{:.2g} degrees or "
+        "better.",
         name_list(worst), sigmas[sigmas.size() / 2].first);
 }
 
@@ -148,7 +149,7 @@ std::string suspect_words(const FitResult& result, const std::string& id) {
             std::find_if(result.findings.proposals.begin(), result.findings.proposals.end(),
                          [&](const Proposal& p) { return p.id == id && !is_relation(r.kind); });
         if (proposal != result.findings.proposals.end()) {
-            text += fmt::format(", the others say {:.6g} +- {:.2g}{}", unit * proposal->estimate,
+            text += fmt::format(", the others say {:.6g} ± {:.2g}{}", unit * proposal->estimate,
                                 unit * proposal->sigma, slip_words(*proposal));
         }
         return text + fmt::format(", off by {:.1f} sigma)", std::abs(r.normalized));
@@ -183,8 +184,9 @@ std::string unchecked(const FitResult& result) {
         }
     }
     if (ids.empty()) return {};
-    return fmt::format("Nothing checks {} of {} readings ({}): their errors would not show.",
-                       ids.size(), result.readings.size(), name_list(ids, k_named));
+    return fmt::format(
+        "Nothing checks {} of {} readings ({}): an error in them would go unnoticed.", ids.size(),
+        result.readings.size(), name_list(ids, k_named));
 }
 
 // If the table leans, angles from it differ around the stone.
@@ -193,7 +195,7 @@ std::string own_axis(const FitResult& result) {
     const double sigma = std::hypot(axis.sigma, axis.scatter_sigma);
     if (!axis.known || !(axis.tilt > 4 * sigma)) return {};
     return fmt::format(
-        "The table leans {:.2g} +- {:.1g} degrees against the stone's own axis, towards azimuth "
+        "The table leans {:.2g} ± {:.1g} degrees against the stone's own axis, towards azimuth "
         "{:.0f}: angles from the table differ around the stone by twice as much.",
         degrees(axis.tilt), degrees(sigma), degrees(axis.azimuth));
 }
@@ -203,10 +205,12 @@ std::string next_reading(const FitResult& result) {
     const NextReading& best = result.findings.help.front();
     // A tenth of the variance is 5 % of the uncertainty; less is not worth the work.
     if (!best.closes && best.reduces < 0.1) return {};
-    return fmt::format("What would help most: {} ({}).", bench_words(best),
-                       best.closes ? "it would settle something that is open"
-                                   : fmt::format("it would make all facets together {:.0f} % surer",
-                                                 100 * (1 - std::sqrt(1 - best.reduces))));
+    return fmt::format(
+        "What would help most: {} ({}).", bench_words(best),
+        best.closes
+            ? "it would determine something that is undetermined"
+            : fmt::format("it would reduce the uncertainty of all facets together by {:.0f} %",
+                          100 * (1 - std::sqrt(1 - best.reduces))));
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ void conclude(SymmetryReport& report) {
         std::find_if(report.groups.begin(), report.groups.end(),
                      [](const GroupTest& test) { return test.supported && test.determined; });
     const std::string spread =
-        fmt::format("facets within {} degrees of it (sigma {})", in_degrees(report.sigma),
+        fmt::format("facets within {} ± {} degrees of it", in_degrees(report.sigma),
                     in_degrees(report.sigma_sigma));
     if (proposed != report.groups.end()) {
         report.proposed = proposed->group;

@@ -114,7 +114,7 @@ std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
     const bool one = odd.facets.size() == 1;
     const double off = degrees(std::abs(odd.off)), sigma = degrees(odd.sigma);
     const int digits = sigma < 0.05 ? 2 : 1;
-    return fmt::format("{} {} {:.{}f} degrees (+- {:.{}f}) {} than the other {}",
+    return fmt::format("{} {} {:.{}f} ± {:.{}f} degrees {} than the other {}",
                        all_of_them(odd.facets), one ? "is" : "are", off, digits, sigma, digits,
                        odd.off > 0 ? "steeper" : "flatter", tier.words);
 }

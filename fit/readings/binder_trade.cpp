@@ -214,7 +214,7 @@ std::vector<Reading> Binder::of_table(const Reading& base) const {
     }
     azimuths = distinct_half_turns(std::move(azimuths));
     if (azimuths.size() < half || half < 3 || largest > k_regular * least) {
-        fail(fmt::format("the table of the mesh is no regular polygon, so it has no one width{}",
+        fail(fmt::format("the table of the mesh is not a regular polygon, so it has no one width{}",
                          remedy));
     }
     std::vector<Reading> readings;

@@ -38,10 +38,10 @@ void refuse_lost_zeros(const std::vector<WrittenReading>& written, const Stone& 
             continue;
         throw InputError(
             w.file, w.line,
-            fmt::format("{} of '{}' stands in line {} too, and '{}' in none: a spreadsheet drops "
-                        "the zero. Format the column `of` as text, or name facets by tier and "
-                        "index (1@76)",
-                        w.kind, w.of[0], at->second->line, whole));
+            fmt::format(
+                "{} of '{}' appears in line {} too, and '{}' in none: a spreadsheet drops the "
+                "zero. Format the column `of` as text, or name facets by tier and index (1@76)",
+                w.kind, w.of[0], at->second->line, whole));
     }
 }
 

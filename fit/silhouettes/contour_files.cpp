@@ -71,7 +71,7 @@ public:
         const auto value = number_in(word);
         if (!value || std::abs(*value) > k_farthest) {
             throw InputError(file_, lines_.line(),
-                             fmt::format("'{}' is no number of a shadow contour", shown(word)));
+                             fmt::format("'{}' is not a number of a shadow contour", shown(word)));
         }
         return *value;
     }
@@ -79,7 +79,7 @@ public:
         const double value = number();
         if (!(value >= 0 && value <= most && value == std::floor(value))) {
             throw InputError(file_, lines_.line(),
-                             fmt::format("{:g} is no number of {}", value, of));
+                             fmt::format("{:g} is not a number of {}", value, of));
         }
         return static_cast<long>(value);
     }

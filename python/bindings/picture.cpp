@@ -27,7 +27,7 @@ void append(std::vector<float>& to, const std::vector<std::vector<float>>& plane
 std::vector<float> floats_in(const py::dict& arrays, const char* key, const Shape& shape) {
     if (!arrays.contains(key) || arrays[key].is_none()) return {};
     const auto array = FloatArray::ensure(arrays[key]);
-    if (!array) throw InputError(fmt::format("{} is no array of numbers", key));
+    if (!array) throw InputError(fmt::format("{} is not an array of numbers", key));
     if (Shape(array.shape(), array.shape() + array.ndim()) != shape)
         throw InputError(fmt::format("{} has not the shape ({})", key, fmt::join(shape, ", ")));
     return values_of(array);
@@ -45,7 +45,7 @@ std::vector<std::vector<float>> planes_in(const std::vector<float>& values, std:
 void take_spectral(const py::dict& arrays, Picture& picture) {
     if (!arrays.contains("wavelengths_nm") || arrays["wavelengths_nm"].is_none()) return;
     const auto wavelengths = DoubleArray::ensure(arrays["wavelengths_nm"]);
-    if (!wavelengths) throw InputError("wavelengths_nm is no array of numbers");
+    if (!wavelengths) throw InputError("wavelengths_nm is not an array of numbers");
     const auto bands = static_cast<std::size_t>(wavelengths.size());
     const Shape one{py::ssize_t(bands), picture.height, picture.width};
     const std::vector<float> spectral = floats_in(arrays, "spectral", one);

@@ -38,7 +38,7 @@ void make(PythonScene& scene) {
         scene.scene = read_any_scene(scene.file, scene.overrides, scene.choices);
     } else {
         if (kind_of(scene.file) != FileKind::scene)
-            throw InputError(scene.file, "is no scene that another stone could be put into");
+            throw InputError(scene.file, "is not a scene that another stone could be put into");
         require_material(*scene.stone, scene.choices);
         Stone stone = scene.stone->stone;
         scene.scene = read_scene(scene.file, scene.overrides, &stone, scene.choices.light);

@@ -230,7 +230,7 @@ ReadPicture read_exr(const std::string& bytes, const std::filesystem::path& file
         throw;
     } catch (const std::exception& error) {
         throw InputError(file,
-                         fmt::format("is no EXR that can be read: {}", one_line(error.what())));
+                         fmt::format("is not an EXR that can be read: {}", one_line(error.what())));
     }
 }
 

@@ -80,7 +80,7 @@ void set_resolutions(ScenePlan& plan, const Scene& scene, const RenderSettings& 
         !beams && (plan.item(name_of(Effects::birefringence)).on || !scene.stone.convex);
     add("depth", true, depth_of(plan, user, endless),
         user.depth > 0 ? "as the scene says"
-        : endless      ? "trees of light paths have no end"
+        : endless      ? "every path is followed"
                        : fmt::format("{:.3g} faces on average", plan.events_per_ray),
         user.depth > 0 ? plan.bound_of_depth : 0);
     const std::vector<double>& nm = plan.settings.wavelengths_nm;

@@ -95,7 +95,7 @@ std::string fault_in(const RayTableHeader& h, const RayTableParts<TableSpan>& pa
         if (next < end || next > h.leaves) return "a ray's leaves";
         end = next;
     }
-    if (end != h.leaves) return "the number of leaves";
+    if (end != h.leaves) return "the number of exits";
     for (const float weight : parts.weight) {
         if (!(weight >= 0) || !std::isfinite(weight)) return "a weight";
     }
@@ -157,9 +157,9 @@ RayTable RayTable::open(const fs::path& file) {
     const std::uintmax_t size = fs::file_size(file, error);
     if (error) throw InputError(file, fmt::format("cannot be read: {}", error.message()));
     const auto damaged = [&file](const std::string& what) {
-        return InputError(file, fmt::format("is a damaged ray table ({}): delete it, and it is "
-                                            "made anew",
-                                            what));
+        return InputError(
+            file,
+            fmt::format("is a damaged ray table ({}): delete it to have it made again", what));
     };
     std::shared_ptr<Mapping> mapping = std::make_shared<Mapping>();
     RayTableHeader header;
@@ -174,12 +174,12 @@ RayTable RayTable::open(const fs::path& file) {
     }
     const auto* data = static_cast<const std::byte*>(mapping->region.get_address());
     if (size < k_magic.size() || std::memcmp(data, k_magic.data(), k_magic.size()) != 0)
-        throw InputError(file, "is no ray table: --table takes what --table wrote");
+        throw InputError(file, "is not a ray table: --table takes what --table wrote");
     if (size < sizeof header) throw damaged("it is cut off");
     std::memcpy(&header, data, sizeof header);
     if (header.version != k_version) {
-        throw InputError(file, fmt::format("is a ray table of version {}, this program reads "
-                                           "version {}: delete it, and it is made anew",
+        throw InputError(file, fmt::format("is a ray table of version {}, and this program reads "
+                                           "version {}: delete it to have it made again",
                                            header.version, k_version));
     }
     const std::span<const std::byte> bytes(data, size);

@@ -34,9 +34,11 @@ FittingTable kept_table(const std::filesystem::path& file, const Scene& scene) {
     TableRays rays = table_rays(scene, table.parts().wavelengths_nm);
     const std::string other = difference_to(table.header(), scene, rays);
     if (!other.empty()) {
-        throw InputError(file, fmt::format("is a ray table of {}: name another file, or delete "
-                                           "this one, and it is made anew",
-                                           other));
+        throw InputError(
+            file,
+            fmt::format(
+                "is a ray table of {}: name another file, or delete this one to have it made again",
+                other));
     }
     return {std::move(table), std::move(rays), true};
 }

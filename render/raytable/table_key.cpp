@@ -108,11 +108,11 @@ std::string refused_by_table(const Scene& scene, const OpticalSetup& setup) {
     if (!scene.has_stone()) return "a ray table is of a stone, and the scene has none";
     if (setup.stokes && !scene.settings.spectral && !polarised(scene.lights) &&
         !scene.camera.optics.analyzer)
-        return "a ray table knows no light that polished metal, glass or another stone polarises "
+        return "a ray table holds no light that polished metal, glass or another stone polarises "
                "(effects without \"polarization\" leave that out)";
     if (scene.camera.optics.two_windows) return "a ray table has one window, a dichroscope two";
-    if (scene.camera.optics.analyzer) return "a ray table knows no analyser before the eye";
-    if (polarised(scene.lights)) return "a ray table knows no polarised lights";
+    if (scene.camera.optics.analyzer) return "a ray table holds no analyser before the eye";
+    if (polarised(scene.lights)) return "a ray table holds no polarised lights";
     if (setup.on(Effects::coherence))
         return "a ray table adds the powers of a crystal's two waves and lets none interfere";
     if (scene.stone.solid.facets.size() > 65535) return "a ray table holds up to 65535 facets";

@@ -31,10 +31,9 @@ InputKind input_kind_of(const std::filesystem::path& file) {
     if (extension == "asc" || extension == "gem") return InputKind::cut;
     if (is_solid_file(file)) return InputKind::mesh;
     if (extension != "toml") {
-        throw InputError(
-            file,
-            "is no scene, stone (.toml), mesh (.obj .off .ply .stl .glb) or cut design "
-            "(.asc .gem)");
+        throw InputError(file,
+                         "is not a scene, stone (.toml), mesh (.obj .off .ply .stl .glb) or cut "
+                         "design (.asc .gem)");
     }
     const TomlTable root = read_toml(file);
     if (root.kind("stone") == TomlTable::Kind::table) return InputKind::stone;

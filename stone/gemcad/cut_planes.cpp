@@ -66,7 +66,7 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
                                      distinct.size()));
     }
     if (whole.empty) {
-        throw InputError(file, "no point lies below all planes: an angle or a distance is wrong");
+        throw InputError(file, "the planes enclose no point: an angle or a distance is wrong");
     }
     for (const int unused : whole.unused_planes) {
         cut.unused_planes.push_back(origin[unused]->place);

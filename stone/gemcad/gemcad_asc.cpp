@@ -32,7 +32,7 @@ public:
             if (!any && !lower_case(std::string(content)).starts_with("gemcad")) {
                 throw InputError(
                     file_, lines_.line(),
-                    fmt::format("is no GemCad design: one begins with GemCad, found '{}'",
+                    fmt::format("is not a GemCad design: one begins with GemCad, found '{}'",
                                 shown(content)));
             }
             if (any) read(content);
@@ -237,7 +237,7 @@ private:
             plane.plane = plane_of(setting, design);
         }
         cut.notes.push_back(fmt::format(
-            "the gear is not stated: {} teeth are supposed{}; if that is wrong, write a line such "
+            "the gear is not stated: {} teeth are assumed{}; if that is wrong, write a line such "
             "as \"g 96 0.0\" behind the first",
             design.gear,
             repeating ? ", on which the indices repeat as the symmetry asks, not 96" : ""));

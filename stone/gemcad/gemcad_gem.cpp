@@ -41,7 +41,7 @@ private:
     std::string_view take(std::size_t count) {
         if (bytes_.size() - at_ < count) {
             throw InputError(file_, fmt::format("ends at byte {} in the middle of {}: it is cut "
-                                                "short, or no GemCad .gem file",
+                                                "short, or not a GemCad .gem file",
                                                 bytes_.size(), where_));
         }
         const std::string_view taken = bytes_.substr(at_, count);
@@ -70,8 +70,8 @@ private:
         const double y = number(), z = number();
         const double length = std::hypot(x, y, z);
         if (!std::isfinite(length) || !(length > 0) || !std::isfinite(1 / length)) {
-            throw InputError(file_, fmt::format("the plane of {} is no plane: this is no GemCad "
-                                                ".gem file, or it is damaged",
+            throw InputError(file_, fmt::format("the plane of {} is not a plane: this is not a "
+                                                "GemCad .gem file, or it is damaged",
                                                 where_));
         }
         const std::int32_t tier = integer();

@@ -288,8 +288,7 @@ std::vector<std::string> write_gemcad_asc(const Solid& solid, const Design& desi
         facet.plane.offset -= glm::dot(facet.plane.normal, middle);
     }
     notes.push_back(
-        fmt::format("moved by ({}, {}, {}): GemCad measures from a point inside the "
-                    "stone",
+        fmt::format("moved by ({}, {}, {}), because GemCad measures from a point inside the stone",
                     -middle.x, -middle.y, -middle.z));
     Design moved_design = design;
     moved_design.footnotes.push_back(notes.back());

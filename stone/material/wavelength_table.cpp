@@ -88,7 +88,7 @@ public:
         for (std::size_t i = 1; i < points_.size(); ++i) {
             if (points_[i].wavelength > points_[i - 1].wavelength) continue;
             throw InputError(file_, std::max(points_[i].line, points_[i - 1].line),
-                             fmt::format("the wavelength {} stands twice", points_[i].wavelength));
+                             fmt::format("the wavelength {} appears twice", points_[i].wavelength));
         }
         const WavelengthUnit& unit = unit_of(notes);
         const double factor = value_factor(notes);
@@ -143,7 +143,7 @@ private:
         if (!value.problem.empty() || !value.unit.word.empty()) {
             throw InputError(file_, row.line,
                              value.problem.empty()
-                                 ? fmt::format("'{}' is no number alone", shown(cells[1]))
+                                 ? fmt::format("'{}' is not a number alone", shown(cells[1]))
                                  : fmt::format("{} {}", quantity_, value.problem));
         }
         points_.push_back({wavelength.value, value.value, row.line});
@@ -170,7 +170,7 @@ private:
         for (const WavelengthUnit& unit : k_wavelength_units) {
             if (!names_unit(named, unit.words)) continue;
             if (is_visible(unit)) return unit;
-            throw InputError(file_, fmt::format("wavelengths from {} {} are no visible light: is "
+            throw InputError(file_, fmt::format("wavelengths from {} {} are not visible light: is "
                                                 "the unit in the header right?",
                                                 range, unit.name));
         }

@@ -98,8 +98,8 @@ void read_comment(FaceSoup& soup, std::string_view comment) {
         std::find(std::begin(k_units), std::end(k_units), lower_case(std::string(words.back()))) !=
             std::end(k_units)) {
         soup.notes.push_back(
-            fmt::format("a comment says '{}': name that unit in the stone file "
-                        "(unit = \"m\", \"cm\", \"in\"); without it mm are supposed",
+            fmt::format("a comment says '{}': name that unit in the stone file (unit = \"m\", "
+                        "\"cm\", \"in\"); without it mm is assumed",
                         shown(trimmed(comment))));
     }
     if (words.size() < 3 || words[0] != "culet") return;

@@ -62,7 +62,7 @@ private:
         const tinygltf::Node& node = entry(model_.nodes, index, "node");
         const glm::dmat4 here = above * matrix_of(node);
         if (node.skin >= 0 && node.mesh >= 0)
-            throw InputError(file_, "has a mesh that a skeleton bends: not read");
+            throw InputError(file_, "has a mesh with a skeleton, which is not read");
         if (node.mesh >= 0) {
             for (const glm::dmat4& instance : instances_of(node)) place(node.mesh, here * instance);
         }
@@ -91,7 +91,8 @@ private:
         const bool mirrored = glm::determinant(glm::dmat3(matrix)) < 0;
         const tinygltf::Mesh& mesh = entry(model_.meshes, index, "mesh");
         for (const double weight : mesh.weights) {
-            if (weight != 0) throw InputError(file_, "has a mesh of morph targets: not read");
+            if (weight != 0)
+                throw InputError(file_, "has a mesh with morph targets, which are not read");
         }
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES)
@@ -248,7 +249,7 @@ private:
             const glm::dvec4 placed =
                 matrix * glm::dvec4(places[i], places[i + 1], places[i + 2], 1);
             if (!std::isfinite(placed.x + placed.y + placed.z))
-                throw InputError(file_, "has a vertex that is no number");
+                throw InputError(file_, "has a vertex that is not a number");
             mesh_.vertices.emplace_back(placed.x, placed.y, placed.z);
         }
         return static_cast<int>(places.size() / 3);
@@ -363,7 +364,8 @@ TriangleMesh read_gltf(const std::filesystem::path& file) {
                : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder);
     if (!read) {
         // Only the first line of tinygltf's message, which may quote the file.
-        throw InputError(file, "is no glTF that can be read: " + error.substr(0, error.find('\n')));
+        throw InputError(file,
+                         "is not glTF that can be read: " + error.substr(0, error.find('\n')));
     }
     if (binary) take_whole_buffer(bytes, model);
     return Reader(model, file).scene();

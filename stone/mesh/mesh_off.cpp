@@ -135,7 +135,7 @@ private:
                 *index >= static_cast<std::int64_t>(soup_.vertices.size())) {
                 throw InputError(
                     file_, lines_.line(),
-                    fmt::format("face {} of {}: '{}' is no vertex: they count from 0 to {}", i,
+                    fmt::format("face {} of {}: '{}' is not a vertex: they count from 0 to {}", i,
                                 count, shown(words[static_cast<std::size_t>(k)]),
                                 soup_.vertices.size() - 1));
             }

@@ -123,7 +123,7 @@ private:
                     form_ = Form::big_endian;
                 } else {
                     fail(
-                        fmt::format("'{}' is no form of PLY: ascii, binary_little_endian or "
+                        fmt::format("'{}' is not a PLY format: ascii, binary_little_endian or "
                                     "binary_big_endian",
                                     shown(words[1])));
                 }
@@ -137,7 +137,7 @@ private:
                 if (!has_format) fail("the header names no format");
                 return;
             } else {
-                fail(fmt::format("'{}' is no word of a PLY header", shown(words[0])));
+                fail(fmt::format("'{}' is not a word of a PLY header", shown(words[0])));
             }
         }
         fail("the header has no end_header");
@@ -153,13 +153,13 @@ private:
         property.name = words.back();
         const std::string_view type_word = words[words.size() - 2];
         const auto type = scalar_named(type_word);
-        if (!type) fail(fmt::format("'{}' is no type of a PLY property", shown(type_word)));
+        if (!type) fail(fmt::format("'{}' is not a type of a PLY property", shown(type_word)));
         property.type = *type;
         if (is_list) {
             property.count_type = scalar_named(words[2]);
             if (!property.count_type || *property.count_type == Scalar::float32 ||
                 *property.count_type == Scalar::float64) {
-                fail(fmt::format("'{}' is no type for the length of a list", shown(words[2])));
+                fail(fmt::format("'{}' is not a type for the length of a list", shown(words[2])));
             }
         }
         elements_.back().properties.push_back(std::move(property));
@@ -356,7 +356,7 @@ private:
 
     int corner_at(double value) const {
         if (!(value >= 0 && value < 2147483647.0) || value != std::floor(value)) {
-            throw InputError(file_, fmt::format("{}: {} is no vertex", current_, value));
+            throw InputError(file_, fmt::format("{}: {} is not a vertex", current_, value));
         }
         return static_cast<int>(value);
     }

@@ -200,13 +200,12 @@ FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
         throw InputError(file, other);
     } else if (bytes.size() < k_binary_header) {
         throw InputError(file,
-                         "is no STL: neither text that begins with 'solid' nor long enough "
-                         "for a binary header");
+                         "is not STL: neither text that begins with 'solid' nor long enough for a "
+                         "binary header");
     } else if (bytes.size() < size) {
-        throw InputError(file,
-                         fmt::format("promises {} triangles ({} bytes) but has {} bytes: is it cut "
-                                     "short, or no STL at all?",
-                                     count, size, bytes.size()));
+        throw InputError(file, fmt::format("promises {} triangles ({} bytes) but has {} bytes: is "
+                                           "it cut short, or not STL at all?",
+                                           count, size, bytes.size()));
     } else {
         soup = parse_binary(bytes, count, file);
         soup.notes.push_back(

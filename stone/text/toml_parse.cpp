@@ -70,7 +70,7 @@ void apply_override(toml::table& root, const std::string& setting) {
             if (problem != std::errc() || end != path[i].data() + path[i].size() ||
                 index >= list->size()) {
                 throw InputError(
-                    fmt::format("--set {}: \"{}\" is no entry of a list of {} (counted from 0)",
+                    fmt::format("--set {}: \"{}\" is not an entry of a list of {} (counted from 0)",
                                 setting, path[i], list->size()));
             }
             if (last) {
@@ -111,7 +111,7 @@ toml::table parse_toml(std::string_view text, const std::filesystem::path& file,
         const auto line = static_cast<long>(error.source().begin.line);
         const std::string advice = toml_advice(line_of_text(text, line));
         throw InputError(file, line,
-                         fmt::format("is no TOML: {}{}", error.description(),
+                         fmt::format("is not TOML: {}{}", error.description(),
                                      advice.empty() ? "" : "; " + advice));
     }
     for (const std::string& setting : overrides) apply_override(root, setting);

@@ -196,7 +196,7 @@ TEST_F(RenderPlan, APlanOfAnotherStoneIsRefused) {
     refused("garnet-depth.toml", {"--plan", file("plan.json"), "--set", "render.samples=3"},
             "leave out --set render");
     write("text.json", "{\"plan\": ");
-    refused("garnet-depth.toml", {"--plan", file("text.json")}, "is no JSON");
+    refused("garnet-depth.toml", {"--plan", file("text.json")}, "is not JSON");
     write("empty.json", "{\"plan\": {\"settings\": 3}}");
     refused("garnet-depth.toml", {"--plan", file("empty.json")}, "has no plan");
 }

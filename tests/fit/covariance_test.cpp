@@ -169,9 +169,9 @@ TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
     }
     const Eigen::VectorXd unknowns = Eigen::VectorXd::Ones(64);
     Eigen::VectorXd told = Eigen::VectorXd::Constant(64, 1e6);
-    // With the same small information about every direction, 15 of them leave a variance of 15/64.
     told(0) = 0.1;  // 1 / 64 / 0.1 = 0.16: a smooth motion that no unknown feels
     EXPECT_EQ(count_unobservable(hadamard / 8, told, unknowns), 0);
+    // With the same small information about every direction, 15 of them leave a variance of 15/64.
     told.setOnes();
     EXPECT_EQ(count_unobservable(hadamard / 8, told, unknowns), 64 - 15);
 }

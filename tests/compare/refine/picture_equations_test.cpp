@@ -81,9 +81,9 @@ TEST(PictureEquations, AreBlindToNuisances) {
     e.difference = e.changes.col(2) + 0.1 * values(blurred_noise(chance));
     const Eigen::VectorXd without = solved(solved_moves(e));
     e.difference += 7 * e.nuisances.col(0) + 3 * e.nuisances.col(1);
-    // The nuisances' amounts are estimated beside the moves.
     const DeterminedMoves determined = solved_moves(e);
     EXPECT_LT((solved(determined) - without).norm(), 1e-6);
+    // The nuisances' amounts are estimated beside the moves.
     const Eigen::VectorXd amounts =
         nuisances_beside(e, determined, solved(determined), Eigen::VectorXd::Zero(2));
     EXPECT_NEAR(amounts[0], 7, 0.05);
