@@ -91,31 +91,6 @@ Eigen::MatrixXd of_all_three(const Eigen::MatrixXd& square) {
     return normal;
 }
 
-// Sum of squares of first differences.
-Eigen::MatrixXd roughness_of(Eigen::Index n) {
-    Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(n, n);
-    for (Eigen::Index i = 0; i + 1 < n; ++i) {
-        differences(i, i) += 1;
-        differences(i + 1, i + 1) += 1;
-        differences(i, i + 1) -= 1;
-        differences(i + 1, i) -= 1;
-    }
-    return of_all_three(differences);
-}
-
-// Constraints that fix the values of the active set.
-Eigen::MatrixXd constraints_of(const std::vector<std::pair<Eigen::Index, Eigen::Index>>& active,
-                               Eigen::Index n) {
-    const Eigen::Index rows = static_cast<Eigen::Index>(active.size());
-    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, 2 * n);
-    for (Eigen::Index row = 0; row < rows; ++row) {
-        const auto [node, primary] = active[static_cast<std::size_t>(row)];
-        if (primary != 2) H(row, node) = primary == 0 ? 1 : -1;
-        if (primary != 0) H(row, n + node) = primary == 2 ? 1 : -1;
-    }
-    return H;
-}
-
 // Empty if the integrals cannot be exact.
 Eigen::MatrixXd exact_primaries(const Eigen::MatrixXd& roughness, const Eigen::MatrixXd& weight) {
     const Eigen::Index n = weight.cols();
@@ -128,8 +103,14 @@ Eigen::MatrixXd exact_primaries(const Eigen::MatrixXd& roughness, const Eigen::M
     std::vector<std::pair<Eigen::Index, Eigen::Index>> active;  // node, primary
     Eigen::MatrixXd best;
     while (true) {
-        const Eigen::MatrixXd H = constraints_of(active, n);
-        const auto unknown = smoothest.with(H, Eigen::VectorXd::Constant(H.rows(), -k_third));
+        const Eigen::Index rows = static_cast<Eigen::Index>(active.size());
+        Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, 2 * n);
+        for (Eigen::Index row = 0; row < rows; ++row) {
+            const auto [node, primary] = active[static_cast<std::size_t>(row)];
+            if (primary != 2) H(row, node) = primary == 0 ? 1 : -1;
+            if (primary != 0) H(row, n + node) = primary == 2 ? 1 : -1;
+        }
+        const auto unknown = smoothest.with(H, Eigen::VectorXd::Constant(rows, -k_third));
         if (!unknown) break;
         const Eigen::MatrixXd values = primaries_of(*unknown);
         // With few nodes, fixing a value can push another below 0: keep the least negative
@@ -161,7 +142,11 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
                                                     const std::vector<double>& nm) {
     const Eigen::MatrixXd shares = interpolation(nm);
     const Eigen::MatrixXd weight = product(rgb_weight, shares);
-    const Eigen::MatrixXd roughness = roughness_of(weight.cols());
+    const Eigen::Index n = weight.cols();
+    Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(n - 1, n);
+    differences.diagonal().setConstant(-1);
+    differences.diagonal(1).setOnes();
+    const Eigen::MatrixXd roughness = of_all_three(transpose_times(differences, differences));
     Eigen::MatrixXd best = exact_primaries(roughness, weight);
     if (best.size() == 0) best = approximate_primaries(roughness, weight);
     std::array<std::vector<double>, 3> primaries;

@@ -9,14 +9,6 @@
 
 namespace culet {
 
-namespace {
-
-double wavelength(int probe) {
-    return k_first_nm + (k_last_nm - k_first_nm) * probe / (k_probes - 1);
-}
-
-}  // namespace
-
 bool same_light_everywhere(const Lights& lights) {
     return !lights.environment && lights.sources.empty() && !lights.polarisation;
 }
@@ -31,8 +23,8 @@ IndexSpans index_spans(const Scene& scene) {
         low = std::min(low, n);
         high = std::max(high, n);
         double least = 1e300, most = 0;
-        for (int i = 0; i < k_probes; ++i) {
-            const double there = material.index[ray].at(wavelength(i)) / scene.immersion;
+        for (const double nm : even_nodes(k_probes)) {
+            const double there = material.index[ray].at(nm) / scene.immersion;
             least = std::min(least, there);
             most = std::max(most, there);
         }
@@ -94,8 +86,7 @@ double absorbance_apart(const Scene& scene) {
     const Material& material = scene.stone.material;
     double apart = 0;
     for (int ray = 1; ray < ray_count(material.optic); ++ray) {
-        for (int i = 0; i < k_probes; ++i) {
-            const double nm = wavelength(i);
+        for (const double nm : even_nodes(k_probes)) {
             for (int other = 0; other < ray; ++other)
                 apart = std::max(apart, std::abs(material.absorption_per_mm[ray].at(nm) -
                                                  material.absorption_per_mm[other].at(nm)));

@@ -42,10 +42,6 @@ std::vector<Spectrum> absorption_of(const Material& material, bool each_ray) {
     return {Spectrum(nm, values)};
 }
 
-bool absorbs_by_ray(const OpticalSetup& setup) {
-    return setup.on(Effects::pleochroism) && setup.splits;
-}
-
 void set_indices(const Scene& scene, bool splits, double nm, Band& band) {
     const Material& material = scene.stone.material;
     std::array<double, 3> n =
@@ -65,12 +61,13 @@ void set_indices(const Scene& scene, bool splits, double nm, Band& band) {
 void set_absorption(const Stone& stone, const OpticalSetup& setup, const FewWavelengths* few,
                     Band& band) {
     const double mm = mm_per(stone.unit);
+    const bool each_ray = few && few->absorption_per_mm.size() > 1;
     band.absorbs = setup.on(Effects::absorption);
     for (int i = 0; i < band.count; ++i) {
         const int node = band.first + i;
         const double at = setup.wavelengths_nm[node];
         std::array<double, 3> K = along_axes(stone.material.optic, [&](int ray) {
-            return mm * (few ? few->absorption_per_mm[absorbs_by_ray(setup) ? ray : 0][node]
+            return mm * (few ? few->absorption_per_mm[each_ray ? ray : 0][node]
                              : stone.material.absorption_per_mm[ray].at(at));
         });
         if (!setup.on(Effects::pleochroism) || !band.two_waves) K.fill(mean(K));
@@ -84,11 +81,12 @@ void add_bands(const Scene& scene, bool coloured, OpticalSetup& setup) {
     const std::vector<double>& nm = setup.wavelengths_nm;
     const double mm = mm_per(scene.stone.unit);
     const int count = static_cast<int>(nm.size());
+    const bool each_ray = setup.on(Effects::pleochroism) && setup.splits;
     const FewWavelengths* few = nullptr;
     // Spectral pictures, and scenes with objects, use the wavelengths themselves.
     if (setup.on(Effects::absorption) && coloured && !scene.settings.spectral &&
         !scene.has_objects() && count >= k_least_fitted && count <= k_most_fitted) {
-        few = &fit_wavelengths(absorption_of(scene.stone.material, absorbs_by_ray(setup)), nm,
+        few = &fit_wavelengths(absorption_of(scene.stone.material, each_ray), nm,
                                mm * diameter(scene.stone.solid));
         setup.rgb_weight = few->rgb_weight;
     }
