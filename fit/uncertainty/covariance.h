@@ -36,15 +36,16 @@ public:
     const Linearised& linear() const { return linear_; }
     /// False if the equations could not be factored; every number is then NaN.
     bool usable() const { return usable_; }
-    /// Variance of a function as far as readings determine it, and the part from open directions.
+    /// Variance of a function as far as readings determine it, and the part from unobservable
+    /// directions.
     double variance(const FunctionRow& function) const;
     double open_variance(const FunctionRow& function) const;
     double total_variance(const FunctionRow& function) const;
-    /// Covariance of functions, one a row. Open directions have `undetermined_variance`.
+    /// Covariance of functions, one a row. Unobservable directions have `undetermined_variance`.
     Eigen::MatrixXd joint(const FunctionRows& functions) const;
-    /// Covariance of a function with every unknown; `open` adds the open directions.
+    /// Covariance of a function with every unknown; `open` adds the unobservable directions.
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
-    /// The readings' step in the linear model, with none along open directions.
+    /// The readings' step in the linear model, with none along unobservable directions.
     Eigen::VectorXd step() const;
     /// Diagonal of the hat matrix: variance of each soft equation's fitted value in its own units.
     const Eigen::VectorXd& leverages() const { return leverages_; }
@@ -52,7 +53,7 @@ public:
     /// Hat matrix times these residuals of the soft equations.
     Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;
     int rank_defect() const { return rank_defect_; }
-    /// Open directions; no columns in the sparse algorithm.
+    /// Unobservable directions; no columns in the sparse algorithm.
     const DenseRows& open() const { return open_; }
 
 private:

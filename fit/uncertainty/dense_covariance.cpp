@@ -95,7 +95,7 @@ bool Covariance::find_well_determined(const FreePart& free) {
     // (S^-1) = U^-1 U^-T
     held_ = upper_transpose_times(upper, free.basis.transpose()).transpose();
     seen_ = linear_.soft_rows * held_;
-    // An open direction would leave some unknown this uncertain.
+    // An unobservable direction would leave some unknown this uncertain.
     const Eigen::VectorXd left = held_.rowwise().squaredNorm().cwiseProduct(linear_.metric);
     if (!linear_.has_prior && !(left.maxCoeff() < 1 / k_shapes.determined)) return false;
     // Every direction is seen once, so all squares add up to their number, but for rounding errors.

@@ -32,7 +32,7 @@ void find_rank_defect(const FitModel& model, const Shape& shape, const Covarianc
     diagnosis.rank_defect = covariance.rank_defect();
     if (diagnosis.rank_defect == 0) return;
     const Layout layout = layout_of(shape);
-    // Name parameters that the open directions together may move by a tenth of the mesh's
+    // Name parameters that the unobservable directions together may move by a tenth of the mesh's
     // uncertainty.
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);

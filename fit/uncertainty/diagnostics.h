@@ -38,7 +38,7 @@ struct Suspicion {
 struct Diagnosis {
     std::vector<FacetSigma> facets;
     /// As FitResult::facet_covariance, with offsets in half diameters. A level facet's azimuth has
-    /// 0; open directions have the mesh's own uncertainty, as in the sigmas.
+    /// 0; unobservable directions have the mesh's own uncertainty, as in the sigmas.
     std::vector<double> facet_covariance;
     std::vector<ReadingCheck> readings;
     std::vector<int> suspects;          ///< indices of readings, the worst first

@@ -23,10 +23,11 @@ struct Covariance::Sparse {
     NormalEquations equations(double prior) const;
     double of(const PinnedInverse& pinned, const FunctionRow& function) const;
     Eigen::VectorXd with_all(const PinnedInverse& pinned, const Eigen::VectorXd& function) const;
-    /// Upper limit of open directions: each leaves some unknown half as uncertain as the mesh.
+    /// Upper limit of unobservable directions: each leaves some unknown half as uncertain as the
+    /// mesh.
     double most_open() const;
-    /// An open direction of length q has the variance q^2 / (lambda + prior): the two priors differ
-    /// there.
+    /// An unobservable direction of length q has the variance q^2 / (lambda + prior): the two
+    /// priors differ there.
     double open_variance(const FunctionRow& function) const;
 
     const Linearised& linear;

@@ -70,7 +70,7 @@ void require_gradable(const Solid& solid, const GradeIndex& index) {
     }
     if (!is_what_its_planes_bound(solid)) {
         throw InputError(
-            "is not convex: only stones whose light exits for good can be graded "
+            "is not convex: only stones whose light leaves for good can be graded "
             "(culet render draws this one)");
     }
 }
