@@ -14,7 +14,6 @@ namespace culet::test {
 class FolderTest : public testing::Test {
 protected:
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
-    /// Returns its path.
     std::string write(const std::string& name, const std::string& content) const {
         std::ofstream(folder_ / name, std::ios::binary) << content;
         return file(name);

@@ -31,7 +31,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Json = nlohmann::json;
 
-// Every file below a folder, by its relative path.
 std::map<std::string, std::string> tree_of(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -43,7 +42,6 @@ std::map<std::string, std::string> tree_of(const fs::path& folder) {
     return files;
 }
 
-// The names of files that are in one folder only, or differ.
 std::vector<std::string> differences(const std::map<std::string, std::string>& a,
                                      const std::map<std::string, std::string>& b) {
     std::vector<std::string> names;
@@ -116,7 +114,6 @@ TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
                              "stone.png", "job.json"})
         EXPECT_TRUE(fs::exists(folder_ / ("out/jobs/a/" + std::string(name)))) << name;
     EXPECT_FALSE(fs::exists(folder_ / "out/unfinished"));
-    // A job's grade is what culet grade gives for its fitted stone.
     const ProgramRun alone = run_culet(
         {"grade", file("stones/b.asc"), "--index", "1.6", "--tilts", "0", "--json", "-", "-q"});
     EXPECT_EQ(Json::parse(alone.out)["models"], json("out/jobs/b/grade.json")["models"]);

@@ -102,7 +102,6 @@ TEST_F(ConvertInfo, MessagesGoToStderrAndResultsToStdout) {
     EXPECT_TRUE(info.err.empty()) << info.err;
     EXPECT_NE(info.out.find("73 facets"), std::string::npos);
     EXPECT_EQ(json("a.json").at("gear"), 96);
-    // -v lists the facets.
     const ProgramRun table = run_culet({"info", k_design, "-v"});
     EXPECT_NE(table.out.find("inclination"), std::string::npos);
 }
@@ -195,7 +194,6 @@ TEST_F(ConvertInfo, SceneGoesToPovray) {
         {"convert", file("scene.toml"), file("scene.pov"), "-q", "--set", "render.depth=8"});
     EXPECT_TRUE(set.err.empty()) << set.err;
     EXPECT_NE(text(file("scene.pov")).find("max_trace_level 9 "), std::string::npos);
-    // Neither a mesh to POV-Ray nor a scene to a mesh.
     refusal({"convert", file("stone.obj"), file("a.pov")});
     refusal({"convert", file("scene.toml"), file("a.obj")});
     refusal({"convert", k_design, file("a.obj"), "--set", "render.depth=8"});

@@ -31,7 +31,6 @@ std::string text_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// An OBJ file of named faces.
 struct Drawing {
     std::vector<std::array<double, 3>> corners;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> faces;
@@ -134,7 +133,6 @@ protected:
                     std::to_string(change(std::stod(all.substr(begin, end - begin)))));
         std::ofstream(file("readings.csv")) << all;
     }
-    /// Nothing was done, and one line says why.
     void expect_refused(const ProgramRun& run) const {
         refusal_of(run);
         EXPECT_FALSE(fs::exists(file("fitted.obj")));

@@ -113,7 +113,6 @@ TEST_F(GradeCommand, TellsSigmasByAFitReport) {
     EXPECT_GT(json.at("sigma").at("iso").get<double>(), 0);
     EXPECT_GT(json.at("sigma").at("aset.red").get<double>(), 0);
     EXPECT_GT(json.at("sigma").at("hearts.evenness").get<double>(), 0);
-    // The report of another stone.
     std::ofstream(folder_ / "other.json") << Json{{"facets", Json::array()}}.dump();
     const ProgramRun other = run_culet({"grade", file("round.obj"), "--material", "diamond",
                                         "--report", file("other.json"), "-q"});

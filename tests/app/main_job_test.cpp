@@ -19,7 +19,6 @@ const fs::path k_samples = fs::path(CULET_SOURCE_DIR) / "samples";
 
 class MainJob : public test::ProgramTest {
 protected:
-    // The sample's scene, small enough for a test.
     std::string scene_with_objects() const {
         write("objects.toml",
               "[camera]\nposition = [0, -9, 5]\nlook_at = [0, 0, 0]\nsize = [16, 16]\n"
@@ -68,7 +67,6 @@ TEST_F(MainJob, FitRenderAndCompareEndInOneReport) {
     const std::string page = text(file("out/report.html"));
     EXPECT_NE(page.find("imulated photograph"), std::string::npos);
     EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-    // No temporary file remains.
     for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
         EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
     }

@@ -45,7 +45,6 @@ TEST_F(OptimizeCommand, WritesADesignThatGradesAsItSays) {
     EXPECT_NEAR(mean, merit, 1e-6);
 }
 
-// The design's own words are its author's.
 TEST_F(OptimizeCommand, KeepsTheDesignsWords) {
     const ProgramRun first = run_culet({"convert", file("round.obj"), file("round.asc")});
     ASSERT_EQ(first.exit_code, 0) << first.err;

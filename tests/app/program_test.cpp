@@ -25,7 +25,6 @@ std::string content(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Processor time so far.
 double seconds_of(pid_t child) {
     clockid_t clock{};
     timespec time{};

@@ -19,14 +19,12 @@ struct ProgramRun {
 /// which it gets SIGTERM; 0: never.
 ProgramRun run_culet(const std::vector<std::string>& arguments, double stop_at = 0);
 
-/// The fixture of the program's tests.
 class ProgramTest : public FolderTest {
 protected:
     /// Checks that the program refuses: exit code 2, nothing on stdout, one line `culet: error:
     /// ...`, which is returned.
     static std::string refusal(const std::vector<std::string>& arguments);
     static std::string refusal_of(const ProgramRun& run);
-    /// Writes a cut of the catalogue to this file.
     void cut(const std::string& kind, const std::string& name) const;
     nlohmann::json json(const std::string& name) const;
 };

@@ -35,7 +35,6 @@ protected:
         more.insert(more.end(), {"--engine", "raytable", "--table", file("stone.rays")});
         return render(std::move(more));
     }
-    // One line that names what is wrong.
     static void expect_refusal(const ProgramRun& run, const std::string& words) {
         EXPECT_EQ(run.exit_code, 2) << run.err;
         EXPECT_EQ(run.out, "");

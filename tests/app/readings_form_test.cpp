@@ -91,7 +91,6 @@ TEST_F(BenchForm, OfADesignInMillimetres) {
     EXPECT_NEAR(scaled.at("caliper").at("max").get<double>(),
                 6.5 / design.at("w").get<double>() * design.at("caliper").at("max").get<double>(),
                 1e-9);
-    // Names of tiers are kept.
     EXPECT_NE(read_text(file("oval.obj")).find("g A1.3\n"), std::string::npos);
 
     const ProgramRun form =

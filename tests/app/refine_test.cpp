@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 using test::ProgramRun;
 using test::run_culet;
 
-// A table, four crown, four girdle and four pavilion facets.
 Solid step_cut() {
     std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.9}}};
     for (int k = 0; k < 4; ++k) {

@@ -74,7 +74,6 @@ TEST_F(Register, RefusesWithItsOutputsWritten) {
     EXPECT_NE(run.err.find("refused: "), std::string::npos) << run.err;
     const auto pose = json("pose.json");
     EXPECT_EQ(pose.at("status"), "refused");
-    // The displayed line ends with the remedy.
     const std::string remedy = pose.at("remedy").get<std::string>() + ".\n";
     ASSERT_GT(remedy.size(), 20u);
     EXPECT_EQ(run.err.substr(run.err.size() - remedy.size()), remedy) << run.err;

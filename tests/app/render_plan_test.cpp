@@ -28,7 +28,6 @@ class RenderPlan : public test::ProgramTest {
 protected:
     bool nothing_was_written() const { return fs::is_empty(folder_.path()); }
 
-    // Pictures of 48 x 48 pixels.
     static ProgramRun render(const std::string& scene, std::vector<std::string> more) {
         std::vector<std::string> arguments{
             "render", std::string(CULET_SOURCE_DIR "/samples/effects/") + scene, "--set",
@@ -102,7 +101,6 @@ TEST_F(RenderPlan, ExplainsAsJson) {
     for (const char* key : {"engine", "engine_why", "error_bound", "error_bound_deltaE00",
                             "seconds", "seconds_everything", "seconds_planning", "samples"})
         EXPECT_TRUE(plan.contains(key)) << key;
-    // Nothing else is on stdout.
     const ProgramRun alone = render("tourmaline-across.toml", {"--explain", "--json", "-"});
     EXPECT_EQ(alone.exit_code, 0);
     ASSERT_TRUE(nlohmann::json::accept(alone.out)) << alone.out;
@@ -139,7 +137,6 @@ TEST_F(RenderPlan, VerifiesAPicture) {
                   found["noise"].get<double>(),
               found["error_bound"]);
     EXPECT_GT(found["deltaE00"], 0);
-    // The stats contain the plan too.
     EXPECT_EQ(json("stats.json")["plan"]["items"].size(), k_lines.size());
 }
 

@@ -50,7 +50,6 @@ TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
     double lowest = 1e9;
     for (const Vec3& v : metal->mesh->vertices) lowest = std::min(lowest, v.z);
     EXPECT_NEAR(ground->point.z, lowest, 1e-4);
-    // As in metals.h.
     const auto& f0 = *std::get<MetalMaterial>(scene.objects[0].material).f0;
     EXPECT_NEAR(std::get<Rgb>(f0.value)[1], 0.730, 1e-12);
 }
@@ -121,7 +120,6 @@ TEST_F(SettingCommand, SceneOfAStoneFileNamesIt) {
     EXPECT_THAT(text("scene.toml"), HasSubstr("stone = \"stone.toml\""));
     EXPECT_THAT(text("scene.toml"), HasSubstr("file = \"made/bezel.obj\""));
     EXPECT_EQ(read_scene(file("scene.toml")).stone.material.id, "sapphire_blue");
-    // In another material for this picture.
     ASSERT_EQ(run_culet({"setting", file("stone.toml"), "-q", "--material", "garnet_almandine",
                          "-o", file("ring.obj"), "--scene", file("red.toml")})
                   .exit_code,

@@ -94,7 +94,6 @@ TEST_F(Slips, AFileOfTheWrongKindIsToldWithTheCommandThatTakesIt) {
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-// The same picture without the texts of its header.
 std::string without_texts(const std::string& png) {
     std::string bare = png.substr(0, 8);
     for (std::size_t at = 8; at + 12 <= png.size();) {

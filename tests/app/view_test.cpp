@@ -18,7 +18,6 @@ using ::testing::HasSubstr;
 
 class ViewCommand : public test::ProgramTest {
 protected:
-    // The document in a page.
     Json document(const std::string& name) const {
         const std::string page = text(name), start = "id=\"culet-document\">";
         const std::size_t from = page.find(start) + start.size();
@@ -79,7 +78,6 @@ TEST_F(ViewCommand, CarriesWhatAFitSays) {
         EXPECT_EQ(facts.at("suspect"), true);
     }
     EXPECT_TRUE(seen);
-    // A report of another stone.
     write("other.json", R"({"facets": [{"name": "nobody"}]})");
     const ProgramRun other = run_culet({"view", file("fitted.obj"), "--material", "diamond",
                                         "--report", file("other.json"), "-o", file("x.html")});

@@ -73,7 +73,6 @@ TEST(Compare, AKnownMoveIsRecoveredFromTheCoverage) {
     EXPECT_EQ(r.photo_outline, "coverage");
     EXPECT_NEAR(r.scale, 1 / 1.04, 4 * 0.03 / 50);
     EXPECT_NEAR(radians(r.turn_deg), -0.1, 4 * 0.03 / 5);
-    // The new place of the drawing's centre.
     const double arm_x = moved.centre_x - r.centre_px[0], arm_y = moved.centre_y - r.centre_px[1];
     const double a = radians(r.turn_deg), co = r.scale * std::cos(a), si = r.scale * std::sin(a);
     EXPECT_NEAR(r.centre_px[0] + r.shift_px[0] + co * arm_x - si * arm_y, still.centre_x, 4 * 0.03);
@@ -228,7 +227,6 @@ TEST(Compare, AQuarterTurnIsRefusedWithAHint) {
     EXPECT_EQ(c.verdict, Verdict::refused);
     EXPECT_FALSE(c.usable());
     EXPECT_THAT(c.reason, HasSubstr("clockwise by 90 degrees"));
-    // The report overlays both outlines.
     EXPECT_FALSE(c.pictures.photo_outline.values.empty());
     EXPECT_FALSE(c.pictures.render_outline.values.empty());
 }

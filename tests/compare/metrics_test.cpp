@@ -282,7 +282,6 @@ TEST(ScoreTable, HasEachKeyOnceAndSaysWhichWayIsBetter) {
     EXPECT_EQ(score_kind("none"), nullptr);
 }
 
-// A stone that fills the frame: nothing beyond it is requested.
 TEST(ScoredPart, EndsWhereTheFrameDoes) {
     const MatchedPictures pictures = pair_of(noise(64, 1), noise(64, 2));
     EXPECT_EQ(part_to_score(pictures), cv::Rect(0, 0, 64, 64));

@@ -133,7 +133,6 @@ TEST_F(PhotoFiles, BrokenPicturesAreNamed) {
     }
 }
 
-// A header that claims 4 billion pixels without data.
 TEST_F(PhotoFiles, AbsurdSizesAreRefusedBeforeAnythingIsAllocated) {
     std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\1\0\0\0\1\0\0\x08\2\0\0\0\xe3\xe6\xa7\xb4",
                     33);

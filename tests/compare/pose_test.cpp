@@ -81,7 +81,6 @@ TEST(StoneView, AndCameraAreTheSameThing) {
     }
 }
 
-// A camera's picture equals the crop of a larger one's, pixel for pixel.
 TEST(PrincipalPoint, CutsAPartOutOfALargerPicture) {
     for (const bool orthographic : {false, true}) {
         Camera large;

@@ -161,7 +161,6 @@ TEST(Report, HasOnlyTheSectionsWhoseDataIsThere) {
     EXPECT_EQ(nesting_fault(page), "");
 }
 
-// Checks that `parts` begin one after another.
 void expect_order(const std::string& page, const std::vector<std::string>& parts) {
     std::size_t last = 0;
     for (const std::string& part : parts) {

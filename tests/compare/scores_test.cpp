@@ -155,7 +155,6 @@ TEST(ColourDistributions, OfFlatPicturesHaveAClosedForm) {
     EXPECT_NEAR(result.render_light, 0.5, 1e-6);
 }
 
-// A shuffled picture has the same colours: no distance, whatever its pattern.
 TEST(ColourDistributions, DoNotSeeWhereColoursAre) {
     const cv::Mat photo = decoded(bytes_by_formula(false));
     cv::Mat mirrored;

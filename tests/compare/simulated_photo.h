@@ -16,21 +16,18 @@ namespace culet::synthetic {
 Solid tilted_facets(const Solid& solid, double sigma, std::mt19937_64& random);
 
 struct CameraFaults {
-    double blur_px = 0.7;          ///< one sigma of the lens
-    double full_well = 12000;      ///< electrons at the clipping level
-    double read_noise = 6;         ///< electrons
+    double blur_px = 0.7;      ///< one sigma of the lens
+    double full_well = 12000;  ///< electrons at the clipping level
+    double read_noise = 6;
     double exposure_share = 0.98;  ///< of the stone's pixels that stay below clipping
     bool eight_bit = true;         ///< sRGB
     int jpeg_quality = 0;          ///< of an 8-bit picture written as JPEG; 0: none
 };
 
-/// The camera's photograph of a picture in linear light.
 Photo photographed(const Picture& picture, const CameraFaults& faults, std::mt19937_64& random);
 
-/// A rectangle of the photograph, as if cropped.
 Photo cropped(const Photo& photo, int left, int top, int width, int height);
 
-/// Mirrored left to right.
 Photo mirrored(const Photo& photo);
 
 /// "windows", "dome", "ring", "overcast": lights in the upper half, so that the background is

@@ -205,7 +205,6 @@ TEST(Slips, OfSeveralTheOneNearestToWhatWasMeantIsNamed) {
     // 9.59 has two digits swapped and is two sigmas off; 9.45 has one wrong digit and is what the
     // others say.
     EXPECT_NEAR(find_slip(9.95, {9.45, 0.066, 0.132}, Measured::length)->corrected, 9.45, 1e-12);
-    // Where both corrections are equally near, swapped digits win.
     EXPECT_EQ(find_slip(43.5, {34.5, 0.3, 1}, Measured::angle)->what, "two digits swapped");
     // 30.3 was typed as 03.3, and a spreadsheet keeps 3.3.
     EXPECT_NEAR(find_slip(3.3, {30.2, 0.3, 1}, Measured::angle)->corrected, 30.3, 1e-12);
@@ -283,7 +282,6 @@ TEST(Disagreement, OfReadingsOfOneQuantityIsBetweenTwo) {
     EXPECT_EQ(result.findings.disagreeing.size(), 2u);
 }
 
-// With two readings of one quantity nothing tells which one is wrong.
 TEST(Disagreement, OfTwoNamesBoth) {
     std::vector<Reading> readings{depth(cube(), 0.01), depth(cube(), 0.01)};
     readings[0].id = "a";
@@ -427,7 +425,6 @@ TEST(Refit, EndsWhereAFreshFitEnds) {
     for (std::size_t f = 0; f < truth.facets.size(); ++f) {
         EXPECT_NEAR(again.facets[f].inclination, fresh.facets[f].inclination, 1e-6);
     }
-    // A start from another stone is ignored.
     options.start = cube();
     EXPECT_NEAR(fit_stone(mesh, readings, options).statistics.chi2, fresh.statistics.chi2, 1e-4);
 }

@@ -14,7 +14,6 @@ namespace {
 
 using namespace bench;
 
-// Inclinations, edges and azimuths.
 std::vector<WrittenReading> with_azimuths(const Truth& truth, unsigned seed) {
     std::vector<WrittenReading> readings = read_by_instruments(truth, seed);
     const std::vector<WrittenReading> azimuths = read_azimuths(truth, seed);

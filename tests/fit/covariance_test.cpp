@@ -37,7 +37,6 @@ Sparse random_rows(int rows, int columns, int entries, unsigned seed) {
 TEST(FreeDirections, SpanTheNullSpace) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         Sparse rows = random_rows(30, 50, 4, seed);
-        // Ten equations repeat sums of others.
         Eigen::MatrixXd dense = rows;
         for (int i = 0; i < 10; ++i) dense.row(20 + i) = dense.row(i) - 3 * dense.row(i + 5);
         const Sparse repeated = dense.sparseView();
@@ -118,7 +117,6 @@ std::vector<Case> cases() {
     return all;
 }
 
-// Compares the sparse algorithm with the dense one. They share only the equations.
 TEST(Covariance, BothAlgorithmsAgree) {
     const Stone stone = stone_of(brilliant());
     for (const Case& c : cases()) {
@@ -206,7 +204,6 @@ TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
         row.coeffRef(linear.layout.tilt(f)) = 1;
         return std::sqrt(covariance.variance(row));
     };
-    // A distant facet is hardly affected.
     const int far = find_facet(truth, "P5");
     EXPECT_NEAR(sigma_of(mixed, far), sigma_of(plain, far), 0.05 * sigma_of(plain, far));
     const Linearised linear = linearise(mixed, mixed.mesh_shape(), mixed.mesh_outline());

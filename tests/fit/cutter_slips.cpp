@@ -100,7 +100,6 @@ std::string tier_of(const std::string& facet) {
     return facet.substr(0, facet.find_last_not_of("0123456789") + 1);
 }
 
-// Gives the individually read rows of one tier the values of another tier.
 std::vector<std::size_t> mix_up_tiers(std::vector<CutterRow>& rows, Random& random) {
     std::map<std::string, std::vector<std::size_t>> tiers;
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -12,7 +12,6 @@ namespace culet::bench {
 using Random = std::mt19937_64;
 std::size_t one_of(Random& random, std::size_t count);
 
-/// A row as it was written down.
 struct CutterRow {
     std::string kind;
     std::vector<std::string> of;

@@ -29,7 +29,6 @@ bool is_step(const std::string& cut) {
     return cut == "step";
 }
 
-// The facets named with this letter and a number.
 std::vector<std::string> numbered(const Solid& design, const std::string& letter) {
     std::vector<std::string> names;
     for (int i = 1; find_facet(design, letter + std::to_string(i)) >= 0; ++i) {

@@ -15,7 +15,7 @@ enum class Slipped {
     none,
     digits_swapped,
     decimal_point,  ///< ten times too much or too little
-    first_digit,    ///< a wrong first digit
+    first_digit,
     digit_lost,
     digit_doubled,
     other_side,  ///< 90 degrees less the angle
@@ -44,9 +44,9 @@ struct Evening {
     Stone design;  ///< the mesh that the cutter starts from
     Solid truth;
     std::vector<WrittenReading> rows;
-    std::vector<long> wrong_lines;   ///< lines of the rows with the slip
-    std::vector<std::string> steep;  ///< the two mains
-    std::vector<bool> was_read;      ///< per facet: its inclination was read individually
+    std::vector<long> wrong_lines;  ///< lines of the rows with the slip
+    std::vector<std::string> steep;
+    std::vector<bool> was_read;  ///< per facet: its inclination was read individually
 };
 
 /// `cut`: step, or a cut whose mains are C1, C2 .. and P1, P2 .., such as an oval. The same seed

@@ -221,7 +221,6 @@ TEST(FindSymmetry, APavilionAskewIsFarFromSymmetric) {
     EXPECT_NEAR(report.sigma / (d * std::sqrt(a * b / (a + b) / contrasts)), 1, 0.12);
 }
 
-// Readings without information on symmetry leave it open, and the report says so.
 TEST(FindSymmetry, IsLeftOpenWhereNothingWasRead) {
     const Solid truth = fold(6);
     const SymmetryReport report = find_symmetry(
@@ -232,7 +231,6 @@ TEST(FindSymmetry, IsLeftOpenWhereNothingWasRead) {
     EXPECT_LT(report.groups.front().tested, 6);
 }
 
-// A shape without any symmetry.
 TEST(FindSymmetry, OfAStoneWithoutAny) {
     std::mt19937_64 random(4);
     std::normal_distribution<double> normal;

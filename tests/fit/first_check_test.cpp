@@ -46,7 +46,6 @@ protected:
         stone_.up_facet = "T";
         stone_.material.density_g_cm3 = 3.52;
     }
-    // Eight crown mains, one of them misread.
     std::vector<Reading> mains(double fifth) const {
         const double values[]{33.8, 33.7, 33.9, 33.8, fifth, 33.8, 33.9, 33.7};
         std::vector<WrittenReading> rows;
@@ -154,7 +153,6 @@ Stone an_oval() {
     return oval;
 }
 
-// One row for each facet of these tiers, as drawn.
 std::vector<WrittenReading> rows_as_drawn(const Stone& stone, const std::string& letters) {
     std::vector<WrittenReading> rows;
     for (const Facet& facet : stone.solid.facets) {

@@ -34,7 +34,6 @@ TEST(TestStones, BrilliantHasTheKnownCounts) {
     EXPECT_TRUE(is_convex(solid));
 }
 
-// Without noise the truth is the optimum from any start.
 TEST(Fit, RecoversAShakenBrilliant) {
     const Solid truth = brilliant();
     std::vector<Reading> readings = all_angles(truth, radians(0.1), "T");

@@ -97,7 +97,6 @@ TEST(KktSolver, KeepsToNewNumbersRowsAndCurvature) {
     std::mt19937_64 random(7);
     KktSolver solver;
     for (int round = 0; round < 60; ++round) {
-        // The same rows with new values, or a new pattern altogether.
         static Problem p = random_problem(random);
         if (round % 4 == 0) p = random_problem(random);
         if (round % 4 == 2) p.curvature.clear();

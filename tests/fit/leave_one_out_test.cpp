@@ -32,7 +32,6 @@ protected:
         });
     }
     FitResult fitted() const {
-        // The program's settings.
         FitOptions options;
         options.first_check = true;
         const Trial trial = fit_mesh(noisy_mesh(truth_.stone, 0.01, 4), readings_, options);

@@ -106,7 +106,6 @@ TEST(NearMeets, ASixteenValentPointThatMissesByMuchIsNamed) {
     EXPECT_TRUE(point_of(result, "R1F1").contradicted || point_of(result, "R5F1").contradicted);
 }
 
-// By construction.
 TEST(NearMeets, ADropHasTheSymmetryOfItsRows) {
     const Solid truth = contract_near_meets(drop(16, 5, 0), 1e-9).solid;
     const SymmetryReport report =

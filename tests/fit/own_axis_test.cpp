@@ -133,7 +133,6 @@ TEST(OwnAxis, OfAStepCut) {
     EXPECT_LT(result.findings.own_axis.tilt, 1e-6);
 }
 
-// A stone without equal facets and without a girdle has no axis, and the report says so.
 TEST(OwnAxis, OfAnIrregularStoneIsNotKnown) {
     std::mt19937_64 random(4);
     std::normal_distribution<double> normal;

@@ -145,7 +145,6 @@ TEST_F(Words, InclinationsOverNinetyAreOfThePavilion) {
     EXPECT_NEAR(p.value, radians(41), 1e-14);
     EXPECT_EQ(p.side, -1);
     EXPECT_EQ(rows("inclination,P1,41,0.1\n")[0].side, 0);
-    // A crown facet over 90 degrees is a slip.
     EXPECT_THAT(complaint("inclination,C1,139,0.1\n"), HasSubstr("outside 0..90"));
     EXPECT_THAT(complaint("inclination,P1,181,0.1\n"), HasSubstr("outside 0..90"));
 }

@@ -167,7 +167,6 @@ TEST_P(RepeatedReadings, SayTheSameTogetherAndApart) {
                   1e-5)
             << f;
     }
-    // At the same shape, to rounding.
     const Diagnosis of_one = diagnose(together, one.finished.shape, one.finished.outline);
     expect_same(of_one, diagnose(apart, one.finished.shape, one.finished.outline));
     EXPECT_EQ(of_one.suspects.empty(), !is_wrong);

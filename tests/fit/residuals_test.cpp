@@ -191,7 +191,6 @@ TEST_F(CubeReadings, Lengths) {
     EXPECT_NEAR(value(corner_to_line(mmm, ppp, pmp)), 2 * std::sqrt(2.0), 1e-15);
     // The edges T|X+ and B|Y- are skew lines, 2 apart along z.
     EXPECT_NEAR(value(line_to_line(ppp, pmp, vertex(1, -1, -1), mmm)), 2, 1e-15);
-    // Parallel edges across a face diagonal.
     EXPECT_NEAR(value(line_to_line(ppp, pmp, vertex(-1, 1, -1), mmm)), 2 * std::sqrt(2.0), 1e-15);
     EXPECT_NEAR(value(spacing(facet("T"), facet("B"), {ppp, pmp}, {mmm})), 2, 1e-15);
     EXPECT_NEAR(place_of(shape_, crossing(facet("T"), facet("X-"), facet("Y+"))).x, -1, 1e-15);

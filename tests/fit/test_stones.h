@@ -167,7 +167,6 @@ inline Reading reading(ReadingKind kind, std::vector<int> facets, double value, 
     return r;
 }
 
-/// The exact inclination and azimuth of every facet.
 inline std::vector<Reading> all_angles(const Solid& solid, double sigma, const std::string& up) {
     std::vector<Reading> readings;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
@@ -195,7 +194,6 @@ inline Reading depth(const Solid& solid, double sigma) {
     return reading(ReadingKind::depth, {}, width_along(solid, {0, 0, 1}), sigma);
 }
 
-/// The exact length of every edge between two facets.
 inline std::vector<Reading> all_edges(const Solid& solid, double sigma) {
     std::vector<Reading> readings;
     for (const Edge& e : half_edges(solid).edges) {
@@ -206,7 +204,6 @@ inline std::vector<Reading> all_edges(const Solid& solid, double sigma) {
     return readings;
 }
 
-/// Adds normal noise of each reading's own sigma.
 inline std::vector<Reading> noisy(std::vector<Reading> readings, unsigned seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -256,7 +253,6 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
     }
     readings.push_back(depth(truth, sigma));
     for (int k = 0; k < 16; ++k) readings.push_back(width(truth, 11.25 * k, sigma));
-    // Edges that both solids have, by name.
     std::map<std::pair<int, int>, double> lengths;
     for (const Edge& t : half_edges(truth).edges) {
         const int a = find_facet(design, truth.facets[std::size_t(t.left)].name),

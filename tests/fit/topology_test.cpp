@@ -110,7 +110,6 @@ TEST(Topology, ARidgeIsTurnedWhereThatIsAllowed) {
     }
 }
 
-/// A box with a bevel that the readings place outside of it.
 Solid bevelled(double offset) {
     const double s = std::sqrt(0.5);
     return enclosed({{"T", {{0, 0, 1}, 1}},
@@ -187,7 +186,6 @@ TEST(Topology, AnEdgeShorterThanItsUncertaintyIsOpen) {
     EXPECT_THAT(edge->what, ::testing::HasSubstr("zero"));
 }
 
-// A sound stone has no such findings.
 TEST(Topology, ASoundStoneHasNothingToSay) {
     const Solid truth = brilliant();
     const FitResult result =

@@ -122,7 +122,6 @@ void judge_textbook(Case& c) {
                 (1 / std::sqrt(std::norm(w.E.x) + std::norm(w.E.y) + std::norm(w.E.z))) * w.E;
             for (const TextbookWave& t : waves) {
                 nearest = std::min(nearest, std::abs(t.q - w.q));
-                // Sine of the angle between the vibrations.
                 const Complex along = t.E.x * std::conj(unit.x) + t.E.y * std::conj(unit.y) +
                                       t.E.z * std::conj(unit.z);
                 field = std::min(field, std::sqrt(std::norm(t.E.x - along * unit.x) +

@@ -197,7 +197,6 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
             double(!is_closed(r.solid)) + !is_convex(r.solid) + !(planarity(r.solid) <= off),
             std::nan(""), std::string(name_of(r.status)) + ": " + r.message};
     };
-    // Says that it is not to be trusted: any status but `converged`.
     is["admits_it"] = [c] {
         return Measured{c->result().status == FitStatus::converged ? 1.0 : 0.0, std::nan(""),
                         c->result().message};

@@ -18,7 +18,6 @@ struct Allowed {
     double limit = 0, per_condition = 0, per_x = 0;
 };
 
-/// One step of a sweep.
 struct HardPoint {
     double x = 0;  ///< NaN in a sweep over words
     std::string label;

@@ -21,7 +21,6 @@ private:
     HardCase case_;
 };
 
-// A corpus that is not found must not pass.
 TEST(HardCorpus, HasCasesInEverySection) {
     std::set<std::string> found;
     for (const HardCase& one : read_corpus(CULET_SOURCE_DIR "/tests/hard"))

@@ -17,7 +17,6 @@ Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTa
 Scene turned(Scene scene, const Turn& turn);
 /// The same scene in other units of length: lengths are multiplied by `factor`.
 Scene scaled(Scene scene, double factor);
-/// With the facets in another order.
 Scene reordered(Scene scene, unsigned seed);
 /// With every number of stone, crystal and camera one unit in the last place up or down.
 Scene nudged(Scene scene, unsigned seed);

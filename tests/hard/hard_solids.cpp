@@ -123,7 +123,6 @@ std::vector<NamedPlane> catalogue_cut(const TomlTable& stone) {
     for (const Facet& facet : solid.facets) {
         Plane p = facet.plane;
         if (facet.name == which) {
-            // About the middle of the facet.
             const Vec3 middle = corner_mean(solid, facet), old = p.normal;
             const Vec3 across = glm::normalize(glm::cross(old, Vec3{0.3, 0.2, 0.9}));
             p.normal = glm::normalize(std::cos(tilt) * old + std::sin(tilt) * across);

@@ -39,7 +39,6 @@ double brightness(const Picture& p) {
     return sum / static_cast<double>(std::max<std::size_t>(p.rgb.size(), 1));
 }
 
-// Mean difference over the mean of the second.
 double apart(const Picture& a, const Picture& b, double factor = 1) {
     if (a.rgb.size() != b.rgb.size()) return 1e300;
     double sum = 0;

@@ -178,7 +178,6 @@ Measured bodies_agree(const Case& c) {
     return worst;
 }
 
-// The textbook meet of three planes in doubles.
 Measured meets_in_doubles(const Case& c) {
     std::vector<std::vector<const Plane*>> sharers(c.solid.vertices.size());
     for (const Facet& f : c.solid.facets) {

@@ -13,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The headers of CGAL that culet may include.
 const std::set<std::string> k_allowed = {
     "CGAL/Exact_predicates_exact_constructions_kernel.h",
     "CGAL/Exact_predicates_inexact_constructions_kernel.h",

@@ -95,7 +95,6 @@ TEST(Chart, SeriesWithoutANameGoWithTheOneBefore) {
     EXPECT_EQ(svg.find("#009e73"), std::string::npos);
 }
 
-// Names that are wider together than the chart.
 TEST(Chart, ALongKeyHasTwoLines) {
     Chart chart;
     for (const char* name : {"a rather long name", "another rather long name", "a third long name",

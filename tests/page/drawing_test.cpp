@@ -51,7 +51,6 @@ double area_of(const std::vector<glm::dvec2>& corners) {
     return std::abs(twice) / 2;
 }
 
-// The polygon drawn for a facet.
 std::vector<glm::dvec2> drawn(const std::string& svg, const std::string& name) {
     const std::size_t facet = svg.find("<title>" + name + "</title>");
     if (facet == std::string::npos) return {};
@@ -118,7 +117,6 @@ TEST(Drawing, NamesEveryFacetInSightOnce) {
     }
 }
 
-// The box of a text inside a facet lies within the facet's outline.
 TEST(Drawing, KeepsNamesWithinTheirFacets) {
     for (const Solid& solid : stones()) {
         for (const ViewSide side : k_sides) {

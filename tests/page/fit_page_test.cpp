@@ -151,7 +151,6 @@ TEST(FitPage, SaysWhatIsOpenAFacetALineAndFoldsLongLists) {
     }
     const std::string section = fit_look_section(view(fit));
     EXPECT_THAT(section, HasSubstr("inclination and offset of P0"));
-    // Eight are shown.
     EXPECT_THAT(section, HasSubstr("<summary>4 more</summary>"));
 }
 

@@ -61,7 +61,6 @@ class Stones(Scratch):
         np.testing.assert_allclose(area, stone.areas, rtol=1e-9)
 
     def test_are_made_of_planes(self):
-        # A cube of side 2.
         normals = np.vstack([np.eye(3), -np.eye(3)])
         cube = culet.Stone.of_planes(3 * normals, 3 * np.ones(6), names=list("ABCDEF"))
         self.assertEqual(cube.facets, list("ABCDEF"))

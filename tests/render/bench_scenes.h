@@ -30,7 +30,6 @@ struct Ring {
 };
 Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion);
 
-/// A camera `diameters` away, in direction `towards_eye` from the stone's middle.
 Camera bench_camera(const Solid& solid, double diameters, const Vec3& towards_eye, int pixels);
 /// The base case's: 20 degrees from the table's normal.
 Vec3 bench_view();

@@ -227,7 +227,6 @@ inline Vec3 middle_of(const Solid& solid) {
     return 0.5 * (low + high);
 }
 
-// From outside towards a random point near the solid.
 inline Ray random_ray(const Solid& solid, std::mt19937_64& random) {
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     const double size = diameter(solid);

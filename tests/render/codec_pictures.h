@@ -91,7 +91,6 @@ struct TiffKind {
     int packing = COMPRESSION_NONE, predictor = 0;
 };
 
-// A file of noise written by libtiff.
 inline std::string written_tiff(int width, int height, const TiffKind& kind, unsigned seed) {
     const test::ScratchFolder scratch;  // tests run in parallel
     const std::string file = (scratch.path() / "a.tiff").string();

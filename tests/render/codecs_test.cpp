@@ -6,7 +6,7 @@
 #include <png.h>
 // jpeglib.h needs this include before it.
 #include <cstdio>
-// After it.
+// Must follow <cstdio>.
 #include <jpeglib.h>
 
 #include <cstdint>

@@ -58,7 +58,6 @@ TEST(CrystalModes, ObeyMaxwellsEquations) {
                 EXPECT_LE(std::abs(dot(N, D)) / (n2 * face.n[2]), tolerance);
                 EXPECT_LE(off(mode.H + Complex(-1) * H, face.n[2]), tolerance);
                 EXPECT_NEAR(squared_length(mode.E), 1, tolerance);
-                // K, and the ray.
                 const Vec3 K = N - glm::dot(N, face.normal) * face.normal;
                 EXPECT_LE(glm::length(K - face.K), tolerance * face.n[2]);
                 const ComplexVec3 flow =

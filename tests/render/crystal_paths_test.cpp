@@ -277,7 +277,6 @@ TEST(CrystalPaths, VanishingBirefringenceTendsToTheIsotropicStone) {
     }
 }
 
-// The facets, modes and weight of every exit.
 struct Ways {
     struct Way {
         std::vector<int> facets;

@@ -42,8 +42,8 @@ TEST(Crystal, UniaxialFaceConservesPowerAndSnellInEveryOrientation) {
         };
         const Vec3 n_out = unit();
         Vec3 axis = unit();
-        if (i % 5 == 1) axis = n_out;                                    // axis along the normal
-        if (i % 5 == 2) axis = glm::normalize(glm::cross(n_out, axis));  // axis in the face
+        if (i % 5 == 1) axis = n_out;  // axis along the normal
+        if (i % 5 == 2) axis = glm::normalize(glm::cross(n_out, axis));
         const Crystal crystal = uniaxial_crystal(axis, 1.658, i % 3 == 0 ? 1.658 - 1e-9 : 1.486);
         // Any mode that runs towards the face, made by a face with the same orientation.
         const Vec3 tangent = glm::normalize(glm::cross(n_out, unit()));

@@ -182,7 +182,6 @@ TEST(Turntable, KeepsTheStoneAndComesRound) {
     const Scene quarter = turned(scene, std::acos(0.0));
     EXPECT_NEAR(volume(quarter.stone.solid), volume(before), 1e-12 * volume(before));
     EXPECT_LT(glm::length(centroid(quarter.stone.solid) - centroid(before)), 1e-12 * size);
-    // The planes turn with the corners.
     EXPECT_LT(planarity(quarter.stone.solid), planarity(before) + 1e-12 * size);
     EXPECT_GT(glm::length(quarter.stone.solid.vertices[1] - before.vertices[1]), 0.01 * size);
     Scene round = scene;

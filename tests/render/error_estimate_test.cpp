@@ -379,7 +379,6 @@ TEST(ErrorEstimate, FindsWhatEffectsThatAreLeftOutChange) {
     const Picture picture = FrameRenderer(without).draw().picture;
     const StonePixels all = all_stone_pixels(scene);
     ErrorEstimator estimator(scene, all, scene.settings.tolerance, quiet);
-    // Asking for a slightly smaller bound each time takes more pixels.
     ErrorEstimate estimate = estimator.estimate(picture, 1e9, 1e12);
     for (int more = 0; more < 20 && estimate.pixels < 192; ++more)
         estimate = estimator.estimate(picture, 0.95 * estimate.bound, 1e12);

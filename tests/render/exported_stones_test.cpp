@@ -24,7 +24,6 @@ Scene one_stone() {
     return scene;
 }
 
-// Pairs of wavelength (nm) and value.
 std::vector<std::pair<double, double>> spectrum_in(const std::string& text,
                                                    const std::string& name) {
     const std::string words = "\"spectrum " + name + "\" [";

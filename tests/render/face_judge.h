@@ -35,7 +35,6 @@ public:
     int faces() const { return faces_; }
     int excused() const { return excused_; }
 
-    /// The largest deviations.
     struct Worst {
         double amplitude = 0, power = 0, wave = 0, ray = 0, imbalance = 0;
         /// The largest change of the oracle's answers by rounding of the input, computed only for

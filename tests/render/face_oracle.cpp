@@ -32,7 +32,6 @@ Triple<RealVec> orthonormal(const std::array<Vec3, 3>& axes) {
     return u;
 }
 
-// N N^T - N^2 I + eps.
 Matrix wave_matrix(const Matrix& eps, const Vec& N) {
     Matrix m = eps;
     const Number squared = dot(N, N);
@@ -86,8 +85,8 @@ struct Wave100 {
     Number q;
     Vec N, E, H;  // |E| = 1
     bool propagates = true;
-    RealVec flow;     // Re(E x H*)
-    Real flux;        // along n
+    RealVec flow;
+    Real flux;
     Real along_axis;  // share of E along the optic axis, squared
 
     void complete(const RealVec& n, const RealVec& axis) {

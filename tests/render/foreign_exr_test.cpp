@@ -121,7 +121,6 @@ TEST_F(ForeignExr, TheOnlyLayerOfColoursIsRead) {
     EXPECT_EQ(blender.picture.coverage[0], 0.5f);
     EXPECT_THAT(blender.notes, ElementsAre(HasSubstr("View Layer.Combined")));
     expect_near(pixel(read(file(header, {{"r", 1}, {"g", 2}, {"b", 3}})), 0, 0), {1, 2, 3}, 0);
-    // Beside R, G, B of their own, layers are further pictures.
     EXPECT_THAT(
         read(file(header, {{"R", 1}, {"G", 2}, {"B", 3}, {"a.R", 4}, {"a.G", 4}, {"a.B", 4}}))
             .notes,

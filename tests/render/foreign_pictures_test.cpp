@@ -9,7 +9,7 @@
 #include <zlib.h>
 // jpeglib.h needs this include before it.
 #include <cstdio>
-// After it.
+// Must follow <cstdio>.
 #include <jpeglib.h>
 
 #include <cmath>

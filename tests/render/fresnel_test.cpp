@@ -39,7 +39,7 @@ TEST(Fresnel, FortyFiveDegreesOnGlass) {
 
 TEST(Fresnel, BrewstersAngleReflectsNoP) {
     for (const double n : {1.0 + 1e-9, 1.33, 1.5, 2.417, 4.0}) {
-        const double cosine = 1 / std::sqrt(1 + n * n);  // tan = n
+        const double cosine = 1 / std::sqrt(1 + n * n);
         EXPECT_LT(std::abs(fresnel(1, n, cosine).r_p), 1e-15) << n;
     }
 }

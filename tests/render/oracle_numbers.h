@@ -77,7 +77,6 @@ inline Vec3 rounded(const RealVec& a) {
     return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
 }
 
-// Rodrigues' rotation formula.
 inline RealVec turned(const RealVec& v, const RealVec& about) {
     const Real angle = length(about);
     if (angle == 0) return v;

@@ -187,7 +187,7 @@ TEST(OtherRenderers, SquareMapOfPbrtHasEqualAreas) {
             squares += d * d / double(n * n);
         }
     }
-    EXPECT_LT(glm::length(mean), 1e-12);  // symmetric
+    EXPECT_LT(glm::length(mean), 1e-12);
     for (const double square : {squares.x, squares.y, squares.z})
         EXPECT_NEAR(square, 1.0 / 3, 10.0 / (n * n));
     // The middle is +z, corners are -z, the middles of the sides +x and +y.

@@ -75,7 +75,6 @@ TEST_F(PictureFormats, FloatTiffIsLinear) {
     EXPECT_EQ(back.picture.rgb[1], 3.5f);
 }
 
-// A JPEG, left half dark, right half bright, 32 x 16.
 cv::Mat two_halves() {
     cv::Mat image(16, 32, CV_8UC3, cv::Scalar(20, 20, 20));
     image.colRange(16, 32).setTo(cv::Scalar(220, 220, 220));

@@ -114,7 +114,7 @@ TEST_F(Pictures, WhatIsNoPictureEndsInOneClearLine) {
     const std::size_t tiles = tile.find("compression");
     const std::string attribute("tiles\0tiledesc\0\x09\0\0\0\0\0\0\x40\0\0\0\x40\0", 28);
     tile.insert(tiles, attribute);
-    tile[5] = 2;  // the flag of tiled files
+    tile[5] = 2;
     bad.push_back(write("tile.exr", tile));
     // An offset table whose first entry is 3 below the largest 64-bit number: the two blocks of 16
     // rows begin directly after the table.

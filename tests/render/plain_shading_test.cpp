@@ -151,7 +151,6 @@ TEST(Flat, AStonesFacetHasOneColour) {
     lamp.radiance.value = 5.0;
     scene.lights.sources.push_back(lamp);
     const LocalShader flat(scene, LocalShading::flat), phong(scene, LocalShading::phong);
-    // The table is wide: 0.57 of 6.5 mm.
     const Rgb middle = flat.shade(down(0, 0)).colour;
     EXPECT_EQ(flat.shade(down(1.2, 0.6)).colour, middle);
     EXPECT_NE(phong.shade(down(1.2, 0.6)).colour, phong.shade(down(0, 0)).colour);

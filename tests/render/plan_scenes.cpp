@@ -20,7 +20,6 @@ PlaneLight window(const Vec3& point, double half_width, double half_height) {
     return {point, normal, half_width * u, half_height * v, {2.5}};
 }
 
-// A dim room with two near windows.
 Lights two_windows(double size) {
     Lights lights;
     lights.constant = 0.05;
@@ -47,7 +46,6 @@ Lights light_named(const std::string& name, double size) {
     if (name == "lightbox") return two_windows(size);
     if (name == "daylight") return bare_sun();
     if (name == "lamp") {
-        // One tungsten lamp over a grey room.
         Lights lights;
         lights.constant = 0.2;
         lights.sources.push_back(

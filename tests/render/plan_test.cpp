@@ -66,7 +66,6 @@ TEST(ColourError, IsZeroForEqualPixelsAndRelativeToTheMean) {
     EXPECT_NEAR(error.radiance, 0.025, 1e-15);
     EXPECT_NEAR(error.radiance_spread, 0.025, 1e-15) << "of 0.05 and 0";
     EXPECT_GT(error.delta_e, 0);
-    // Scale invariant: twice the light, the same error.
     const ColourError twice = colour_error({{2.6, 2, 2}, {6, 6, 6}}, {{2, 2, 2}, {6, 6, 6}});
     EXPECT_NEAR(twice.radiance, error.radiance, 1e-15);
     EXPECT_NEAR(twice.delta_e, error.delta_e, 1e-12);
@@ -327,7 +326,6 @@ TEST(ErrorEstimate, FindsWhatAPictureIsOffBy) {
     for (float& v : picture.rgb) v = 1;
     const ErrorEstimate right = estimator.estimate(picture, 0.05, 1e9);
     EXPECT_LE(right.bound, 0.01);
-    // A NaN pixel is as wrong as possible.
     picture.rgb.assign(3 * picture.pixels(), std::nanf(""));
     EXPECT_GT(estimator.estimate(picture, 0.05, 1e9).bound, 1e6);
 }
@@ -344,7 +342,6 @@ TEST(ErrorEstimate, CountsPixelsThatItChoosesMoreOftenForLess) {
     const Progress progress;
     double sum = 0, count = 0;
     for (std::size_t p = 0; p < picture.pixels(); ++p) {
-        // Off by 1 in the left quarter only.
         const bool left = p % 64 < 24;
         for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * p + c] = left ? 2.0f : 1.0f;
         if (picture.coverage[p] < 0.5f) continue;

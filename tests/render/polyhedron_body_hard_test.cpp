@@ -172,14 +172,12 @@ TEST(PolyhedronBodyHard, FacetWithAHoleLetsTheRayThrough) {
     const PolyhedronBody body(ring());
     EXPECT_FALSE(body.entry({0, 0, 5}, {0, 0, -1}).has_value());
     EXPECT_FALSE(body.entry({0.9, 0.9, 5}, {0, 0, -1}).has_value());
-    // Along the bridge between hole and outline.
     for (const double shift : {-1e-17, 0.0, 1e-17}) {
         const auto hit = body.entry({-2 + shift, -2, 5}, {0, 0, -1});
         ASSERT_TRUE(hit.has_value());
         EXPECT_EQ(hit->facet, 0);
         EXPECT_EQ(hit->distance, 4);
     }
-    // In at the side, out into the hole, in again and out.
     const BodyHit wall = body.exit({-3, 0, 0.5}, {1, 0, 0}, 5);
     EXPECT_EQ(wall.facet, 9);
     EXPECT_EQ(wall.distance, 2);

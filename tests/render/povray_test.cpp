@@ -297,7 +297,6 @@ TEST_F(PovrayPictures, MirrorsAndThingsThatShine) {
     scene.camera.width = 96;
     scene.camera.height = 72;
     scene.settings = stone_scene().settings;
-    // POV-Ray's levels include mirrors.
     scene.settings.depth = 60;
     scene.lights.constant = 0.1;
     scene.lights.sources = {HemisphereLight{glm::normalize(Vec3{0.2, 0.1, 1}), {0.3}},

@@ -150,7 +150,6 @@ TEST_F(SceneStones, RadiancesThatNoPictureCanHoldAreRefused) {
     }
 }
 
-// Flat: it has no interior.
 TEST_F(SceneStones, AFlatStoneIsRefused) {
     std::string flat = k_tetrahedron;
     const std::size_t apex = flat.rfind("v ");
@@ -208,7 +207,6 @@ TEST_F(SceneStones, LightsAreRotatedAboutTheStonesMiddle) {
     EXPECT_NE(refusal("stone = \"stone.toml\"\n[light]\nconstant = 1\nrotate = 3\n"), "");
 }
 
-// A text with its own files reads none from the disk.
 TEST_F(SceneStones, ASceneMayHoldItsFilesItself) {
     write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
     std::ifstream stream(folder_ / "map.exr", std::ios::binary);

@@ -121,7 +121,6 @@ TEST_F(StoneSceneTest, HeartsAreSeenFromBelowAndAllElseFromAbove) {
     }
 }
 
-// A camera given in the scene stays where it is.
 TEST_F(StoneSceneTest, HeartsDoNotMoveACameraThatIsNamed) {
     mesh("stone.obj", make_cut("round-brilliant"));
     const Scene scene = read_scene(
@@ -149,7 +148,6 @@ TEST_F(StoneSceneTest, DesignsWithoutASizeAreDrawn6Point5MmWideAndItIsSaid) {
         choices.width_mm = 11;
         const Scene wide = read_any_scene(stone, {}, choices);
         EXPECT_NEAR(width_along(wide.stone.solid, {0, 1, 0}), 11, 1e-9) << name;
-        // Planes and corners alike.
         for (const Facet& facet : wide.stone.solid.facets) {
             for (int corner : facet.corners)
                 EXPECT_NEAR(

@@ -52,7 +52,6 @@ TEST(Whitted, AGlassBallOnItsAxisSumsFresnel) {
     stone.stone.material.index[0].n = 2.4;
     stone.lights = scene.lights;
     const WhittedTracer gem(stone, 1);
-    // One face: the table's reflection alone.
     EXPECT_NEAR(gem.trace(down(0, 0), 0).colour[0], r, 1e-9);
 }
 

@@ -25,7 +25,7 @@ using namespace culet::test;
 struct Format {
     const char* extension;
     std::function<Solid(const std::string&)> parse;
-    std::string good;  ///< a valid file
+    std::string good;
 };
 
 std::vector<Format> formats() {
@@ -47,7 +47,6 @@ std::vector<Format> formats() {
     return all;
 }
 
-/// Parses, and checks any result too.
 void expect_survives(const Format& format, const std::string& bytes) {
     try {
         const Solid solid = format.parse(bytes);

@@ -273,7 +273,6 @@ TEST(Convexity, FlippedShortEdgeIsNeverConvex) {
 }
 
 TEST(Convexity, DentedCubeIsNotConvex) {
-    // A cube with a pyramid pressed into its top.
     Solid solid = cube();
     const int top = find_facet(solid, "pz");
     const std::vector<int> corners = solid.facets[top].corners;

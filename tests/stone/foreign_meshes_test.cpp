@@ -102,7 +102,6 @@ Solid rose(const std::vector<double>& inclinations) {
     return of_planes(planes);
 }
 
-// A briolette: facets round an axis with a point at both ends.
 Solid drop() {
     std::vector<std::pair<Vec3, double>> planes;
     for (int i = 0; i < 8; ++i) {

@@ -39,7 +39,6 @@ std::string with_ends(const std::string& text, const std::string& end) {
     return changed;
 }
 
-/// One text as different systems store it.
 std::vector<std::pair<const char*, std::string>> kept_otherwise(const std::string& text) {
     return {{"mark", "\xef\xbb\xbf" + text},
             {"UTF-16 LE", utf16(text, true, true)},

@@ -105,7 +105,6 @@ TEST(GemCadAsc, Windows1252BecomesUtf8AndBack) {
 TEST(GemCadAsc, OpenAndEmptyDesignsAreRefused) {
     EXPECT_THROW(parse_gemcad_asc("GemCad 5.0\na 0 0.5 96\n"), InputError);
     EXPECT_THROW(parse_gemcad_asc("GemCad 5.0\n"), InputError);
-    // Two horizontal planes through the origin enclose nothing.
     std::string text = k_block;
     text.replace(text.find("0.5 96"), 3, "0.0");
     text.replace(text.find("0.25"), 4, "0.00");
@@ -206,7 +205,6 @@ TEST(GemCadWriting, SharesTiersAndWritesPlainNumbers) {
         EXPECT_LT(plane_difference(cut.solid, again.solid), 1e-12);
         EXPECT_EQ(again.solid.design->headings, cut.solid.design->headings);
         EXPECT_EQ(again.solid.design->gear, cut.solid.design->gear);
-        // As many tiers as the design has.
         const auto tiers = [](const std::string& text) {
             int count = 0;
             for (std::size_t at = text.find("\na "); at != std::string::npos;

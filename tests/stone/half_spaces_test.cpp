@@ -145,7 +145,6 @@ TEST(HalfSpaces, CubicSolidsWithExactMeetsOfManyPlanes) {
         EXPECT_EQ(result.solid.facets.size(), c.facets);
         EXPECT_EQ(edge_count(result.solid), c.edges);
         EXPECT_TRUE(find_faults(result.solid).empty());
-        // The same in reverse order.
         std::reverse(planes.begin(), planes.end());
         EXPECT_EQ(intersect_half_spaces(planes).solid.vertices.size(), c.vertices);
         // Planes that touch only vertices and edges bound no facet.
@@ -161,7 +160,6 @@ TEST(HalfSpaces, CubicSolidsWithExactMeetsOfManyPlanes) {
 TEST(HalfSpaces, RepeatedPlanesAreToldAndChangeNothing) {
     auto planes = cube_planes();
     planes.push_back({"again", planes[2].plane});
-    // The same plane with a normal of length 2.
     planes.push_back({"longer", {{2, 0, 0}, 2}});
     const HalfSpaceSolid result = intersect_half_spaces(planes);
     EXPECT_EQ(result.repeated_planes, (std::vector<int>{6, 7}));
@@ -173,7 +171,7 @@ TEST(HalfSpaces, PlanesThatOnlyTouchAreUnused) {
     auto planes = cube_planes();
     planes.push_back({"edge", {glm::normalize(Vec3(1, 1, 0)), std::sqrt(2.0)}});
     planes.push_back({"away", {{0, 0, 1}, 7}});
-    planes.push_back({"corner", {Vec3(3, 4, 12), 19}});  // exactly through (1, 1, 1)
+    planes.push_back({"corner", {Vec3(3, 4, 12), 19}});
     const HalfSpaceSolid result = intersect_half_spaces(planes);
     EXPECT_EQ(result.solid.vertices.size(), 8u);
     EXPECT_EQ(result.unused_planes, (std::vector<int>{6, 7, 8}));

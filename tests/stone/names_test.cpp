@@ -53,7 +53,6 @@ TEST(NamesLike, AreListedInWords) {
 TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
     EXPECT_NE(error_of("sapphire").find("mean \"sapphire_blue\", \"corundum\""), std::string::npos)
         << error_of("sapphire");
-    // If there are several kinds all are named, and none is chosen.
     EXPECT_NE(error_of("topaz").find("mean \"topaz_fluor\", \"topaz_imperial\" or \"topaz_blue\"?"),
               std::string::npos)
         << error_of("topaz");
@@ -68,7 +67,6 @@ TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
     EXPECT_EQ(catalogue_names_like("Demantoid"), std::vector<std::string>{"garnet_andradite"});
     EXPECT_TRUE(has(catalogue_names_like("garnet"), "garnet_rhodolite"));
     EXPECT_TRUE(catalogue_names_like("qqqqqqqq").empty());
-    // A name of a megabyte is not echoed in full.
     EXPECT_LT(for_terminal(error_of(std::string(1 << 20, 'x'))).size(), 400u);
 }
 
@@ -87,7 +85,6 @@ TEST(Catalogue, KnowsAStoneByItsTitle) {
 TEST(Catalogue, SaysWhenTheColourOfAStoneIsMissing) {
     EXPECT_NE(notes_on(catalogue_material("aquamarine")).at(0).find("light greenish blue"),
               std::string::npos);
-    // Colourless ones, and coloured ones.
     for (const char* name : {"diamond", "quartz", "glass_bk7", "corundum", "garnet_rhodolite",
                              "peridot", "tourmaline_green"}) {
         EXPECT_TRUE(notes_on(catalogue_material(name)).empty()) << name;

@@ -20,7 +20,6 @@ namespace {
 
 using namespace culet::test;
 
-/// Each facet's nearest plane in the other solid.
 double nearest_plane_difference(const Solid& a, const Solid& b) {
     const double size = diameter(a);
     double worst = 0;
@@ -56,7 +55,6 @@ void expect_round_trips(const Solid& solid) {
         } else {
             EXPECT_LT(plane_difference(solid, read.solid), 1e-12);
         }
-        // A second round trip changes nothing.
         const auto again = folder / (std::string("again").append(extension));
         write_solid(read.solid, again);
         EXPECT_EQ(plane_difference(read.solid, read_solid(again).solid) > 1e-12, false);

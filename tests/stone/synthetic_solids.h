@@ -29,7 +29,6 @@ Solid moved(const Solid& solid, double scale, const Vec3& shift, bool turn = tru
 
 /// Splits each facet into a fan of triangles with its name.
 Solid triangulated(const Solid& solid);
-/// Reverses the orientation of all facets.
 Solid turned_inside_out(const Solid& solid);
 
 /// The largest difference between facets of the same name: of unit normals, and of offsets over the

@@ -41,10 +41,8 @@ TEST(GemCadTiers, NameGoesToAllFacets) {
     const auto crown = [&](const std::string& line) {
         return names_of(parse_gemcad_asc(k_head + line + k_rest).solid, 4);
     };
-    // A facet that the file names keeps its name.
     EXPECT_EQ(crown("a 40 0.9 96 24 48 n A 72\n"), (Names{"A.1", "A.2", "A", "A.3"}));
     EXPECT_EQ(crown("a 40 0.9 96 24 48 n A 72 n A\n"), (Names{"A.2", "A.3", "A", "A.1"}));
-    // Several names belong to single facets.
     EXPECT_EQ(crown("a 40 0.9 96 n A 24 48 n B 72\n"), (Names{"A", "f0", "B", "f1"}));
     EXPECT_EQ(crown("a 40 0.9 96 24 48 72\n"), (Names{"f0", "f1", "f2", "f3"}));
     // Two tiers with one name: the numbers continue.

@@ -218,11 +218,9 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertTrue(self.browser.run("return document.getElementById('help').open"))
         ActionChains(self.browser.driver).send_keys(Keys.ESCAPE).perform()
         self.assertFalse(self.browser.run("return document.getElementById('help').open"))
-        # Arrow keys switch tabs.
         self.browser.run("document.getElementById('tab-light').focus()")
         ActionChains(self.browser.driver).send_keys(Keys.ARROW_RIGHT).perform()
         self.assertEqual(self.browser.run("return document.activeElement.id"), "tab-stone")
-        # Selects a material by its first letters.
         field = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-name=material]")
         field.send_keys("sapph" + Keys.ARROW_DOWN + Keys.ENTER)
         self.assertEqual(self.browser.run("return culet_page.state.get('material')"), "sapphire_blue")
@@ -334,7 +332,6 @@ class PageTest(PageActions, unittest.TestCase):
         self.browser.run("culet_page.state.set({material: 'refuse_me'})")
         self.browser.rest()
         self.assertEqual(self.browser.run("return document.getElementById('trouble-text').textContent"), "a line for people")
-        # The page continues to work.
         self.browser.run("culet_page.put_away(); culet_page.state.set({material: null})")
         before = self.seen()
         self.drag(50, 20)
@@ -391,7 +388,6 @@ class PageTest(PageActions, unittest.TestCase):
         before = self.seen()
         self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.hdr'));")
         self.assertNotEqual(before, self.seen())
-        # Its brightness is unknown.
         self.assertEqual(self.browser.run("return culet_page.exposure()"), "auto")
         self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.txt'));")
         self.assertIn("room.txt is no panorama", self.browser.run("return document.getElementById('trouble').innerText"))
@@ -411,7 +407,6 @@ class PageTest(PageActions, unittest.TestCase):
         self.open(document)
         self.assertIn("cannot draw this live: a conoscope", self.browser.run("return document.getElementById('trouble').innerText"))
         self.assertFalse(self.browser.run("return document.getElementById('still').hidden"))
-        # The next stone turns.
         self.hand().send_keys(Keys.PAGE_DOWN)
         self.browser.wait("while (!culet_page.ready()) await new Promise((r) => setTimeout(r, 20));")
         before = self.seen()

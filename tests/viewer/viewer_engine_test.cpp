@@ -146,7 +146,6 @@ TEST(ViewerEngine, LooksAsAScenesCameraDoes) {
                  {"camera.size=[90,90]", "camera.position=[3,-20,25]", "camera.look_at=[0,0,-0.5]",
                   "camera.up=[0,0,1]", "camera.fov=15"});
     EXPECT_EQ(page.engine.pixels(), expected);
-    // The same after another, quickly drawn view.
     Json other = of_size(90);
     other["camera"] = {
         {"position", {0, 0, 40}}, {"look_at", {0, 0, 0}}, {"up", {0, 1, 0}}, {"width", 8}};
@@ -273,7 +272,6 @@ TEST(ViewerEngine, CutsWithOtherProportions) {
     EXPECT_EQ(page.engine.pixels(), rendered(expected, k_jeweller, {"camera.size=[70,70]"}));
     EXPECT_NE(page.refusal("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 650.0}}}}),
               "none");
-    // The previous one is still there.
     page.call("set", {{"stone", 0}, {"settings", Json::array()}});
 }
 
@@ -305,7 +303,6 @@ TEST(ViewerEngine, HasTheCallsOfThePageAndOfItsDocumentation) {
     EXPECT_GT(asked, 5u);
 }
 
-// A refused call changes nothing.
 TEST(ViewerEngine, SaysWhatIsWrongInOneLine) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     page.call("draw", of_size(40));

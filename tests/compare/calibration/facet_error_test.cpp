@@ -80,7 +80,6 @@ TEST(FacetError, OfOneFacetTurnsItAboutItsMiddleAndLeavesTheOthers) {
             for (const Facet& other : stone.facets) {
                 const double by = tilt(*wrong, other);
                 if (by < 0) continue;
-                // The arc cosine of a rounded 1 is up to sqrt(2 * 2^-52).
                 EXPECT_NEAR(by, other.name == facet.name ? angle : 0, 1e-7) << other.name;
             }
             const int there = find_facet(*wrong, facet.name);
@@ -131,7 +130,6 @@ TEST(TurnsAlike, OfTheStandardCuts) {
     EXPECT_EQ(turns_alike(make_cut("oval"), up), 2);
     EXPECT_EQ(turns_alike(make_cut("trillion"), up), 3);
     EXPECT_EQ(turns_alike(make_cut("pear"), up), 1);
-    // A small error does not hide the symmetry.
     EXPECT_EQ(turns_alike(*with_facet_error(make_cut("princess"), radians(0.5), 2), up), 4);
 }
 

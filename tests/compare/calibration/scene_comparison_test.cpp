@@ -160,7 +160,6 @@ TEST(SceneComparison, KeepsItsCalibrationForTheNextPhotograph) {
         return json.substr(from, to - from);
     };
     EXPECT_TRUE(meant(first) == meant(second));
-    // Another seed is another calibration.
     options.compare.seed = 2;
     EXPECT_FALSE(compare_with_scene(photo, scene, options).calibrated->calibration.from_cache);
     fs::remove_all(cache);

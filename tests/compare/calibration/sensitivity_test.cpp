@@ -218,7 +218,6 @@ TEST(SeveralPhotographs, OfWhichNoneCouldBeComparedAreRefused) {
     const SeveralPhotographs several = together({refused, refused});
     EXPECT_EQ(several.verdict, Verdict::refused);
     EXPECT_FALSE(several.together.deg.has_value());
-    // In a tie the worse verdict wins.
     EXPECT_EQ(together({row_with(0.1, Verdict::match), row_with(1, Verdict::partial)}).verdict,
               Verdict::partial);
 }

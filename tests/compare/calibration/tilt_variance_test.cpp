@@ -51,7 +51,6 @@ TEST(TiltVariance, OfOneCauseIsItsSize) {
     EXPECT_EQ(*variance.rms({0, 0, 0}), 0);
 }
 
-// Directions of equal strength have equal weights.
 TEST(TiltVariance, OfCausesThatDoNotOverlapIsTheirRootMeanSquare) {
     const TiltVariance variance({{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}}, {}, {1, 1, 1, 1}});
     EXPECT_NEAR(*variance.rms({2 * 0.1, -2 * 0.2, 2 * 0.2, 7}), std::sqrt(0.09 / 3), k_rounding);

@@ -125,7 +125,6 @@ TEST(BallFinder, AMirrorPressesTheRoomTogetherAtItsRim) {
     EXPECT_LT(ball.alike, 0.75 * all_round);
 }
 
-// With two balls in one picture nothing says which is meant.
 TEST(BallFinder, AnotherBallIsARival) {
     simulated::BallShot shot;
     shot.width = 300;

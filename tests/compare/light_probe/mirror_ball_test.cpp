@@ -37,7 +37,6 @@ TEST(MirrorBall, PixelsAndDirectionsAreInverseAtAnyDistance) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (const double distance : {1.5, 3.0, 10.0, 60.0, 1e4, k_inf}) {
-        // Also away from the middle of the picture.
         const MirrorBall ball = MirrorBall::at_distance({260, 130, 90}, {199.5, 149.5}, distance);
         for (int i = 0; i < 300; ++i) {
             const PixelPlace p{260 + 85 * uniform(random), 130 + 85 * uniform(random)};

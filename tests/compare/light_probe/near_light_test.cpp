@@ -107,7 +107,6 @@ ProbeView view_of(const BallShot& shot, const std::string& name,
     return view;
 }
 
-// Where a picture shows a point of the world.
 PixelPlace seen_at(const ProbeView& view, const BallShot& shot, const Vec3& point) {
     const MirrorBall ball = MirrorBall::with_focal_length(
         *view.ball, {(shot.width - 1) / 2.0, (shot.height - 1) / 2.0}, view.focal_px);
@@ -290,7 +289,6 @@ TEST(NearLight, AMovedBallTellsWhereAWindowIs) {
     EXPECT_THAT(light_json(probe, options), HasSubstr("\"near_lights\""));
 }
 
-// Two windows that look alike: each finds its counterpart in the second picture.
 TEST(NearLight, WindowsThatLookAlikeAreNotConfused) {
     const double radius = 100;
     const std::vector<Window> truth{window_at(2.3, 0.3, 11, 1.2, 1.2),
@@ -351,7 +349,7 @@ TEST(NearLight, ALightTooFarToTellStaysInTheEnvironment) {
 }
 
 TEST(NearLight, OnePictureNeedsADistance) {
-    const Window truth = window_at(2.3, 0, 10, 2, 1.5);  // one that faces the ball
+    const Window truth = window_at(2.3, 0, 10, 2, 1.5);
     BallShot here = first_shot(80);
     here.near = window_light({truth});
     const ProbeView view = view_of(here, "here");
@@ -403,7 +401,6 @@ TEST(NearLight, AMeasuredWindowIsTakenAtItsWord) {
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); i += 3)
         EXPECT_LT(probe.light.map.rgb[i], 0.32);
 
-    // Behind the camera's ball nothing shows it.
     request.measured->middle = Vec3(1, 0, 0) * (10 * k_ball);
     request.measured->u = {0, 1, 0};
     request.measured->v = {0, 0, 1};

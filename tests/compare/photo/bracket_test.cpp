@@ -65,7 +65,6 @@ BracketShot shot(const Camera& camera, unsigned seed) {
     return shot_of(photo_by(camera, seed), camera.exposure, seed);
 }
 
-// Mean and worst deviation from the scene in stops, without clipped pixels.
 struct Off {
     double mean = 0, bias = 0;
 };

@@ -123,7 +123,6 @@ TEST_F(Boards, PicturesWithoutTheBoardAreRefused) {
     EXPECT_THROW(board_svg({7, 5, -1}), InputError);
 }
 
-// Straight lines bent by a barrel lens are straight again.
 TEST(Lens, DistortionIsTakenOut) {
     Lens lens;
     lens.width = 200;

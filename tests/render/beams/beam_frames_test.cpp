@@ -99,7 +99,6 @@ TEST(Frames, OfAllChangedAtOnceAndTakenAwayAreThoseOfAFreshRenderer) {
     changed.lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 3, {"A", {}}});
     frames.show(changed);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
-    // Moves to a smaller picture and back to the first size.
     frames.show(scene);
     frames.draw();
     const RenderResult again = frames.take();
@@ -158,7 +157,6 @@ TEST(Frames, ThatMustBeQuickHaveFewerBeamsAndSayWhatIsLeft) {
     RenderStats quick;
     for (int i = 0; i < 4; ++i) {
         quick = frames.draw().stats;
-        // The balance holds.
         EXPECT_NEAR(quick.mean_radiance + quick.remainder, 1, 1e-5);
     }
     EXPECT_LT(quick.beams, whole.beams / 2);

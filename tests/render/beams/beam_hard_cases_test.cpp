@@ -275,7 +275,6 @@ TEST(HardCases, AnEnvironmentKeepsTheLightOfOneTexel) {
     }
 }
 
-// A light smaller than a pixel must keep its total light.
 TEST(HardCases, ASunSmallerThanAPixelKeepsItsLight) {
     Scene scene = plain_scene(slab(1));
     scene.camera.width = scene.camera.height = 40;

@@ -31,7 +31,6 @@ inline std::shared_ptr<const EnvironmentMap> smooth_environment(int width = 64) 
     return map;
 }
 
-/// Lights that change slowly from pixel to pixel.
 inline std::vector<NamedChange> smooth_lights() {
     const auto dark = [](Scene& s) { s.lights = {}; };
     return {
@@ -58,7 +57,6 @@ inline std::vector<NamedChange> smooth_lights() {
          }},
     };
 }
-/// Lights with sharp edges.
 inline std::vector<NamedChange> edged_lights() {
     const auto dark = [](Scene& s) { s.lights = {}; };
     return {

@@ -158,7 +158,6 @@ TEST(BeamTrees, OfHardViewsHaveOneLeafAtEachPoint) {
     }
 }
 
-// The facets that the ray through `p` meets, by exact refraction.
 std::vector<int> traced(const ConvexBody& body, const ScreenView& view, const ScreenPoint& p,
                         std::size_t depth) {
     const EyeRay ray{view.origin(p), glm::normalize(view.towards(p))};
@@ -302,7 +301,6 @@ TEST(BeamTrees, OfDepth1AreTheFrontFacetsAndOfDepth2MeetOneMore) {
     }
 }
 
-// A pruned beam stays one whole leaf.
 TEST(BeamTrees, ThatAreCutKeepTheirArea) {
     const Solid solid = round_brilliant();
     const FacetNet net(solid);
@@ -327,7 +325,6 @@ TEST(BeamTrees, ThatAreCutKeepTheirArea) {
     EXPECT_LT(before, all / 10);
 }
 
-// Reused memory must not influence the result.
 TEST(BeamTrees, BuiltIntoUsedMemoryAreTheSame) {
     std::mt19937_64 random(20279);
     BeamTree used;

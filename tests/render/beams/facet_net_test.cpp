@@ -73,7 +73,6 @@ TEST(Net, OfARoundBrilliantHasItsCorners) {
         expect_on_planes(net);
         // Table, stars, mains and halves of the crown, girdle, halves and mains of the pavilion.
         EXPECT_EQ(counts.facets, 1 + mains * (1 + 1 + 2 + 2 + 2 + 1));
-        // All pavilion mains meet in the culet.
         EXPECT_EQ(counts.most_at_a_corner, mains);
     }
 }

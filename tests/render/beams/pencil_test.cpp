@@ -15,7 +15,6 @@ using namespace culet;
 
 constexpr double k_stone = 2.417;
 
-// A ray through the stone, and its position at its last facet.
 struct Walk {
     Vec3 point, direction;
     std::vector<int> facets;
@@ -47,7 +46,6 @@ Walk walk_along(const EyeRay& ray, const std::vector<Plane>& planes, double n) {
     return walk;
 }
 
-// The facets that the ray meets, front first.
 std::vector<Plane> planes_met(const Solid& solid, const EyeRay& ray, int depth, double n) {
     double entry = -1e300;
     const Plane* last = nullptr;

@@ -54,7 +54,6 @@ INSTANTIATE_TEST_SUITE_P(Effects, Golden,
                              return name;
                          });
 
-// A counter-test: a stone a twentieth brighter in one corner is noticed.
 TEST(GoldenPictures, ASmallChangeIsNoticed) {
     const std::string scene = "garnet-depth", engine = "reference";
     const GoldenPicture golden = read_golden(golden_file(scene, engine));

@@ -156,7 +156,6 @@ TEST_F(GpuEngine, SaysWhatItDid) {
     for (const char c : gpu.notes.back()) EXPECT_TRUE(c >= ' ' && c <= '~');
 }
 
-// Depth and cut follow from the tolerance as in the reference.
 TEST_F(GpuEngine, CutsWhatTheToleranceAllows) {
     Scene scene = lit_scene();
     scene.settings.depth = 0;
@@ -190,7 +189,6 @@ TEST_F(GpuEngine, StopsWhenAskedTo) {
     EXPECT_GT(draw(scene).stats.mean_radiance, 0);
 }
 
-// u_light_turn against lights that were turned.
 TEST_F(GpuEngine, TurnsLightsByOneUniform) {
     Scene scene = lit_scene();
     scene.lights.environment = smooth_environment();

@@ -206,7 +206,6 @@ TEST(LightReturn, HasThePublishedFire) {
         << "without dispersion nothing is known of fire";
 }
 
-// A stone with two mirror planes looks the same tilted either way.
 TEST(LightReturn, OfSymmetricDesignsIsSymmetric) {
     const Grade grade =
         grade_stone(round_brilliant(), {k_diamond, {}}, tilted_by({-30, -17, -3, 0, 3, 17, 30}));

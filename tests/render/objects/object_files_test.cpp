@@ -55,7 +55,6 @@ TEST_F(ObjectFiles, ShapesAndMaterials) {
     EXPECT_EQ(box.center, Vec3(1, 0, 0));
 }
 
-// A matrix equals its steps.
 TEST_F(ObjectFiles, TransformsAreStepsOrMatrices) {
     const auto placed = [&](const std::string& transform) {
         return std::get<SphereShape>(read("[[object]]\nshape = \"sphere\"\ncenter = [1, 0, 0]\n"
@@ -139,7 +138,6 @@ TEST_F(ObjectFiles, SeveralStonesStandWhereTheyArePut) {
               "");
 }
 
-// The fingerprint covers all that a picture depends on.
 TEST_F(ObjectFiles, FingerprintsTellObjectsApart) {
     write("t.obj", k_tetrahedron);
     const auto print = [&](const std::string& text) {

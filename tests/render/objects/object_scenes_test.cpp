@@ -146,7 +146,6 @@ TEST(ObjectScenes, ADiffusePlaneUnderASphereThatShines) {
     }
 }
 
-// There is no light in the full shadow of a sphere.
 TEST(ObjectScenes, ThingsCastShadows) {
     Scene scene = empty_scene(8, 4);
     scene.camera.position = {0, -20, 20};
@@ -275,7 +274,6 @@ TEST(ObjectScenes, AreTheSameWhateverTheThreads) {
     EXPECT_NE(render(scene).picture.rgb, one.picture.rgb);
 }
 
-// Engines that cannot draw objects say so; nothing is left out silently.
 TEST(ObjectScenes, AreRefusedByEnginesThatDoNotDrawThem) {
     Scene scene = between_two_lights(8, 1);
     std::mt19937_64 random(8);

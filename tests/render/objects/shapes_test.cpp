@@ -53,9 +53,9 @@ TEST(Shapes, PlanesAndDiscs) {
     const auto hit = nearest_on(plane, {0, 0, 3}, down, -1);
     ASSERT_TRUE(hit);
     EXPECT_DOUBLE_EQ(hit->distance, 5);
-    EXPECT_FALSE(nearest_on(plane, {0, 0, 3}, {1, 0, 0}, -1));  // parallel to it
-    EXPECT_FALSE(nearest_on(plane, {0, 0, -1}, down, 0));       // away from it
-    EXPECT_TRUE(nearest_on(plane, {0, 0, -2}, {0, 0, 1}, -1));  // from below
+    EXPECT_FALSE(nearest_on(plane, {0, 0, 3}, {1, 0, 0}, -1));
+    EXPECT_FALSE(nearest_on(plane, {0, 0, -1}, down, 0));
+    EXPECT_TRUE(nearest_on(plane, {0, 0, -2}, {0, 0, 1}, -1));
     EXPECT_TRUE(nearest_on(DiscShape{{3, 0, -1}, {0, 0, 1}, 0.01}, {0, 0, 3}, down, -1));
     EXPECT_FALSE(nearest_on(DiscShape{{3, 0.02, -1}, {0, 0, 1}, 0.01}, {0, 0, 3}, down, -1));
 }
@@ -118,7 +118,7 @@ TEST(Meshes, AreMetAsThePolyhedronOfTheirFaces) {
     int hits = 0, differ = 0;
     for (int i = 0; i < 20000; ++i) {
         EyeRay ray = random_ray(random);
-        ray.origin *= i % 2 == 0 ? 1 : 1e6;  // from afar, too
+        ray.origin *= i % 2 == 0 ? 1 : 1e6;
         if (i % 2 == 1) ray.direction = glm::normalize(random_direction(random) - ray.origin);
         const auto hit = tree.nearest(ray.origin, ray.direction);
         const auto wanted = body.entry(ray.origin, ray.direction);

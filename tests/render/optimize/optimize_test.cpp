@@ -129,7 +129,6 @@ TEST(Optimize, IsAtLeastItsStartAndTheSearchWithTwoFactors) {
     double sum = 0;
     for (const ViewReturn& view : graded.curves.front().returns)
         sum += view.whole[static_cast<std::size_t>(LightModel::cos)];
-    // Sums of the same terms in another order.
     EXPECT_NEAR(result.at_better.total, 100 * sum / 7, 1e-9);
 }
 

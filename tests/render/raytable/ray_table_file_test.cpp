@@ -25,7 +25,6 @@ class RayTableFile : public test::FolderTest {
 protected:
     std::filesystem::path file() const { return folder_ / "t.rays"; }
 
-    // The bytes of a small table.
     std::string bytes() {
         test::table_of(test::brilliant(12)).write(file());
         return read_text(file());
@@ -210,7 +209,6 @@ TEST(OctahedralCodes, KeepDirectionsToABillionth) {
     std::vector<Vec3> directions{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}};
     for (int i = 0; i < 100000; ++i) directions.push_back(random_direction(random));
     for (int i = 0; i < 1000; ++i) {
-        // Next to the octahedron's fold.
         Vec3 d = random_direction(random);
         d.z *= 1e-9;
         directions.push_back(glm::normalize(d));

@@ -47,7 +47,6 @@ TEST_F(RayTableEngine, WritesItsTableWhereThereIsNoneAndReadsItAfterwards) {
     EXPECT_EQ(again.picture.rgb, first.picture.rgb);
     EXPECT_EQ(again.stats.seconds_build, 0);
     EXPECT_EQ(read_text(file_), bytes);
-    // Another light and another body colour.
     Scene other = scene();
     other.lights.sources.pop_back();
     other.stone.material.absorption_per_mm[0] = Spectrum(0.3);
@@ -55,7 +54,6 @@ TEST_F(RayTableEngine, WritesItsTableWhereThereIsNoneAndReadsItAfterwards) {
     EXPECT_EQ(relit.stats.seconds_build, 0);
     EXPECT_NE(relit.picture.rgb, first.picture.rgb);
     EXPECT_EQ(read_text(file_), bytes);
-    // The same picture without a file.
     other.settings.ray_table.clear();
     EXPECT_EQ(render(other).picture.rgb, relit.picture.rgb);
 }

@@ -60,7 +60,6 @@ TEST(Relighting, OfOneTableIsDrawingAnewInEveryPreset) {
     }
 }
 
-// Every instruction set of this processor keeps the bounds.
 TEST(Relighting, KeepsTheBoundsWhateverTheProcessorHas) {
     Scene scene = brilliant();
     scene.settings.wavelengths_nm = {450, 550, 610};
@@ -96,7 +95,6 @@ TEST(Relighting, SeesNearLightsOneBeforeTheOtherAndBeforeTheStone) {
     panel.radiance = {2.0};
     lights.sources.push_back(panel);
     expect_equal_but_for_rounding(lit(scene, lights), table, 5);
-    // The ball hides some of it.
     const Picture picture = relit_by(table, lit(scene, lights)).picture;
     const Picture bare = relit_by(table, scene).picture;
     EXPECT_LT(std::accumulate(picture.coverage.begin(), picture.coverage.end(), 0.0),

@@ -105,7 +105,6 @@ TEST(RelitStones, OfTreesIsTheReference) {
     expect_equal_but_for_rounding(lit(liquid, *light_preset("lightbox")), table_of(liquid), 6);
 }
 
-// A table's stated bound covers what it leaves out of a big tree.
 TEST(RelitStones, OfTreesThatWereCutIsWithinTheBoundThatItStates) {
     Scene scene = in_material(brilliant(16), "zircon_high");
     scene.settings.depth = 9;

@@ -24,7 +24,6 @@ Solid box_stone() {
     return intersect_half_spaces(planes).solid;
 }
 
-// Seen straight down through the table, lit from below.
 Scene plate_scene() {
     Scene scene;
     scene.stone.solid = box_stone();

@@ -242,7 +242,6 @@ TEST(Cuts, RandomProportionsGiveASoundStoneOrAClearError) {
 }
 
 TEST(Cuts, ExtremeProportionsGiveASoundStoneOrAClearError) {
-    // Half of the parameters at their defaults, the others anywhere in their ranges.
     const unsigned seed = 2718;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
