@@ -63,7 +63,7 @@ namespace {
 Truth some_of(const Truth& truth) {
     constexpr std::size_t k_some = 200;
     Truth some = truth;
-    some.pixels = truth.pixels.stretch(0, k_some);
+    some.pixels = truth.pixels.range(0, k_some);
     some.drawing.rgb.resize(some.pixels.at.size());
     return some;
 }
@@ -94,7 +94,7 @@ ReferenceSample sample_reference(const Scene& scene, const Truth& truth) {
                              static_cast<std::size_t>(x)) +
                         c] = static_cast<float>(drawing.rgb[i][c]);
     }
-    sample.found = hold_against(truth, picture);
+    sample.found = compare_with_truth(truth, picture);
     sample.halves_apart = drawing.few_rays;
     return sample;
 }
@@ -123,7 +123,7 @@ std::vector<HandChosen> hand_chosen(const Scene& whole, const Truth& truth, doub
                     RenderResult drawn;
                     const Clocks took =
                         quickest([&] { drawn = FrameRenderer(scene).draw(false); }, 1, 0);
-                    const double error = hold_against(truth, drawn.picture).measured;
+                    const double error = compare_with_truth(truth, drawn.picture).measured;
                     keep(fmt::format("{}, {} nm, cut {:g}{}", engine, nodes, cut, hand.words),
                          took.cpu, error);
                     // Stop at finer cuts that gain nothing, or cost more than what already

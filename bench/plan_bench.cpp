@@ -170,7 +170,7 @@ int run(const Options& options) {
             const Clocks took = quickest([&] { drawn = render(scene); }, 1, 0);
             // If nothing was drawn twice, the time besides drawing is planning and estimation.
             const double planned = drawn.stats.plan->seconds_planning;
-            const Verification found = hold_against(truth, drawn.picture);
+            const Verification found = compare_with_truth(truth, drawn.picture);
             const HandChosen* best = cheapest_within(by_hand, tolerance);
             Sums& sum = sums[t];
             ++sum.cases;
@@ -179,7 +179,7 @@ int run(const Options& options) {
             const double chosen = best != nullptr ? seconds_of_chosen(scene, *drawn.stats.plan) : 0,
                          drawn_ratio = best != nullptr ? chosen / best->cpu : 0;
             // Within the truth's own accuracy.
-            const double certain = found.measured - 2 * found.spread;
+            const double certain = found.measured - 2 * found.standard_error;
             const bool over = found.measured > tolerance, under = found.measured > bound;
             sum.over += certain > tolerance;
             sum.under += certain > bound;

@@ -74,9 +74,9 @@ void measure(const std::string& what, Scene scene,
     std::filesystem::remove(file);
     const RayTableHeader& header = table.header();
     fmt::print(
-        "{}: {} rays x {} bands meet the stone, {} leaves, {:.1f} MB; made in {:.0f} ms, "
+        "{}: {} rays x {} bands meet the stone, {} exits, {:.1f} MB; made in {:.0f} ms, "
         "opened and checked in {:.1f} ms; remainder {:.2g}, cut {:.2g}\n",
-        what, header.hits, header.bands, header.leaves, static_cast<double>(table.bytes()) / 1e6,
+        what, header.hits, header.bands, header.exits, static_cast<double>(table.bytes()) / 1e6,
         make_ms, 1e3 * open.cpu, header.remainder, header.cut);
     fmt::print("  {:<28} {:>9} {:>9} {:>12} {:>10} {:>10} {:>9}\n", "light", "relit ms",
                "double ms", "reference ms", "error", "worst", "off 1e-3");

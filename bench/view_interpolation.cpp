@@ -24,7 +24,7 @@ struct Source {
 };
 
 // Exits first .. end - 1 of a table.
-struct Leaves {
+struct Exits {
     const RayTable* table = nullptr;
     std::uint32_t first = 0, end = 0;
     double share = 0;
@@ -34,7 +34,7 @@ struct Leaves {
     }
 };
 
-Leaves leaves_of(const Source& source, std::size_t band) {
+Exits exits_of(const Source& source, std::size_t band) {
     const RayTable& table = source.of->table;
     const auto& ends = table.parts().exits_end;
     const std::size_t at = band * table.header().hits + source.hit;
@@ -65,7 +65,7 @@ public:
     RayTable make() {
         const auto height = static_cast<std::size_t>(scene_.camera.height);
         std::vector<std::vector<TableHit>> hits(height);
-        for (std::vector<RowLeaves>& rows : content_.bands) rows.resize(height);
+        for (std::vector<RowExits>& rows : content_.bands) rows.resize(height);
         on_threads(scene_.settings.threads, [&] {
             tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
                 if (!listener_.goes_on()) return;
@@ -104,11 +104,11 @@ private:
         }
         for (Source& source : sources) source.share /= whole;
         for (std::size_t band = 0; band < content_.bands.size(); ++band) {
-            RowLeaves& row = content_.bands[band][y];
+            RowExits& row = content_.bands[band][y];
             row.count.push_back(0);
             // Rays that no stored view has are dropped.
             if (sources.empty()) row.cut += 1;
-            put_leaves(sources, band, row);
+            put_exits(sources, band, row);
         }
     }
 
@@ -152,17 +152,17 @@ private:
         return first < ends[hit] ? table.parts().facet[first] : -1;
     }
 
-    void put_leaves(const std::vector<Source>& sources, std::size_t band, RowLeaves& row) {
-        std::vector<Leaves> left;
+    void put_exits(const std::vector<Source>& sources, std::size_t band, RowExits& row) {
+        std::vector<Exits> left;
         for (const Source& source : sources) {
-            left.push_back(leaves_of(source, band));
+            left.push_back(exits_of(source, band));
             row.remainder += source.share * source.of->table.header().remainder;
             row.cut += source.share * source.of->table.header().cut;
         }
         // Merge those that meet the same facets, until none is left.
         while (!left.empty()) {
             const auto others = std::stable_partition(
-                left.begin(), left.end(), [first = left.front()](const Leaves& more) {
+                left.begin(), left.end(), [first = left.front()](const Exits& more) {
                     return std::ranges::equal(first.facets(), more.facets());
                 });
             put_mean({left.begin(), others}, row);
@@ -170,9 +170,9 @@ private:
         }
     }
 
-    void put_mean(std::span<const Leaves> alike, RowLeaves& row) {
+    void put_mean(std::span<const Exits> alike, RowExits& row) {
         double whole = 0;
-        for (const Leaves& leaves : alike) whole += leaves.share;
+        for (const Exits& exits : alike) whole += exits.share;
         const std::uint32_t count = alike.front().end - alike.front().first;
         for (std::uint32_t k = 0; k < count; ++k) {
             ExitEvent mean;
@@ -181,24 +181,24 @@ private:
             Vec3 direction(0), point(0);
             double weight = 0;
             std::array<double, 3> length{};
-            for (const Leaves& leaves : alike) {
-                const auto& parts = leaves.table->parts();
-                const std::size_t exit_event = leaves.first + k;
-                const double share = leaves.share / whole;
-                weight += leaves.share * static_cast<double>(parts.weight[exit_event]);
+            for (const Exits& exits : alike) {
+                const auto& parts = exits.table->parts();
+                const std::size_t exit_event = exits.first + k;
+                const double share = exits.share / whole;
+                weight += exits.share * static_cast<double>(parts.weight[exit_event]);
                 direction += share * octahedral_direction({parts.direction[0][exit_event],
                                                            parts.direction[1][exit_event]});
                 point += share * point_of(parts, exit_event);
-                for (std::size_t i = 0; i < leaves.table->header().lengths; ++i)
+                for (std::size_t i = 0; i < exits.table->header().lengths; ++i)
                     length[i] +=
-                        share * leaves.table->header().length_step * parts.length[i][exit_event];
+                        share * exits.table->header().length_step * parts.length[i][exit_event];
             }
             mean.weight = static_cast<float>(weight);
             mean.direction = octahedral_code(direction);
             mean.s = static_cast<float>(glm::dot(axes.u, point));
             mean.t = static_cast<float>(glm::dot(axes.v, point));
             for (std::size_t i = 0; i < 3; ++i) mean.length[i] = static_cast<float>(length[i]);
-            row.leaves.push_back(mean);
+            row.exits.push_back(mean);
             ++row.count.back();
         }
     }

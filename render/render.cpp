@@ -111,10 +111,10 @@ RenderResult drawn_once(const Scene& scene, const Progress& progress) {
 // Light sampled at random: shows a picture with few rays per pixel first.
 RenderResult drawn_with_preview(const Scene& whole, const Progress& progress,
                                 const PictureSink& better) {
-    const bool paced = whole.settings.allowed_ns > 0 && leaves_samples_open(whole);
-    const Scene scene = paced ? with_allowed_samples(whole, progress) : whole;
+    const bool time_limited = whole.settings.allowed_ns > 0 && leaves_samples_open(whole);
+    const Scene scene = time_limited ? with_allowed_samples(whole, progress) : whole;
     // No preview if few rays are all that is allowed.
-    if (better && !(paced && scene.settings.samples <= k_preview_samples)) {
+    if (better && !(time_limited && scene.settings.samples <= k_preview_samples)) {
         Scene few = scene;
         few.settings.samples = k_preview_samples;
         few.settings.wavelength_turns = k_preview_samples;
@@ -125,7 +125,7 @@ RenderResult drawn_with_preview(const Scene& whole, const Progress& progress,
         result.stats.notes.push_back(
             fmt::format("noise: a pixel{} is off by {:.2g} of the mean radiance, root mean square; "
                         "four times the samples halve it",
-                        paced ? fmt::format(" of {} samples", scene.settings.samples) : "",
+                        time_limited ? fmt::format(" of {} samples", scene.settings.samples) : "",
                         result.stats.standard_error));
     }
     return result;

@@ -53,7 +53,7 @@ std::string stats_json(const RenderStats& stats) {
                                 {"measured", v.measured},
                                 {"difference", v.difference},
                                 {"noise", v.noise},
-                                {"spread", v.spread},
+                                {"spread", v.standard_error},
                                 {"deltaE00", v.delta_e},
                                 {"error_bound", v.bound},
                                 {"error_bound_deltaE00", v.bound_delta_e},

@@ -19,7 +19,7 @@ Description describe_ray_table(const DescribeOptions& options) {
     object["wavelengths"] = std::vector<double>(table.parts().wavelengths_nm.begin(),
                                                 table.parts().wavelengths_nm.end());
     object["rays"] = header.hits;
-    object["leaves"] = header.leaves;
+    object["leaves"] = header.exits;
     object["remainder"] = header.remainder;
     object["cut"] = header.cut;
     about.lines.push_back(fmt::format("{}: a ray table, for culet render --engine raytable --table",
@@ -34,7 +34,7 @@ Description describe_ray_table(const DescribeOptions& options) {
     about.lines.push_back(
         fmt::format("{} rays meet a stone of {} facets, and leave it at {} places; remainder "
                     "{:.2g}, cut {:.2g}",
-                    header.hits, header.facets, header.leaves, header.remainder, header.cut));
+                    header.hits, header.facets, header.exits, header.remainder, header.cut));
     return about;
 }
 

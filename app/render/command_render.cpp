@@ -108,11 +108,11 @@ public:
         const auto start = std::chrono::steady_clock::now();
         write(draw_quickly(scene_, progress_line("a first picture", false)));
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        const bool paced = scene_.settings.allowed_ns > 0;
+        const bool time_limited = scene_.settings.allowed_ns > 0;
         say(fmt::format("{} holds a first picture, after {:.1f} s; a better one {}", options_.out,
                         took.count(),
-                        paced ? fmt::format("takes about {} s at most", k_usual_seconds)
-                              : std::string("follows")),
+                        time_limited ? fmt::format("takes about {} s at most", k_usual_seconds)
+                                     : std::string("follows")),
             false);
     }
     PictureSink better() {
@@ -236,7 +236,7 @@ int run_render(const RenderOptions& options) {
         throw InputError(
             "--verify compares some pixels with the reference; with objects or several stones the "
             "reference is as noisy as the picture: say --set render.samples=256");
-    const bool paced = !saved && allow_usual_time(scene);
+    const bool time_limited = !saved && allow_usual_time(scene);
 
     const bool quiet = options.common.quiet;
     Drafts drafts(options, output, scene);
@@ -250,12 +250,12 @@ int run_render(const RenderOptions& options) {
     }
     const RenderStats& stats = result.stats;
     for (const std::string& note : stats.notes) say(note, quiet);
-    if (nears_truth) say_how_near(stats, scene.settings.check, paced, quiet);
+    if (nears_truth) say_how_near(stats, scene.settings.check, time_limited, quiet);
     if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
     if (stats.verification) say_verified(*stats.verification, quiet);
     if (options.common.verbose && !quiet) say_all_about(stats);
     if (!options.out.empty() && options.out != "-") say("next: " + next_step(options), quiet);
-    return usable(stats, paced) ? exit_good : exit_untrusted;
+    return usable(stats, time_limited) ? exit_good : exit_untrusted;
 }
 
 }  // namespace

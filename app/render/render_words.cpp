@@ -8,13 +8,13 @@
 
 namespace culet {
 
-void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet) {
+void say_how_near(const RenderStats& stats, Check check, bool time_limited, bool quiet) {
     if (std::isnan(stats.error_bound) && check == Check::none) {
         say("not checked: the picture's error is unknown", quiet);
         return;
     }
     if (std::isnan(stats.error_bound)) {
-        if (!paced) return;  // a note says why
+        if (!time_limited) return;  // a note says why
         say(fmt::format("a rough picture of unknown error: one that is checked takes more than "
                         "about {} s; --tolerance 0.2 draws it",
                         k_usual_seconds),

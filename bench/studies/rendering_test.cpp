@@ -52,7 +52,7 @@ TEST(VoelkerHamann, BeamsDoNotGrowExponentiallyWithTheDepth) {
         limits.depth = depth;
         BeamTree tree;
         build_beams(net, screen_view(scene.camera), 2.417, limits, tree);
-        return static_cast<double>(tree.beams());
+        return static_cast<double>(tree.grown());
     };
     double before = beams(4), factor = before / beams(2);
     for (int depth = 6; depth <= 14; depth += 2) {

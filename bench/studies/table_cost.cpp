@@ -20,7 +20,7 @@ TableCost table_cost(const Scene& given) {
     const RayTable table = make_ray_table(scene, rays, {});
     cost.make_seconds = clocks().cpu - start.cpu;
     cost.hits = static_cast<long long>(table.header().hits);
-    cost.exits = static_cast<long long>(table.header().leaves);
+    cost.exits = static_cast<long long>(table.header().exits);
     cost.bytes = static_cast<double>(table.bytes());
     cost.relight_seconds =
         quickest([&] { cost.picture = relit(table, scene, rays, {}).picture; }, 3, 0.1).cpu;

@@ -56,10 +56,10 @@ const std::vector<BeamTrunk>& BeamGrower::split_front(int facet,
 
 void BeamGrower::keep_front(int facet, const std::vector<ScreenPoint>& outline, BeamBranch& out) {
     out_ = &out;
-    ++out.beams;
+    ++out.grown;
     pool_ = outline;
     path_.assign(1, static_cast<std::uint16_t>(facet));
-    leaf({{facet, {0, outline.size()}, doubled_area(outline.data(), outline.size())}, 1});
+    add_beam({{facet, {0, outline.size()}, doubled_area(outline.data(), outline.size())}, 1});
 }
 
 void BeamGrower::grow_branch(int front, const ScreenPoint& middle, const BeamTrunk& child,
@@ -76,7 +76,7 @@ void BeamGrower::grow_branch(int front, const ScreenPoint& middle, const BeamTru
     grow(trunk, Folding());
 }
 
-void BeamGrower::leaf(const BeamTrunk& trunk) {
+void BeamGrower::add_beam(const BeamTrunk& trunk) {
     const ScreenPoint* corners = pool_.data() + trunk.part.region.first;
     Beam beam;
     beam.corner = static_cast<std::uint32_t>(out_->corners.size());
@@ -93,18 +93,18 @@ void BeamGrower::leaf(const BeamTrunk& trunk) {
     beam.end_row = static_cast<std::int32_t>(std::ceil(high));
     out_->corners.insert(out_->corners.end(), corners, corners + trunk.part.region.count);
     out_->facets.insert(out_->facets.end(), path_.begin(), path_.end());
-    out_->leaves.push_back(beam);
+    out_->beams.push_back(beam);
     out_->deepest = std::max(out_->deepest, static_cast<int>(path_.size()));
     out_->exit_area += 0.5 * trunk.part.doubled_area;
 }
 
 // `folding` leads to the stone before the trunk's facet mirrors it.
 void BeamGrower::grow(const BeamTrunk& trunk, const Folding& folding) {
-    ++out_->beams;
+    ++out_->grown;
     if (too_many()) return;
     path_.push_back(static_cast<std::uint16_t>(trunk.part.facet));
     if (static_cast<int>(path_.size()) >= limits_->depth) {
-        leaf(trunk);
+        add_beam(trunk);
     } else {
         go_on(trunk, folding);
     }
@@ -123,14 +123,14 @@ void BeamGrower::go_on(const BeamTrunk& trunk, const Folding& before) {
     BeamTrunk next = trunk;
     next.weight *= mean_reflectance(n_, std::clamp(cosine, 0.0, 1.0));
     if (!worth_splitting(next)) {
-        leaf(trunk);
+        add_beam(trunk);
         return;
     }
-    if (0.5 * next.weight * next.part.doubled_area < limits_->alone) {
+    if (0.5 * next.weight * next.part.doubled_area < limits_->middle_ray_area) {
         const std::size_t length = path_.size();
-        follow_alone(next, folding.turn * pencil.direction, folding.point(pencil.x0));
-        leaf(trunk);
-        out_->leaves.back().alone = true;
+        follow_middle_ray(next, folding.turn * pencil.direction, folding.point(pencil.x0));
+        add_beam(trunk);
+        out_->beams.back().follows_middle_ray = true;
         path_.resize(length);
         return;
     }
@@ -149,16 +149,16 @@ void BeamGrower::go_on(const BeamTrunk& trunk, const Folding& before) {
 // Asks only now and then, as the branches share one count.
 bool BeamGrower::too_many() {
     constexpr long long k_now_and_then = 1024;
-    if (out_->beams - counted_ >= k_now_and_then) {
-        *grown_ += out_->beams - counted_;
-        counted_ = out_->beams;
+    if (out_->grown - counted_ >= k_now_and_then) {
+        *grown_ += out_->grown - counted_;
+        counted_ = out_->grown;
         stopped_ = stopped_ || !(*goes_on_)(*grown_);
     }
     return stopped_ || *grown_ > limits_->most_beams;
 }
 
 // Appends the facets that the ray along `d` through `point` meets behind the trunk's facet.
-void BeamGrower::follow_alone(const BeamTrunk& trunk, Vec3 d, const Vec3& point) {
+void BeamGrower::follow_middle_ray(const BeamTrunk& trunk, Vec3 d, const Vec3& point) {
     const Plane& left = net_->plane(trunk.part.facet);
     Vec3 x = point - height_above(left, point) / glm::dot(left.normal, d) * d;
     double weight = trunk.weight;

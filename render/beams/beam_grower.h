@@ -38,11 +38,11 @@ public:
 private:
     static constexpr int k_most_halvings = 12;
 
-    void leaf(const BeamTrunk& trunk);
+    void add_beam(const BeamTrunk& trunk);
     void grow(const BeamTrunk& trunk, const Folding& folding);
     void go_on(const BeamTrunk& trunk, const Folding& before);
     bool too_many();
-    void follow_alone(const BeamTrunk& trunk, Vec3 d, const Vec3& point);
+    void follow_middle_ray(const BeamTrunk& trunk, Vec3 d, const Vec3& point);
     bool worth_splitting(const BeamTrunk& trunk) const;
     void split(const BeamTrunk& trunk, const Pencil& pencil, const Folding& folding,
                const ScreenPoint& middle, int halvings = k_most_halvings);

@@ -254,7 +254,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                                   });
                     const BeamTree& tree = beams[b].tree;
                     if (meter != nullptr)
-                        meter->spend(price_ns(DrawnBeams{.grown = tree.discarded + tree.beams(),
+                        meter->spend(price_ns(DrawnBeams{.grown = tree.discarded + tree.grown(),
                                                          .walked = tree.faces()}));
                 },
                 tbb::simple_partitioner());
@@ -292,7 +292,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
         for (std::size_t b = 0; kept && b < bands; ++b) {
             if (leader[b] != b) continue;
             const BeamTree& tree = beams[b].tree;
-            report.beams += tree.beams();
+            report.beams += tree.grown();
             report.deepest = std::max(report.deepest, tree.deepest());
             if (!(tree.front_area > 0)) continue;
             lost += (tree.front_area - tree.exit_area()) / tree.front_area;

@@ -82,7 +82,7 @@ struct Fragments {
     /// own radiance by node. Both or none.
     float *unhidden = nullptr, *before = nullptr;
     /// 1 if the ray meets exactly these facets, else 0; null: not checked.
-    float* follows = nullptr;
+    float* verified = nullptr;
     bool soft = false;  ///< average lights' edges over a pixel
 };
 constexpr int k_shading_room = 16;

@@ -60,17 +60,17 @@ std::vector<FrontFacet> front_facets(const FacetNet& net, const ScreenView& view
 }
 
 void BeamBranch::clear() {
-    leaves.clear();
+    beams.clear();
     corners.clear();
     facets.clear();
-    beams = faces = 0;
+    grown = faces = 0;
     exit_area = 0;
     deepest = 0;
 }
 
-long long BeamTree::beams() const {
+long long BeamTree::grown() const {
     long long sum = 0;
-    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].beams;
+    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].grown;
     return sum;
 }
 
@@ -168,7 +168,7 @@ bool build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
         };
         grow_all(net, view, n, fewer, tree, ask);
         if (stopped) return false;
-        if (tree.beams() <= limits.most_beams) return true;
+        if (tree.grown() <= limits.most_beams) return true;
         // Whether there are too many does not depend on thread timing, so the result does not
         // either.
         fewer.cut_share = std::max(k_fewer * fewer.cut_share, k_least_share);

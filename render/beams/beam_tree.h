@@ -27,7 +27,7 @@ struct BeamLimits {
     /// Beams of less weight x area, in square pixels, are not split either: the middle ray's facets
     /// are used for all of their rays. Each pixel's own ray is still shaded, as a sun may fill only
     /// some.
-    double alone = 0;
+    double middle_ray_area = 0;
     /// Beyond this number, `cut_share` is raised until there are no more.
     long long most_beams = 1 << 23;
     Refraction refraction = Refraction::astigmatic;
@@ -38,17 +38,17 @@ struct BeamLimits {
 struct Beam {
     std::uint32_t corner = 0, facet = 0;      ///< index of the first of each in its BeamBranch
     std::uint16_t corners = 0, facets = 0;    ///< how many
-    bool alone = false;                       ///< the last facets are those of its middle ray
+    bool follows_middle_ray = false;          ///< the last facets are those of its middle ray
     bool sure = true;                         ///< no border is off by more than 1/4 pixel
     std::int32_t first_row = 0, end_row = 0;  ///< of pixels that it touches
 };
 
 /// The beams below one pair of first facets, in the order found.
 struct BeamBranch {
-    std::vector<Beam> leaves;
+    std::vector<Beam> beams;
     std::vector<ScreenPoint> corners;   ///< positively oriented in the picture's x and y
-    std::vector<std::uint16_t> facets;  ///< facets that a leaf meets, from the front facet on
-    long long beams = 0;                ///< leaves and the beams they were split from
+    std::vector<std::uint16_t> facets;  ///< facets that a beam meets, from the front facet on
+    long long grown = 0;                ///< beams and those they were split from
     long long faces = 0;                ///< met by beams that follow their middle ray alone
     double exit_area = 0;               ///< square pixels
     int deepest = 0;
@@ -61,7 +61,7 @@ struct BeamTree {
     double front_area = 0;         ///< of the front facets, in square pixels
     long long discarded = 0;       ///< beams grown and given up because there were too many
 
-    long long beams() const;
+    long long grown() const;
     long long faces() const;
     double exit_area() const;
     int deepest() const;  ///< most facets that a beam meets

@@ -44,7 +44,7 @@ public:
         enter(dx, dy, part_of(out_, first));
         const bool located =
             kMany ? true
-                  : out_.follows != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();
+                  : out_.verified != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();
         V absorbed = number(0.0f);
         for (int k = 1; k < facet_count_; ++k) {
             const ShadedStone::Face& face = stone_.faces[facets_[k]];
@@ -74,10 +74,10 @@ public:
                                                   length, carried_);
                     }
                 }
-                if (out_.follows != nullptr)
-                    follows_ = hn::And(follows_, hn::And(cosine > number(0.0f), on_facet(face)));
+                if (out_.verified != nullptr)
+                    verified_ = hn::And(verified_, hn::And(cosine > number(0.0f), on_facet(face)));
             }
-            if constexpr (kPolarised) turn(a, cosine, k);
+            if constexpr (kPolarised) turn(cosine, k);
             meet(a, cosine);
             // Rays beside the beam may lose all light along its facets: avoid slow denormals.
             V most = hn::Abs(carried_.I);
@@ -110,8 +110,9 @@ public:
         }
         if (k_has_effects && out_.absorbed != nullptr)
             hn::StoreU(absorbed * uncovered_, k_floats, out_.absorbed + first);
-        if (out_.follows != nullptr)
-            hn::StoreU(hn::IfThenElseZero(follows_, number(1.0f)), k_floats, out_.follows + first);
+        if (out_.verified != nullptr)
+            hn::StoreU(hn::IfThenElseZero(verified_, number(1.0f)), k_floats,
+                       out_.verified + first);
     }
 
 private:
@@ -164,7 +165,7 @@ private:
     }
 
     // Adds the light at the end of a path of weight `weight`; `end` holds its polarisation.
-    HWY_INLINE void leaf(const V& weight, const Ray& out, PathWeight& end) {
+    HWY_INLINE void add_exit_light(const V& weight, const Ray& out, PathWeight& end) {
         if constexpr (kMany) {
             V weights[k_band_nodes];
             for (int i = 0; i < lights_.nodes; ++i) weights[i] = weight * tau_[i];
@@ -214,7 +215,7 @@ private:
         const V q2 = hn::Sqrt(hn::MulAdd(q1, q1, number((n - 1) * (n + 1))));
         const V bend = q1 - q2, over_n = number(1.0f / n);
         ray_.direction = over_n * plus(along, bend, N);
-        follows_ = hn::And(towards < number(0.0f), on_facet(face));
+        verified_ = hn::And(towards < number(0.0f), on_facet(face));
 
         Ray mirrored{ray_.point, plus(along, q1 + q1, N), ray_.point, ray_.point, N, N, parts_,
                      first_};
@@ -291,13 +292,13 @@ private:
             const Carried was = carried_;
             polarise(end, hn::MulAdd(D, was.I, R * was.Q), r_s * r_p * was.U, mirrored.direction,
                      tangent_or_any(s, along));
-            leaf(hn::MulAdd(R, was.I, D * was.Q), mirrored, end);
+            add_exit_light(hn::MulAdd(R, was.I, D * was.Q), mirrored, end);
             // t_s t_p from the powers.
             const V both = hn::Sqrt(hn::Max((one - R_s) * (one - R_p), number(0.0f)));
             carried_ = {hn::NegMulAdd(D, was.Q, (one - R) * was.I),
                         hn::NegMulAdd(D, was.I, (one - R) * was.Q), both * was.U, both * was.V_};
         } else {
-            leaf(R, mirrored, end);
+            add_exit_light(R, mirrored, end);
             carried_.I = one - R;
             carried_.Q = hn::Neg(D);
             carried_.U = number(0.0f);
@@ -312,14 +313,13 @@ private:
         return hn::AllTrue(k_floats, oblique) ? s : any_tangent(s, d, oblique);
     }
     // Rotates from the tangent d x b of the face before to the tangent d x a of this one.
-    HWY_INLINE void turn(const V3& a, const V& cosine, int k) {
+    HWY_INLINE void turn(const V& cosine, int k) {
         const ShadedStone::Face &now = stone_.faces[facets_[k]],
                                 &was = stone_.faces[facets_[k - 1]];
         const float ab = now.x * was.x + now.y * was.y + now.z * was.z;
         const V3 cross_ab{number(was.y * now.z - was.z * now.y),
                           number(was.z * now.x - was.x * now.z),
                           number(was.x * now.y - was.y * now.x)};
-        (void)a;
         const DoubleAngle angle(number(ab) - cosine * cosine_before_,
                                 dot(ray_.direction, cross_ab));
         carried_.turn(angle.cosine, angle.sine);
@@ -364,7 +364,7 @@ private:
                          hn::IfThenElseZero(out, both * carried_.U), leaving.direction,
                          tangent_or_any(cross(ray_.direction, a), leaving.direction));
             }
-            leaf(hn::IfThenElseZero(out, weight), leaving, end);
+            add_exit_light(hn::IfThenElseZero(out, weight), leaving, end);
         }
         if constexpr (kPolarised) {
             if (!hn::AllTrue(k_floats, out)) {
@@ -412,7 +412,7 @@ private:
     Ray ray_;
     Carried carried_;
     V cosine_before_, uncovered_;
-    M follows_;
+    M verified_;
     V sum_[kMany ? k_band_nodes : 1], tau_[kMany ? k_band_nodes : 1],
         before_[kMany ? k_band_nodes : 1];
 };

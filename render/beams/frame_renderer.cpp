@@ -27,7 +27,7 @@ namespace {
 constexpr double k_cut_share = 1 / 4e5;
 // Beams that follow their middle ray alone, in square pixels over the tolerance. They bring a pixel
 // about ten times that much light, and err to either side equally often.
-constexpr double k_alone = 10;
+constexpr double k_middle_ray_area = 10;
 // Border error in pixels over the tolerance: a border off by a pixel brings its contrast to that
 // pixel. Bounded to a range where accuracy is cheap (docs/engines.md, "Beams"). Verified rays may
 // have larger errors.
@@ -35,8 +35,8 @@ constexpr double k_map_error = 10, k_least_map_error = 0.02, k_least_verified = 
                  k_most_map_error = 0.25;
 // Previews have one colour per beam, an error far larger than that of these borders and of weaker
 // beams.
-constexpr double k_preview_map_error = 1;  // pixels
-constexpr double k_preview_alone = 4;      // square pixels
+constexpr double k_preview_map_error = 1;        // pixels
+constexpr double k_preview_middle_ray_area = 4;  // square pixels
 // Distance of a crystal's two images up to which they are merged: the error is a tenth of a pixel
 // at edges.
 constexpr double k_seen_apart = 0.1;  // pixels
@@ -60,7 +60,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     settings.limits.cut_weight = limits.cut_weight;
     settings.limits.cut_share = k_cut_share * limits.cut_weight;
     settings.limits.most_beams = scene.settings.most_beams;
-    settings.limits.alone = std::min(k_alone * scene.settings.tolerance, 0.5);
+    settings.limits.middle_ray_area = std::min(k_middle_ray_area * scene.settings.tolerance, 0.5);
     settings.limits.refraction = scene.settings.refraction;
     settings.threads = scene.settings.threads;
     settings.shading = scene.settings.engine == k_preview_engine ? BeamShading::flat
@@ -75,7 +75,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     if (scene.camera.aperture_radius > 0) settings.limits.map_error = k_most_map_error;
     if (settings.shading == BeamShading::flat) {
         settings.limits.map_error = k_preview_map_error;
-        settings.limits.alone = k_preview_alone;
+        settings.limits.middle_ray_area = k_preview_middle_ray_area;
     }
     return settings;
 }

@@ -249,7 +249,7 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
             // Computed identically for both regions that share the side.
             const D x = hn::Set(k_doubles, side.x_top) +
                         (y - hn::Set(k_doubles, side.y_top)) * hn::Set(k_doubles, side.slope);
-            const D moved = by * hn::Set(k_doubles, side.stretch);
+            const D moved = by * hn::Set(k_doubles, side.x_per_distance);
             // Middles level with the upper end belong to the side, those level with the lower end
             // do not.
             const auto here =
@@ -289,7 +289,7 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
         for (std::size_t i = 0; i < count; ++i) {
             const PixelCoverage::Side& side = sides[i];
             const double x = side.x_top + (y - side.y_top) * side.slope;
-            const double moved = margin * side.stretch;
+            const double moved = margin * side.x_per_distance;
             const bool here = y >= side.y_top && y < side.y_end;
             if (side.right) {
                 if (here) right = x;

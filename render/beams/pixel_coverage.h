@@ -52,8 +52,8 @@ public:
     /// The same in double precision, relative to the picture's corner.
     struct Side {
         double x_top, y_top, y_end, slope;
-        double stretch;  ///< x distance over perpendicular distance
-        bool right;      ///< the region lies to the left of the side
+        double x_per_distance;  ///< x distance over perpendicular distance
+        bool right;             ///< the region lies to the left of the side
     };
 
 private:

@@ -12,7 +12,7 @@ namespace culet {
 constexpr int k_strip = 48;
 
 struct BeamNumber {
-    std::uint32_t branch = 0, leaf = 0;
+    std::uint32_t branch = 0, beam = 0;
 };
 
 struct SortedBeams {
@@ -41,10 +41,10 @@ private:
         strips.resize(static_cast<std::size_t>(strip_count));
         for (auto& strip : strips) strip.clear();
         for (std::size_t b = 0; b < tree.branch_count; ++b) {
-            const std::vector<Beam>& leaves = tree.branches[b].leaves;
-            for (std::size_t l = 0; l < leaves.size(); ++l) {
-                const int first = std::max(leaves[l].first_row / k_strip, 0),
-                          last = std::min((leaves[l].end_row - 1) / k_strip, strip_count - 1);
+            const std::vector<Beam>& beams = tree.branches[b].beams;
+            for (std::size_t l = 0; l < beams.size(); ++l) {
+                const int first = std::max(beams[l].first_row / k_strip, 0),
+                          last = std::min((beams[l].end_row - 1) / k_strip, strip_count - 1);
                 for (int strip = first; strip <= last; ++strip)
                     strips[static_cast<std::size_t>(strip)].push_back(
                         {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(l)});

@@ -24,7 +24,7 @@ bool may_be_within(const std::vector<ScreenPoint>& outline, const ScreenPoint& p
 
 Fragments rest_of(const Fragments& all, int first, int count) {
     Fragments rest = all;
-    rest.follows = nullptr;
+    rest.verified = nullptr;
     rest.count = count - first;
     rest.x += first;
     rest.y += first;
@@ -70,7 +70,7 @@ void StripPainter::reserve(int count, int nodes) {
         absorbed_.resize(size);
         unhidden_.resize(size);
         share_.resize(size);
-        follows_.resize(size);
+        verified_.resize(size);
     }
     if (radiance_.size() < left_.size() * static_cast<std::size_t>(nodes)) {
         radiance_.resize(left_.size() * static_cast<std::size_t>(nodes));
@@ -224,7 +224,7 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
     const int verified = std::min(to_verify, covered.count);
     if (verified > 0) {
         fragments.count = verified;
-        fragments.follows = follows_.data();
+        fragments.verified = verified_.data();
         shade_beam(job, eye, facets, beam.facets, fragments);
     }
     if (verified < covered.count)
@@ -239,7 +239,7 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
         claim_runs(covered.runs, strip(taken_), share_.data());
         share = share_.data();
     }
-    if (any_unmarked_whole(follows_.data(), share, verified))
+    if (any_unmarked_whole(verified_.data(), share, verified))
         retrace_astray(covered, verified, beam, pass, share);
     add_light(covered, share, pass, hides_);
     if (pass.counts_area) add_cover(covered, share, hides_ ? unhidden_.data() : nullptr);
@@ -258,7 +258,7 @@ void StripPainter::retrace_astray(const CoveredPixels& covered, int verified, co
     for (const PixelRun& run : covered.runs) {
         for (int k = 0; k < run.count; ++k) {
             const std::size_t i = static_cast<std::size_t>(run.first + k);
-            if (run.first + k >= verified || follows_[i] > 0 || share[i] < 1) continue;
+            if (run.first + k >= verified || verified_[i] > 0 || share[i] < 1) continue;
             if (!retrace(run.pixel + k, pass, beam.facets, radiance_.data() + i, stride, left_[i],
                          absorbed_[i], unhidden_[i], before_.data() + i) &&
                 options_.shading == BeamShading::single)
@@ -270,7 +270,7 @@ void StripPainter::retrace_astray(const CoveredPixels& covered, int verified, co
 void StripPainter::paint_beam(const SortedBeams& beams, BeamNumber number,
                               const ShadingPass& pass) {
     const BeamBranch& branch = beams.tree.branches[number.branch];
-    const Beam& beam = branch.leaves[number.leaf];
+    const Beam& beam = branch.beams[number.beam];
     const ScreenPoint* corners = branch.corners.data() + beam.corner;
     const std::uint16_t* facets = branch.facets.data() + beam.facet;
     const bool flat = options_.shading == BeamShading::flat;
@@ -299,7 +299,7 @@ void StripPainter::paint_beam(const SortedBeams& beams, BeamNumber number,
         paint_flat(covered, beam, facets, eye, pass);
     } else {
         // With anti-aliasing, a beam that follows its middle ray alone is not verified.
-        const bool looked_at = single || !(sure || beam.alone);
+        const bool looked_at = single || !(sure || beam.follows_middle_ray);
         paint_pixels(covered, beam, looked_at ? covered.near_border : 0, facets, eye, pass);
     }
 }

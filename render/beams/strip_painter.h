@@ -120,7 +120,7 @@ private:
     Canvas& canvas_;
     PixelCoverage coverage_;
     std::vector<float> unhidden_, before_, visible_, cover_, taken_, radiance_, left_, absorbed_,
-        share_, follows_;
+        share_, verified_;
     std::vector<int> holes_;
     std::vector<std::uint16_t> facets_;
     // State of the strip being painted.

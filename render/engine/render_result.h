@@ -18,7 +18,7 @@ namespace culet {
 struct Verification {
     int pixels = 0, samples = 0;
     double difference = 0;                ///< from the reference as drawn
-    double spread = 0;                    ///< its standard error
+    double standard_error = 0;            ///< its standard error
     double noise = 0;                     ///< error of the reference's few rays
     double measured = 0;                  ///< the difference less the noise
     double delta_e = 0;                   ///< CIEDE2000, including the noise
@@ -26,7 +26,7 @@ struct Verification {
     double seconds = 0;
 
     /// False if the measured error is clearly above the claimed bound.
-    bool holds() const { return measured - 3 * spread - noise <= bound; }
+    bool holds() const { return measured - 3 * standard_error - noise <= bound; }
 };
 
 struct RenderStats {

@@ -363,7 +363,7 @@ float largest(Weights w) {
 #endif
 }
 
-struct Account {
+struct EnergyBalance {
     float remainder, absorbed, cut;
     int length;
 };
@@ -457,9 +457,9 @@ float size_of(vec4 c) {
 #endif
 }
 
-Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out Account account) {
+Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out EnergyBalance balance) {
     float n = u_optics[path].x, step = u_optics[path].y, e = u_optics[path].z;
-    account = Account(0.0, 0.0, 0.0, 1);
+    balance = EnergyBalance(0.0, 0.0, 0.0, 1);
     float unit = 1.0;
 
     // The first face, from outside.
@@ -492,7 +492,7 @@ Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out Account accoun
     for (int faces = 2; faces <= u_depth; ++faces) {
         float weight = size_of(c) * largest(tau);
         if (weight < u_cut || !(weight > 1e-12)) {
-            account.cut = unit * c.x * dot(u_share[path], tau);
+            balance.cut = unit * c.x * dot(u_share[path], tau);
             return seen;
         }
         Hit hit = way_out(at, ray);
@@ -501,10 +501,10 @@ Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out Account accoun
 #if CRYSTAL
         float before = c.x;
         c = through_crystal(c, ray, s, hit.distance, path);
-        account.absorbed += unit * (before - c.x) * dot(u_share[path], tau);
+        balance.absorbed += unit * (before - c.x) * dot(u_share[path], tau);
 #elif ABSORBS
         Weights after = tau * exp(-hit.distance * u_absorption[path]);
-        account.absorbed += unit * c.x * dot(u_share[path], tau - after);
+        balance.absorbed += unit * c.x * dot(u_share[path], tau - after);
         tau = after;
 #endif
         float cosine = dot(ray, hit.normal), q1 = n * cosine;
@@ -518,7 +518,7 @@ Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out Account accoun
             vec4 out_ = transmitted(c, f);
             leaving = normalize(n * ray + (f.q2 - q1) * hit.normal);
             seen += tau * light_along(at, leaving, 0.0, End(out_.x, out_.y, out_.z, s), path);
-            account.length = faces;
+            balance.length = faces;
         }
 #if POLARISED
         c = reflected(c, f);
@@ -527,7 +527,7 @@ Weights through_stone(vec3 at, vec3 ray, Hit first, int path, out Account accoun
 #endif
         ray = mirrored(ray, hit.normal);
     }
-    account.remainder = unit * c.x * dot(u_share[path], tau);
+    balance.remainder = unit * c.x * dot(u_share[path], tau);
     return seen;
 }
 
@@ -541,15 +541,15 @@ void main() {
     float before;
     near_light(u_light_turn * at, u_light_turn * ray, eye, before);
     bool meets = first.distance < k_infinite && first.distance >= eye && !(before < first.distance);
-    vec3 rgb = vec3(0.0), balance = vec3(0.0);
+    vec3 rgb = vec3(0.0), lost = vec3(0.0);
     int longest = 0;
     vec3 entered = at + first.distance * ray;
     entered -= (dot(first.normal, entered) - first.offset) * first.normal;
     for (int path = 0; path < u_paths; ++path) {
-        Account account = Account(0.0, 0.0, 0.0, 0);
+        EnergyBalance balance = EnergyBalance(0.0, 0.0, 0.0, 0);
         Weights seen;
         if (meets) {
-            seen = through_stone(entered, ray, first, path, account);
+            seen = through_stone(entered, ray, first, path, balance);
         } else {
             seen = straight(at, ray, eye, path);
         }
@@ -558,14 +558,14 @@ void main() {
 #else
         for (int node = 0; node < NODES; ++node) rgb += seen[node] * u_colour[NODES * path + node];
 #endif
-        balance += vec3(account.remainder, account.absorbed, account.cut);
-        longest = max(longest, account.length);
+        lost += vec3(balance.remainder, balance.absorbed, balance.cut);
+        longest = max(longest, balance.length);
     }
     out_sum = vec4(rgb, meets ? 1.0 : 0.0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     if (u_keep > 0.0) out_sum += u_keep * texelFetch(u_sum, pixel, 0);
 #if BALANCE
-    out_balance = vec4(balance, meets ? dot(rgb, u_luminance) : 0.0);
+    out_balance = vec4(lost, meets ? dot(rgb, u_luminance) : 0.0);
     out_length = float(longest);
     if (u_keep > 0.0) {
         out_balance += u_keep * texelFetch(u_balance, pixel, 0);

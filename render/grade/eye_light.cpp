@@ -67,7 +67,7 @@ public:
 
     void add_branch(const BeamBranch& branch) {
         open_.clear();
-        for (const Beam& beam : branch.leaves) add_beam(branch, beam);
+        for (const Beam& beam : branch.beams) add_beam(branch, beam);
     }
 
 private:

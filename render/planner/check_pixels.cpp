@@ -79,7 +79,7 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
         for (const Contrast::Pixel& pixel : pixels) chosen.pixels.at.emplace_back(pixel.x, pixel.y);
         chosen.all = size > 0;
         if (!chosen.all) chosen.pixels.at = some.at;
-        chosen.counts.assign(chosen.pixels.at.size(), 1.0);
+        chosen.weights.assign(chosen.pixels.at.size(), 1.0);
         return chosen;
     }
     std::vector<double> edges;
@@ -123,13 +123,13 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
                                               sums.begin()),
                      size - 1);
         chosen.pixels.at.emplace_back(pixels[at].x, pixels[at].y);
-        chosen.counts.push_back(total / count / chance(at));
+        chosen.weights.push_back(total / count / chance(at));
     }
     return chosen;
 }
 
-std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int windows,
-                                                    double share, std::size_t most) {
+std::vector<std::pair<int, int>> bright_outliers(const Picture& picture, int windows, double share,
+                                                 std::size_t most) {
     struct Bright {
         std::size_t pixel = 0;
         double light = 0;

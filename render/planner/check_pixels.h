@@ -30,12 +30,12 @@ struct Contrast {
 Contrast contrast_of(const Picture& picture, int windows, double filled);
 
 struct CheckPixels {
-    StonePixels pixels;          ///< in drawing order
-    std::vector<double> counts;  ///< weight of each, 1 on average (Hansen & Hurwitz 1943)
-    bool all = false;            ///< every pixel of the stone, once
-    std::size_t first = 0;       ///< number of pixels in the first look
-    bool bright = false;         ///< some light is k_bright times as bright as the picture
-    bool sun = false;            ///< some light is a hundred times brighter still
+    StonePixels pixels;           ///< in drawing order
+    std::vector<double> weights;  ///< of each, 1 on average (Hansen & Hurwitz 1943)
+    bool all = false;             ///< every pixel of the stone, once
+    std::size_t first = 0;        ///< number of pixels in the first look
+    bool bright = false;          ///< some light is k_bright times as bright as the picture
+    bool sun = false;             ///< some light is a hundred times brighter still
 };
 
 /// Prefers pixels next to which the picture changes, and pixels that may see a bright light at
@@ -46,7 +46,7 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
 
 /// Pixels at least half filled by the stone that hold more than `share` of the picture's light and
 /// 30 times the mean. Returns the brightest `most` in row order, of the first window only.
-std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int windows,
-                                                    double share, std::size_t most);
+std::vector<std::pair<int, int>> bright_outliers(const Picture& picture, int windows, double share,
+                                                 std::size_t most);
 
 }  // namespace culet

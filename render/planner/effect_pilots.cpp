@@ -78,7 +78,7 @@ void Planner::try_without(Effects effect, double share) {
     PlanItem& line = item(effect);
     if (!line.on) return;
     if (effect == Effects::dispersion) {
-        const ColourError error = colours_apart();
+        const ColourError error = dispersion_error();
         line.seconds_with = 2;
         line.seconds_without = 1;
         return decide(line, error, error.bound(), share);
@@ -103,8 +103,8 @@ void Planner::try_without(Effects effect, double share) {
 // Dispersion: single rays have far stronger colours than a pixel. So only the common part of two
 // drawings with different rays counts, one of them not on a square grid. One wave shows the
 // dispersion as well as two, whose trees are far more expensive.
-ColourError Planner::colours_apart() const {
-    const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
+ColourError Planner::dispersion_error() const {
+    const StonePixels half = pixels_.range(0, (pixels_.at.size() + 1) / 2);
     const auto spectral = [&](Scene scene) {
         auto& effects = scene.settings.effects;
         if (on(Effects::birefringence) && !on(Effects::coherence) && scene.stone.convex)
@@ -186,7 +186,7 @@ void Planner::bound_depth() {
 }
 
 // Measures effects that the scene switches off, against the picture with them.
-void Planner::measure_what_the_scene_forbids() {
+void Planner::measure_disabled_effects() {
     const Scene drawn = piloted();
     Scene everything = drawn;
     everything.settings.effects_auto = true;

@@ -73,7 +73,7 @@ PilotDrawing ErrorEstimator::draw(const StonePixels& pixels, int samples) {
 
 double ErrorEstimator::noise_of_16() {
     if (noise_of_16_) return *noise_of_16_;
-    const PilotDrawing drawing = draw(some_.stretch(0, k_first_pixels), levels_[0].samples);
+    const PilotDrawing drawing = draw(some_.range(0, k_first_pixels), levels_[0].samples);
     double squares = 0, sum = 0;
     for (double halves : drawing.halves_apart) {
         sum += halves;
@@ -93,11 +93,11 @@ void ErrorEstimator::draw_up_to(std::size_t count) {
     for (Level& level : levels_) {
         if (level.rgb.size() >= count) continue;
         const std::size_t first = level.rgb.size();
-        const StonePixels more = chosen_.pixels.stretch(first, count - first);
+        const StonePixels more = chosen_.pixels.range(first, count - first);
         const PilotDrawing drawing = draw(more, level.samples);
         for (std::size_t i = 0; i < more.at.size(); ++i) {
-            level.radiance += mean_of(drawing.rgb[i]) * chosen_.counts[first + i];
-            level.halves += drawing.halves_apart[i] * chosen_.counts[first + i];
+            level.radiance += mean_of(drawing.rgb[i]) * chosen_.weights[first + i];
+            level.halves += drawing.halves_apart[i] * chosen_.weights[first + i];
         }
         // The plan already bounds the error of a depth that the scene names.
         const double lost = drawing.cut + (scene_.settings.depth > 0 ? 0 : drawing.remainder);
@@ -106,7 +106,7 @@ void ErrorEstimator::draw_up_to(std::size_t count) {
     }
     for (Level& level : levels_) {
         const std::size_t first = level.outliers.size();
-        const StonePixels more = outliers_.stretch(first, outliers_.at.size() - first);
+        const StonePixels more = outliers_.range(first, outliers_.at.size() - first);
         if (more.at.empty()) continue;
         const PilotDrawing drawing = draw(more, level.samples);
         level.outliers.insert(level.outliers.end(), drawing.rgb.begin(), drawing.rgb.end());
@@ -117,8 +117,8 @@ void ErrorEstimator::find_outliers(const Picture& picture) {
     of_picture_.clear();
     if (!chosen_.bright || chosen_.all) return;
     for (const auto& at :
-         outstanding_pixels(picture, scene_.camera.optics.two_windows ? 2 : 1,
-                            k_outlier_share * scene_.settings.tolerance, k_most_outliers)) {
+         bright_outliers(picture, scene_.camera.optics.two_windows ? 2 : 1,
+                         k_outlier_share * scene_.settings.tolerance, k_most_outliers)) {
         const auto before = std::find(outliers_.at.begin(), outliers_.at.end(), at);
         of_picture_[at] = static_cast<std::size_t>(before - outliers_.at.begin());
         if (before == outliers_.at.end()) outliers_.at.push_back(at);
@@ -152,13 +152,13 @@ double ErrorEstimator::without_effects(const std::array<bool, k_effect_count>& e
     if (!leaves_out) return 0;
     const Level& level = levels_.front();
     without.settings.wavelength_turns = turns_for(level.samples, nodes_);
-    const StonePixels some = chosen_.pixels.stretch(0, static_cast<std::size_t>(pixels));
+    const StonePixels some = chosen_.pixels.range(0, static_cast<std::size_t>(pixels));
     const std::vector<Rgb> seen =
         draw_pilot(without, some, limits_, level.samples, nodes_, *progress_).rgb;
     double errors = 0, sizes = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) {
-        errors += chosen_.counts[i] * apart(seen[i], level.rgb[i]);
-        sizes += chosen_.counts[i] * mean_of(level.rgb[i]);
+        errors += chosen_.weights[i] * apart(seen[i], level.rgb[i]);
+        sizes += chosen_.weights[i] * mean_of(level.rgb[i]);
     }
     if (!(sizes > 0)) return 0;
     const double off = errors / sizes, noise = noise_of(level);
@@ -183,28 +183,28 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
         const auto [x, y] = chosen_.pixels.at[i];
         seen.push_back(picture.pixel(x, y));
         true_pixels.push_back(truth(&Level::rgb, i));
-        const double counts = of_picture_.contains({x, y}) ? 0 : chosen_.counts[i];
-        const double error = counts * error_of(seen.back(), true_pixels.back());
+        const double weight = of_picture_.contains({x, y}) ? 0 : chosen_.weights[i];
+        const double error = weight * error_of(seen.back(), true_pixels.back());
         errors_of.push_back(error);
         errors += error;
         squares += error * error;
-        sizes += counts * mean_of(true_pixels.back());
+        sizes += weight * mean_of(true_pixels.back());
     }
     const double pixels = static_cast<double>(count);
     // Each outlier represents one pixel of the picture.
     double surely = 0;
     for (const auto& [at, i] : of_picture_) {
         const Rgb there = truth(&Level::outliers, i);
-        const double counts = pixels / chosen_.pixels.in_picture;
-        surely += counts * error_of(picture.pixel(at.first, at.second), there);
-        sizes += counts * mean_of(there);
+        const double weight = pixels / chosen_.pixels.in_picture;
+        surely += weight * error_of(picture.pixel(at.first, at.second), there);
+        sizes += weight * mean_of(there);
     }
     if (!(sizes > 0)) return estimate;
     estimate.difference = (errors + surely) / sizes;
     if (!chosen_.all && count > 1) {
         const double mean = errors / pixels,
                      deviation = std::sqrt(std::max(0.0, squares - errors * mean) / (pixels - 1));
-        estimate.spread = deviation * std::sqrt(pixels) / sizes;
+        estimate.standard_error = deviation * std::sqrt(pixels) / sizes;
         if (deviation > 0) {
             double cubes = 0;
             for (const double error : errors_of) {
@@ -223,7 +223,7 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     estimate.noise = std::sqrt(noise);
     // Light that the truth itself cut counts with the mean radiance.
     estimate.bound =
-        estimate.difference + k_standard_errors * estimate.spread + estimate.skewness + cut;
+        estimate.difference + k_standard_errors * estimate.standard_error + estimate.skewness + cut;
     estimate.bound_delta_e = colour_error(seen, true_pixels).bound_delta_e();
     return estimate;
 }
@@ -235,7 +235,7 @@ void ErrorEstimator::choose(const Picture& picture, FrameRenderer* frames) {
     if (chosen_.sun) nodes_ = k_node_counts.back();
 }
 
-void ErrorEstimator::look_elsewhere() {
+void ErrorEstimator::forget_pixels() {
     chosen_ = {};
     for (Level& level : levels_) {
         level.rgb.clear();
@@ -258,7 +258,7 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
         // leave room, more pixels narrow the standard error; else more rays lower the noise. The
         // next step may show that the picture is hopeless, or that a large error is rarer than it
         // seemed, so only that step's price counts.
-        const double error = std::max(0.0, estimate.error() - estimate.spread),
+        const double error = std::max(0.0, estimate.error() - estimate.standard_error),
                      rest = 0.95 * room - std::hypot(error, estimate.noise);
         if (!noisy && error > room) break;
         const double pixels = estimate.pixels, all = static_cast<double>(chosen_.pixels.at.size());

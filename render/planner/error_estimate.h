@@ -33,10 +33,10 @@ namespace culet {
 
 struct ErrorEstimate {
     int pixels = 0, samples = 0;
-    double difference = 0;  ///< mean over the pixels, including noise of the truth's rays
-    double spread = 0;      ///< its standard error
-    double skewness = 0;    ///< skewness correction to three standard errors
-    double noise = 0;       ///< estimated error of the truth's few rays
+    double difference = 0;      ///< mean over the pixels, including noise of the truth's rays
+    double standard_error = 0;  ///< its standard error
+    double skewness = 0;        ///< skewness correction to three standard errors
+    double noise = 0;           ///< estimated error of the truth's few rays
     double bound = 0, bound_delta_e = 0;
 
     /// Difference less noise, subtracted in quadrature.
@@ -69,7 +69,7 @@ public:
     /// `pixels` of the last estimate.
     double without_effects(const std::array<bool, k_effect_count>& effects, int pixels);
     /// Forgets the chosen pixels: the next picture is a better guide to where to look.
-    void look_elsewhere();
+    void forget_pixels();
     /// Whether a light is so bright that its image in a few pixels counts. Valid after `estimate`.
     bool sees_sun() const { return chosen_.sun; }
 

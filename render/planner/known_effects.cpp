@@ -22,7 +22,7 @@ std::string spoken(const Material& material) {
 
 }  // namespace
 
-void say_what_is_known(const Scene& scene, ScenePlan& plan) {
+void explain_known_effects(const Scene& scene, ScenePlan& plan) {
     const std::string stone = spoken(scene.stone.material);
     const bool isotropic = scene.stone.material.optic == OpticCharacter::isotropic;
     const double absorbed = absorbed_across(scene);

@@ -48,7 +48,7 @@ std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& bo
     return found;
 }
 
-// Reorders rows of pixels by the golden ratio, so that every stretch covers all of them.
+// Reorders rows of pixels by the golden ratio, so that every range covers all of them.
 std::vector<std::pair<int, int>> spread_evenly(const std::vector<std::pair<int, int>>& rows) {
     const std::size_t count = rows.size();
     std::vector<std::pair<double, std::size_t>> order;
@@ -63,7 +63,7 @@ std::vector<std::pair<int, int>> spread_evenly(const std::vector<std::pair<int, 
 
 }  // namespace
 
-StonePixels StonePixels::stretch(std::size_t first, std::size_t count) const {
+StonePixels StonePixels::range(std::size_t first, std::size_t count) const {
     StonePixels some;
     some.in_picture = in_picture;
     const std::size_t end = std::min(at.size(), first + count);

@@ -12,13 +12,13 @@
 namespace culet {
 
 /// Pixels whose middle the stone covers. They are spread evenly over the stone, and so is every
-/// stretch of them.
+/// range of them.
 struct StonePixels {
     std::vector<std::pair<int, int>> at;  ///< x, y
     double in_picture = 0;                ///< estimated number of stone pixels
 
     /// At most `count` pixels from `first` on.
-    StonePixels stretch(std::size_t first, std::size_t count) const;
+    StonePixels range(std::size_t first, std::size_t count) const;
 };
 /// Returns about `wanted` pixels, or fewer if the stone has fewer; none if the stone was not found.
 StonePixels stone_pixels(const Scene& scene, int wanted);

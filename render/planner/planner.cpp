@@ -59,7 +59,7 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool merged_waves
             leave_out(effect, k_merged_waves);
         branches_ = !scene_.stone.convex;
     }
-    say_what_is_known(scene_, plan_);
+    explain_known_effects(scene_, plan_);
 }
 
 bool tried_with_merged_waves(const Scene& scene) {
@@ -76,7 +76,7 @@ ScenePlan Planner::run_to_explain(bool everything) {
     ScenePlan plan = run(true);
     if (!everything || user_.effects_auto || pixels_.at.empty()) return plan;
     plan_ = std::move(plan);
-    measure_what_the_scene_forbids();
+    measure_disabled_effects();
     return std::move(plan_);
 }
 
@@ -86,7 +86,7 @@ ScenePlan Planner::run(bool weigh) {
     if (any) {
         plan_.pixels = pixels_.in_picture;
         plan_.pilot_pixels = static_cast<int>(pixels_.at.size());
-        drop_what_changes_nothing();
+        drop_exact_effects();
         weigh = weigh || (leave_ == Leave::likely && !costs_less_than_pilots());
     }
     if (any && weigh) {
@@ -121,12 +121,11 @@ void Planner::find_pixels() {
     if (!(tolerance_ > 0)) return;
     const std::size_t checked = k_first_pixels;
     const StonePixels all = stone_pixels(scene_, k_pilot_pixels + static_cast<int>(checked));
-    pixels_ = all.stretch(0, k_pilot_pixels);
+    pixels_ = all.range(0, k_pilot_pixels);
     if (pixels_.at.empty() || estimator_) return;
     // A stone of few pixels is checked at all of them.
     const bool few = all.at.size() < k_pilot_pixels + checked;
-    estimator_.emplace(scene_, all.stretch(few ? 0 : k_pilot_pixels, checked), tolerance_,
-                       progress_);
+    estimator_.emplace(scene_, all.range(few ? 0 : k_pilot_pixels, checked), tolerance_, progress_);
 }
 
 void Planner::leave_out(Effects effect, std::string why) {
@@ -134,7 +133,7 @@ void Planner::leave_out(Effects effect, std::string why) {
     item(effect).why = std::move(why);
 }
 
-void Planner::drop_what_changes_nothing() {
+void Planner::drop_exact_effects() {
     if (!user_.effects_auto || !same_light_everywhere(scene_.lights) || on(Effects::absorption) ||
         scene_.camera.optics.analyzer)
         return;

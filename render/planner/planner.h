@@ -32,7 +32,7 @@ constexpr const char* k_same_light = "the light is the same from everywhere: not
 bool tried_with_merged_waves(const Scene& scene);
 
 /// Fills in why effects are on or off, as far as that is known without drawing.
-void say_what_is_known(const Scene& scene, ScenePlan& plan);
+void explain_known_effects(const Scene& scene, ScenePlan& plan);
 
 class Planner {
 public:
@@ -76,17 +76,17 @@ private:
 
     ScenePlan run(bool weigh);
     void find_pixels();
-    void drop_what_changes_nothing();
+    void drop_exact_effects();
     bool costs_less_than_pilots();
     void weigh_effects();
     void try_without(Effects effect, double share);
-    ColourError colours_apart() const;
+    ColourError dispersion_error() const;
     void decide(PlanItem& line, const ColourError& error, double bound, double share);
     void bound_coherence();
     void bound_depth();
     void choose_first_picture();
     void estimate_times();
-    void measure_what_the_scene_forbids();
+    void measure_disabled_effects();
 
     Scene scene_;                // of one window
     const RenderSettings user_;  // as in the scene

@@ -105,7 +105,7 @@ void Refinement::refine(const ScenePlan& plan, ErrorEstimator& estimator,
             so_far.misjudged = misjudged(estimate, estimator, level->settings, so_far);
             if (!so_far.misjudged && drawing < most) other = levels.after(*level, estimate);
         }
-        if (blind) estimator.look_elsewhere();
+        if (blind) estimator.forget_pixels();
         stats.error_bound = estimate.bound + plan.bound_of_depth;
         stats.checked_pixels = estimate.pixels;
         if (beams) stats.engine_error = estimate.bound;

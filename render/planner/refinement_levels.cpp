@@ -19,7 +19,7 @@ RefinementLevels::RefinementLevels(const Scene& scene, const ScenePlan& plan,
       plan_(plan),
       estimator_(estimator),
       setup_(make_optical_setup(with_effects())),
-      doubles_(paths_branch(scene, setup_)) {}
+      branches_(paths_branch(scene, setup_)) {}
 
 Scene RefinementLevels::with_effects() const {
     Scene scene = scene_;
@@ -100,7 +100,7 @@ RefinementLevel RefinementLevels::reference(int number, double noise, int rays) 
     RefinementLevel level{.number = number, .settings = with_effects().settings};
     RenderSettings& settings = level.settings;
     settings.engine = k_reference_engine;
-    settings.cut_weight = doubles_ ? tree_cut(user.tolerance) : 0.1 * user.tolerance;
+    settings.cut_weight = branches_ ? tree_cut(user.tolerance) : 0.1 * user.tolerance;
     settings.split_weight = tree_split(user.tolerance);
     int wavelengths = of_series.wavelengths;
     settings.samples = of_series.rays;
@@ -172,7 +172,7 @@ std::optional<RefinementLevel> RefinementLevels::after(const RefinementLevel& le
         if (user.samples > 0 || next == static_cast<int>(k_reference_levels.size()))
             return std::nullopt;
         RefinementLevel more =
-            reference_by_noise(next, estimate.error() + 2 * estimate.spread, rays);
+            reference_by_noise(next, estimate.error() + 2 * estimate.standard_error, rays);
         more.why = fmt::format("{} rays a pixel were off by {:.2g}: drawn with more", rays,
                                estimate.bound);
         return more;
@@ -191,7 +191,7 @@ std::optional<RefinementLevel> RefinementLevels::after(const RefinementLevel& le
                             level.settings.engine, estimate.bound);
     // A sun's images fill few pixels, and few rays miss them where beams do not. So the check's few
     // pixels do not show the reference's noise (garnet in daylight: 4 s instead of 2 s).
-    if (user.engine != k_auto_engine || (estimator_.sees_sun() && !doubles_)) return finer;
+    if (user.engine != k_auto_engine || (estimator_.sees_sun() && !branches_)) return finer;
     // The estimate's noise comes from more pixels than the first look.
     RefinementLevel by_rays = reference_by_noise(1, estimate.noise, estimate.samples);
     if (finer.price_ns <= by_rays.price_ns) return finer;

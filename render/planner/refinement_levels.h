@@ -49,7 +49,7 @@ private:
     const ScenePlan& plan_;
     ErrorEstimator& estimator_;
     OpticalSetup setup_;  // of the effects to draw
-    bool doubles_;        // light paths branch into trees
+    bool branches_;       // light paths branch into trees
 };
 
 }  // namespace culet

@@ -51,7 +51,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, 
     return truth;
 }
 
-Verification hold_against(const Truth& truth, const Picture& picture) {
+Verification compare_with_truth(const Truth& truth, const Picture& picture) {
     std::vector<Rgb> seen;
     for (const auto& [x, y] : truth.pixels.at) seen.push_back(picture.pixel(x, y));
     const ColourError error = colour_error(seen, truth.drawing.rgb);
@@ -59,7 +59,7 @@ Verification hold_against(const Truth& truth, const Picture& picture) {
     result.pixels = static_cast<int>(seen.size());
     result.samples = truth.samples;
     result.difference = error.radiance;
-    result.spread = error.radiance_spread;
+    result.standard_error = error.radiance_spread;
     result.delta_e = error.delta_e;
     result.noise = truth.drawing.few_rays / k_halves_over_noise;
     result.measured = std::sqrt(
@@ -76,7 +76,7 @@ Verification verify(const Scene& scene, const RenderResult& result, int pixels,
     plan.settings.wavelengths_nm = result.stats.wavelengths_nm;
     const int samples = std::clamp(4 * plan.settings.samples, k_verified_samples, 256);
     const Truth truth = draw_truth(scene, plan, pixels, samples, progress);
-    Verification found = hold_against(truth, result.picture);
+    Verification found = compare_with_truth(truth, result.picture);
     found.bound = result.stats.error_bound;
     if (result.stats.plan) found.bound_delta_e = result.stats.plan->bound_delta_e;
     found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -20,6 +20,6 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, 
 
 /// Compares `picture` at those pixels. The noise of the truth's own rays is subtracted in
 /// quadrature: measured^2 = difference^2 - noise^2.
-Verification hold_against(const Truth& truth, const Picture& picture);
+Verification compare_with_truth(const Truth& truth, const Picture& picture);
 
 }  // namespace culet

@@ -55,8 +55,8 @@ using ExitAbsorption = std::array<std::vector<float>, 3>;
 
 /// Writes the radiance that exit events bring, after absorption, to `radiance[node * stride +
 /// exit]`. Returns the sum of their weights after absorption, averaged over nodes.
-double shade_leaves(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
-                    const ExitAbsorption& absorption, float* radiance, int stride);
+double shade_exits(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                   const ExitAbsorption& absorption, float* radiance, int stride);
 
 /// Rays through the air, as planes: origins relative to the middle, unit directions.
 struct AirRays {

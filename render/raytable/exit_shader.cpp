@@ -61,11 +61,10 @@ public:
         put(&FacetFrame::v, Vec3(0));
     }
 
-    double leaves(std::size_t band, const ExitRun& run, float* radiance,
-                  int stride) const override {
-        return shade_leaves(lights_[band], frames_,
-                            with_lengths_if(!absorption_[band][0].empty(), run), absorption_[band],
-                            radiance, stride);
+    double exits(std::size_t band, const ExitRun& run, float* radiance, int stride) const override {
+        return shade_exits(lights_[band], frames_,
+                           with_lengths_if(!absorption_[band][0].empty(), run), absorption_[band],
+                           radiance, stride);
     }
     void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const override {
         shade_rays(lights_[band], rays, radiance, stride);
@@ -87,8 +86,8 @@ public:
     PlainShader(const TableRays& rays, const Surroundings& surroundings, const RayTable& table)
         : bands_(rays.setup.bands), surroundings_(surroundings), table_(table) {}
 
-    double leaves(std::size_t number, const ExitRun& run, float* radiance,
-                  int stride) const override {
+    double exits(std::size_t number, const ExitRun& run, float* radiance,
+                 int stride) const override {
         const Band& band = bands_[number];
         double weighed = 0;
         for (int i = 0; i < run.count; ++i) {

@@ -17,9 +17,9 @@ public:
     ExitShader& operator=(const ExitShader&) = delete;
     virtual ~ExitShader() = default;
 
-    /// As shade_leaves and shade_rays, at the nodes of a band of the scene's setup.
-    virtual double leaves(std::size_t band, const ExitRun& run, float* radiance,
-                          int stride) const = 0;
+    /// As shade_exits and shade_rays, at the nodes of a band of the scene's setup.
+    virtual double exits(std::size_t band, const ExitRun& run, float* radiance,
+                         int stride) const = 0;
     virtual void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const = 0;
     /// Distance along the rays to the nearest thing that hides what lies behind it.
     virtual void nearest(const AirRays& rays, float* distance) const = 0;

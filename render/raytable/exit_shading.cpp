@@ -165,8 +165,8 @@ double shade_all(const ExitLights& lights, const ExitFrames& frames, const ExitR
     return sum / lights.nodes;
 }
 
-double ShadeLeaves(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
-                   const ExitAbsorption& absorption, float* radiance, int stride) {
+double ShadeExits(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                  const ExitAbsorption& absorption, float* radiance, int stride) {
     const auto shade = lights.nodes == 1   ? shade_all<1>
                        : lights.nodes == 3 ? shade_all<3>
                                            : shade_all<0>;
@@ -240,13 +240,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace culet {
 
-HWY_EXPORT(ShadeLeaves);
+HWY_EXPORT(ShadeExits);
 HWY_EXPORT(ShadeRays);
 HWY_EXPORT(NearestLights);
 
-double shade_leaves(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
-                    const ExitAbsorption& absorption, float* radiance, int stride) {
-    return HWY_DYNAMIC_DISPATCH(ShadeLeaves)(lights, frames, run, absorption, radiance, stride);
+double shade_exits(const ExitLights& lights, const ExitFrames& frames, const ExitRun& run,
+                   const ExitAbsorption& absorption, float* radiance, int stride) {
+    return HWY_DYNAMIC_DISPATCH(ShadeExits)(lights, frames, run, absorption, radiance, stride);
 }
 
 void shade_rays(const ExitLights& lights, const AirRays& rays, float* radiance, int stride) {

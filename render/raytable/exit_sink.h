@@ -30,8 +30,8 @@ struct PlaneAxes {
 };
 
 /// Exit events of a row of pixels in one band.
-struct RowLeaves {
-    std::vector<ExitEvent> leaves;
+struct RowExits {
+    std::vector<ExitEvent> exits;
     std::vector<std::uint32_t> count;  ///< per hit of the row
     double remainder = 0, cut = 0;     ///< sums over hits
     int deepest = 0;
@@ -59,7 +59,7 @@ inline Band with_lengths(Band band, int lengths, double absorption) {
 class ExitSink {
 public:
     ExitSink(const std::vector<PlaneAxes>& axes, int lengths, double absorption, double least,
-             RowLeaves& row)
+             RowExits& row)
         : axes_(axes), lengths_(lengths), absorption_(absorption), least_(least), row_(row) {}
 
     void path_exits(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
@@ -97,14 +97,14 @@ private:
             exit_event.length[k] =
                 static_cast<float>(std::max(0.0, -std::log(ratio) / absorption_));
         }
-        row_.leaves.push_back(exit_event);
+        row_.exits.push_back(exit_event);
         ++row_.count.back();
     }
 
     const std::vector<PlaneAxes>& axes_;
     int lengths_;
     double absorption_, least_;
-    RowLeaves& row_;
+    RowExits& row_;
 };
 
 }  // namespace culet

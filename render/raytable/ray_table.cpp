@@ -37,11 +37,11 @@ void each_list(const RayTableHeader& h, Parts& parts, Visit&& visit) {
     visit(parts.hit_ray, h.hits);
     visit(parts.hit_distance, h.hits);
     visit(parts.exits_end, h.bands * h.hits);
-    visit(parts.weight, h.leaves);
-    for (auto& list : parts.direction) visit(list, h.leaves);
-    for (auto& list : parts.point) visit(list, h.leaves);
-    visit(parts.facet, h.leaves);
-    for (std::uint32_t k = 0; k < h.lengths; ++k) visit(parts.length[k], h.leaves);
+    visit(parts.weight, h.exits);
+    for (auto& list : parts.direction) visit(list, h.exits);
+    for (auto& list : parts.point) visit(list, h.exits);
+    visit(parts.facet, h.exits);
+    for (std::uint32_t k = 0; k < h.lengths; ++k) visit(parts.length[k], h.exits);
 }
 
 std::uint64_t aligned(std::uint64_t bytes) {
@@ -62,7 +62,7 @@ bool sane(const RayTableHeader& h) {
            within(h.bands, k_most_bands) && within(h.facets, k_most_facets) &&
            (h.lengths == 1 || h.lengths == 3) &&
            (h.wavelengths == h.bands || (h.wavelengths == 0 && h.bands == 1)) && h.hits <= k_most &&
-           h.leaves <= k_most && h.branches <= 1 && std::isfinite(h.length_step) &&
+           h.exits <= k_most && h.branches <= 1 && std::isfinite(h.length_step) &&
            h.length_step >= 0 && std::isfinite(h.remainder) && std::isfinite(h.cut);
 }
 
@@ -92,15 +92,15 @@ std::string fault_in(const RayTableHeader& h, const RayTableParts<TableSpan>& pa
     }
     std::uint32_t end = 0;
     for (const std::uint32_t next : parts.exits_end) {
-        if (next < end || next > h.leaves) return "a ray's leaves";
+        if (next < end || next > h.exits) return "a ray's exits";
         end = next;
     }
-    if (end != h.leaves) return "the number of exits";
+    if (end != h.exits) return "the number of exits";
     for (const float weight : parts.weight) {
         if (!(weight >= 0) || !std::isfinite(weight)) return "a weight";
     }
     for (const std::uint16_t facet : parts.facet) {
-        if (facet >= h.facets) return "a leaf's facet";
+        if (facet >= h.facets) return "an exit's facet";
     }
     return {};
 }
@@ -129,7 +129,7 @@ RayTable::RayTable(RayTableHeader header, const RayTableParts<TableVector>& part
     header.wavelengths = static_cast<std::uint32_t>(parts.wavelengths_nm.size());
     header.facets = static_cast<std::uint32_t>(parts.frames.size());
     header.hits = parts.hit_ray.size();
-    header.leaves = parts.weight.size();
+    header.exits = parts.weight.size();
     check(sane(header), "a ray table's header is out of range");
     std::uint64_t size = sizeof header;
     each_list(header, parts, [&]<class T>(const std::vector<T>& list, std::uint64_t count) {

@@ -4,9 +4,8 @@
 // weight. Pictures in any light follow without tracing. docs/ray-tables.md describes the file,
 // which is this table byte by byte.
 //
-// A "hit" is an eye ray that meets the stone; a "leaf" is an exit event, the end of one of its
-// light paths. A "band" is a set of wavelengths that share their paths; each has its own exit
-// events.
+// A "hit" is an eye ray that meets the stone; an "exit" is the end of one of its light
+// paths. A "band" is a set of wavelengths that share their paths; each has its own exits.
 
 #include <array>
 #include <cstddef>
@@ -36,7 +35,7 @@ struct RayTableHeader {
     std::uint32_t deepest = 0;      ///< faces on the longest path
     std::uint32_t branches = 0;     ///< 1: paths are trees; 0: exit event k of a ray has k
                                     ///< reflections
-    std::uint64_t hits = 0, leaves = 0;
+    std::uint64_t hits = 0, exits = 0;
     double length_step = 0;         ///< one step of path length, in the stone's unit
     double remainder = 0, cut = 0;  ///< weight not in any exit event, mean over hits and bands
     TableKey stone{}, optics{}, view{}, rays{};

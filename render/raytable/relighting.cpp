@@ -116,7 +116,7 @@ private:
         sort_rays(first, last, y, memory);
         RowSums sums;
         for (std::size_t b = 0; b < rays_.setup.bands.size(); ++b)
-            sums.weighed += light_.add_leaves(b, first, last, memory);
+            sums.weighed += light_.add_exits(b, first, last, memory);
         memory.air.assign(values, 0.0f);
         if (!memory.bare_samples.empty()) light_.add_air(y, memory);
         put_row(y, memory, sums);

@@ -48,8 +48,8 @@ ExitRun RowLight::run_of(std::uint32_t from, std::uint32_t to) const {
     return run;
 }
 
-double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t last,
-                            RowMemory& memory) const {
+double RowLight::add_exits(std::size_t number, std::size_t first, std::size_t last,
+                           RowMemory& memory) const {
     constexpr std::uint32_t k_block = 512;
     if (first == last) return 0;
     const Band& band = rays_.setup.bands[number];
@@ -72,7 +72,7 @@ double RowLight::add_leaves(std::size_t number, std::size_t first, std::size_t l
             ExitRun run = run_of(from, to);
             if (factors) run.weight = memory.weight.data() + (from - begin);
             weighed += band.count *
-                       shader_.leaves(number, run, memory.block.data(), static_cast<int>(stride));
+                       shader_.exits(number, run, memory.block.data(), static_cast<int>(stride));
         }
         const float* seen = memory.block.data();
         std::uint32_t exit_event = from;

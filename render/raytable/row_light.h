@@ -25,8 +25,8 @@ public:
 
     /// Adds the light of hits first .. last - 1 at the nodes of a band to `memory.stone`, at the
     /// pixels of `memory.hit_pixel`. Returns their weight after absorption, summed over nodes.
-    double add_leaves(std::size_t band, std::size_t first, std::size_t last,
-                      RowMemory& memory) const;
+    double add_exits(std::size_t band, std::size_t first, std::size_t last,
+                     RowMemory& memory) const;
     /// Adds what the rays `memory.bare_samples` see to `memory.air`.
     void add_air(int y, RowMemory& memory) const;
 

@@ -35,12 +35,12 @@ public:
     RayTable make() {
         measure();
         for (std::size_t f = 0; f < axes_.size(); ++f) parts_.frames.push_back(frame_of(f));
-        for (std::vector<RowLeaves>& rows : content_.bands) {
+        for (std::vector<RowExits>& rows : content_.bands) {
             auto end = static_cast<std::uint32_t>(parts_.weight.size());
-            for (RowLeaves& row : rows) {
+            for (RowExits& row : rows) {
                 for (const std::uint32_t count : row.count)
                     parts_.exits_end.push_back(end += count);
-                for (const ExitEvent& exit_event : row.leaves) put(exit_event);
+                for (const ExitEvent& exit_event : row.exits) put(exit_event);
                 row = {};  // frees its memory
             }
         }
@@ -54,12 +54,12 @@ private:
     void measure() {
         RayTableHeader& header = content_.header;
         double remainder = 0, cut = 0;
-        for (const std::vector<RowLeaves>& rows : content_.bands) {
-            for (const RowLeaves& row : rows) {
+        for (const std::vector<RowExits>& rows : content_.bands) {
+            for (const RowExits& row : rows) {
                 remainder += row.remainder;
                 cut += row.cut;
                 header.deepest = std::max(header.deepest, static_cast<std::uint32_t>(row.deepest));
-                for (const ExitEvent& exit_event : row.leaves) {
+                for (const ExitEvent& exit_event : row.exits) {
                     boxes_[static_cast<std::size_t>(exit_event.facet)].hold(exit_event);
                     for (const float length : exit_event.length)
                         longest_ = std::max(longest_, length);

@@ -13,7 +13,7 @@ struct TableContent {
     std::vector<double> wavelengths_nm;
     std::vector<std::uint32_t> hit_ray;
     std::vector<float> hit_distance;
-    std::vector<std::vector<RowLeaves>> bands;
+    std::vector<std::vector<RowExits>> bands;
 };
 
 /// In-plane axes of each facet, in which exit events have their coordinates.

@@ -39,7 +39,7 @@ public:
 
     RayTable make() {
         find_hits();
-        for (const Band& band : rays_.bands) content_.bands.push_back(leaves_of(band));
+        for (const Band& band : rays_.bands) content_.bands.push_back(exits_of(band));
         if (rays_.setup.on(Effects::dispersion))
             content_.wavelengths_nm = rays_.setup.wavelengths_nm;
         return assembled(std::move(content_), body_, axes_);
@@ -62,9 +62,9 @@ private:
         }
     }
 
-    void watch_size(long long leaves) {
+    void watch_size(long long exits) {
         const std::size_t bytes = exit_bytes(static_cast<unsigned>(lengths_));
-        if (static_cast<double>(leaves) * static_cast<double>(bytes) > k_most_table_bytes)
+        if (static_cast<double>(exits) * static_cast<double>(bytes) > k_most_table_bytes)
             too_large_ = true;
     }
 
@@ -85,15 +85,15 @@ private:
         }
     }
 
-    std::vector<RowLeaves> leaves_of(const Band& of) {
-        std::vector<RowLeaves> rows(hits_.size());
+    std::vector<RowExits> exits_of(const Band& of) {
+        std::vector<RowExits> rows(hits_.size());
         const Band band = with_lengths(of, lengths_, absorption_);
         const bool general = rays_.setup.splits || !scene_.stone.convex || scene_.immersion != 1;
         // Branching paths have many small exit events. A single path keeps all of them, as their
         // order gives the number of reflections.
         const double least = branches_ ? rays_.limits.cut_weight : 0;
         each_row([&](std::size_t y) {
-            RowLeaves& row = rows[y];
+            RowExits& row = rows[y];
             PathTrace trace{};
             ExitSink sink(axes_, lengths_, absorption_, least, row);
             for (const TableHit& hit : hits_[y]) {
@@ -112,8 +112,8 @@ private:
                         .trace(eye, hit.entry);
                 }
             }
-            leaves_ += static_cast<long long>(row.leaves.size());
-            watch_size(leaves_);
+            exits_ += static_cast<long long>(row.exits.size());
+            watch_size(exits_);
         });
         return rows;
     }
@@ -128,7 +128,7 @@ private:
     double absorption_;
     Listener listener_;
     std::vector<std::vector<TableHit>> hits_;  // per row
-    std::atomic<long long> leaves_{0};
+    std::atomic<long long> exits_{0};
     std::atomic<bool> too_large_{false};
     TableContent content_;
 };

@@ -111,7 +111,7 @@ void light_up(Picture& picture, int x, int y, float light) {
 
 using Pixels = std::vector<std::pair<int, int>>;
 
-TEST(OutstandingPixels, HaveMoreThanAShareOfTheLightAndThan30Means) {
+TEST(BrightOutliers, HaveMoreThanAShareOfTheLightAndThan30Means) {
     Picture picture = grey_picture(100, 100);
     EXPECT_TRUE(outstanding_pixels(picture, 1, 1e-6, 10).empty()) << "all are alike";
     // Of 5000, plus what they add themselves.
@@ -119,12 +119,12 @@ TEST(OutstandingPixels, HaveMoreThanAShareOfTheLightAndThan30Means) {
     light_up(picture, 60, 2, 100);
     light_up(picture, 61, 2, 10);
     light_up(picture, 62, 2, std::numeric_limits<float>::quiet_NaN());
-    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 10), (Pixels{{60, 2}, {7, 30}}));
-    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-2, 10), (Pixels{{60, 2}}));
-    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 1), (Pixels{{60, 2}})) << "the brightest";
-    EXPECT_EQ(outstanding_pixels(picture, 2, 1e-3, 10), (Pixels{{7, 30}})) << "of two windows";
+    EXPECT_EQ(bright_outliers(picture, 1, 1e-3, 10), (Pixels{{60, 2}, {7, 30}}));
+    EXPECT_EQ(bright_outliers(picture, 1, 1e-2, 10), (Pixels{{60, 2}}));
+    EXPECT_EQ(bright_outliers(picture, 1, 1e-3, 1), (Pixels{{60, 2}})) << "the brightest";
+    EXPECT_EQ(bright_outliers(picture, 2, 1e-3, 10), (Pixels{{7, 30}})) << "of two windows";
     picture.coverage[60 + 2 * 100] = 0.4f;
-    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 10), (Pixels{{7, 30}})) << "beside the stone";
+    EXPECT_EQ(bright_outliers(picture, 1, 1e-3, 10), (Pixels{{7, 30}})) << "beside the stone";
 }
 
 // A false sun in a picture drawn after the one that determined the estimate's pixels: one pixel of
@@ -148,7 +148,7 @@ TEST(ErrorEstimate, LooksAtAFalseSunInALaterPicture) {
         const ErrorEstimate found = estimator.estimate(wrong, 0.1, 1e12);
         // The estimate for the other pixels is right to within its own spread.
         EXPECT_NEAR(found.difference, error + right.difference,
-                    3 * (right.spread + found.spread) + 0.1 * error)
+                    3 * (right.standard_error + found.standard_error) + 0.1 * error)
             << x << ", " << y;
     }
 }
@@ -250,7 +250,7 @@ struct CheckedScene {
 class BoundOverAllPixels : public testing::TestWithParam<CheckedScene> {};
 
 // Every pixel of the stone. The truth has few rays, whose noise can only raise what is measured, so
-// it is subtracted as an independent quantity (`hold_against`).
+// it is subtracted as an independent quantity (`compare_with_truth`).
 TEST_P(BoundOverAllPixels, IsNotBelowWhatIsMeasured) {
     const CheckedScene& which = GetParam();
     Scene scene = plan_scene_of(which.material, which.cut, which.light, 100).scene;
@@ -259,7 +259,7 @@ TEST_P(BoundOverAllPixels, IsNotBelowWhatIsMeasured) {
     ScenePlan finest;
     finest.settings.wavelengths_nm.assign(57, 0);
     const Truth truth = draw_truth(scene, finest, all_stone_pixels(scene), 36);
-    const Verification found = hold_against(truth, result.picture);
+    const Verification found = compare_with_truth(truth, result.picture);
     EXPECT_GE(found.pixels, 3000);
     EXPECT_LE(found.measured, result.stats.error_bound) << result.stats.checked_pixels;
     EXPECT_LE(found.measured, which.tolerance);
@@ -329,7 +329,8 @@ TEST(ErrorEstimate, KnowsOfTheSunBetweenThePicturesWavelengths) {
     ASSERT_GT(some.at.size(), 100u);
     ScenePlan finest;
     finest.settings.wavelengths_nm.assign(57, 0);
-    const Verification found = hold_against(draw_truth(scene, finest, some, 49), result.picture);
+    const Verification found =
+        compare_with_truth(draw_truth(scene, finest, some, 49), result.picture);
     double seen = 0;
     for (const auto& [x, y] : some.at) seen += mean_of(result.picture.pixel(x, y));
     // Their shares refer to the true light, which is close to the picture's.

@@ -350,8 +350,8 @@ TEST(ErrorEstimate, CountsPixelsThatItChoosesMoreOftenForLess) {
     }
     ErrorEstimator estimator(scene, stone_pixels(scene, 64), 0.05, progress);
     const ErrorEstimate estimate = estimator.estimate(picture, 0, 1e12);
-    EXPECT_NEAR(estimate.difference, sum / count, 3 * estimate.spread + 0.05);
-    EXPECT_LT(estimate.spread, 0.2);
+    EXPECT_NEAR(estimate.difference, sum / count, 3 * estimate.standard_error + 0.05);
+    EXPECT_LT(estimate.standard_error, 0.2);
     EXPECT_GE(estimate.bound, sum / count);
 }
 

@@ -117,9 +117,9 @@ TEST(BeamTrees, OfHardViewsLoseNoArea) {
     }
 }
 
-// Overlapping leaves could hide lost area: a point must be in exactly one leaf if its ray meets the
+// Overlapping beams could hide lost area: a point must be in exactly one beam if its ray meets the
 // stone, else in none.
-TEST(BeamTrees, OfHardViewsHaveOneLeafAtEachPoint) {
+TEST(BeamTrees, OfHardViewsHaveOneBeamAtEachPoint) {
     std::mt19937_64 random(20275);
     for (const View& view : hard_views()) {
         SCOPED_TRACE("seed 20275, " + view.name);
@@ -137,7 +137,7 @@ TEST(BeamTrees, OfHardViewsHaveOneLeafAtEachPoint) {
             int in = 0;
             for (std::size_t b = 0; b < tree.branch_count; ++b) {
                 const BeamBranch& branch = tree.branches[b];
-                for (const Beam& beam : branch.leaves) {
+                for (const Beam& beam : branch.beams) {
                     if (p.y < beam.first_row || p.y > beam.end_row) continue;
                     const ScreenPoint* c = branch.corners.data() + beam.corner;
                     // Corners may coincide.
@@ -186,7 +186,7 @@ double wrong_share(const View& view, const BeamTree& tree, const ScreenView& scr
     int number = 0;
     for (std::size_t b = 0; b < tree.branch_count; ++b) {
         const BeamBranch& branch = tree.branches[b];
-        for (const Beam& beam : branch.leaves) {
+        for (const Beam& beam : branch.beams) {
             if (number++ % every != 0) continue;
             const ScreenPoint* c = branch.corners.data() + beam.corner;
             // One point in one triangle of the fan, chosen by area.
@@ -285,17 +285,17 @@ TEST(BeamTrees, OfDepth1AreTheFrontFacetsAndOfDepth2MeetOneMore) {
         BeamLimits limits;
         limits.depth = depth;
         const BeamTree tree = tree_of(net, view, limits);
-        int leaves = 0;
+        int beams = 0;
         for (std::size_t b = 0; b < tree.branch_count; ++b) {
-            for (const Beam& beam : tree.branches[b].leaves) {
-                ++leaves;
+            for (const Beam& beam : tree.branches[b].beams) {
+                ++beams;
                 EXPECT_EQ(beam.facets, depth);
             }
         }
         int fronts = 0;
         for (int f = 0; f < net.facets(); ++f) fronts += view.sees(net.plane(f));
         if (depth == 1) {
-            EXPECT_EQ(leaves, fronts);
+            EXPECT_EQ(beams, fronts);
         }
         EXPECT_NEAR(lost_share(tree), 0, 1e-12);
     }
@@ -309,15 +309,15 @@ TEST(BeamTrees, ThatAreCutKeepTheirArea) {
     const ScreenView view = screen_view(scene.camera);
     BeamLimits limits;
     limits.depth = 10;
-    const long long all = tree_of(net, view, limits).beams();
+    const long long all = tree_of(net, view, limits).grown();
     long long before = all;
     for (const double cut : {1e-4, 1e-2, 0.3, 0.99}) {
         limits.cut_weight = cut;
         limits.cut_share = 0;
         const BeamTree by_weight = tree_of(net, view, limits);
         EXPECT_NEAR(lost_share(by_weight), 0, k_lost);
-        EXPECT_LE(by_weight.beams(), before);
-        before = by_weight.beams();
+        EXPECT_LE(by_weight.grown(), before);
+        before = by_weight.grown();
         limits.cut_weight = 0;
         limits.cut_share = 100 * cut;
         EXPECT_NEAR(lost_share(tree_of(net, view, limits)), 0, k_lost);
@@ -342,7 +342,7 @@ TEST(BeamTrees, BuiltIntoUsedMemoryAreTheSame) {
         EXPECT_EQ(used.exit_area(), fresh.exit_area());
         for (std::size_t b = 0; b < fresh.branch_count; ++b) {
             EXPECT_EQ(used.branches[b].facets, fresh.branches[b].facets);
-            EXPECT_EQ(used.branches[b].beams, fresh.branches[b].beams);
+            EXPECT_EQ(used.branches[b].grown, fresh.branches[b].grown);
         }
     }
 }

@@ -174,10 +174,10 @@ TEST(RelitStones, TakesConstantFactorsForFresnels) {
     const auto& parts = table.parts();
     std::uint32_t before = 0;
     for (std::size_t hit = 0; hit < parts.hit_ray.size(); ++hit) {
-        const std::uint32_t leaves = parts.exits_end[hit] - before;
+        const std::uint32_t exits = parts.exits_end[hit] - before;
         before = parts.exits_end[hit];
-        ASSERT_GT(leaves, 0u);
-        const double sum = R + T * T * (1 - std::pow(R, leaves - 1)) / (1 - R);
+        ASSERT_GT(exits, 0u);
+        const double sum = R + T * T * (1 - std::pow(R, exits - 1)) / (1 - R);
         EXPECT_NEAR(picture.rgb[3 * parts.hit_ray[hit]], sum, k_rounding);
     }
     Scene deep = scene;
