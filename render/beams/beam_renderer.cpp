@@ -26,65 +26,17 @@ double seconds_from(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Points of the unit disc with equal areas: Vogel's sunflower (1979).
-std::vector<ScreenPoint> pupil_points(int count) {
-    constexpr double k_golden_angle = 2.39996322972865332;
-    std::vector<ScreenPoint> points;
-    for (int i = 0; i < count; ++i) {
-        const double radius = std::sqrt((i + 0.5) / count);
-        points.push_back(
-            {radius * std::cos(k_golden_angle * i), radius * std::sin(k_golden_angle * i)});
-    }
-    return points;
-}
-
 std::vector<ScreenView> views_of(const Scene& scene, const OpticalSetup& setup) {
-    std::vector<ScreenView> views;
-    if (setup.on(Effects::aperture)) {
-        const int points = scene.settings.samples > 0 ? scene.settings.samples : k_pupil_points;
-        for (const ScreenPoint& p : pupil_points(points))
-            views.push_back(screen_view(scene.camera, p.x, p.y));
-    } else {
-        Camera pinhole = scene.camera;
-        pinhole.aperture_radius = 0;
-        views.push_back(screen_view(pinhole));
-    }
-    return views;
+    if (setup.on(Effects::aperture))
+        return pupil_views(scene.camera,
+                           scene.settings.samples > 0 ? scene.settings.samples : k_pupil_points);
+    Camera pinhole = scene.camera;
+    pinhole.aperture_radius = 0;
+    return {screen_view(pinhole)};
 }
 
-// For each band the band whose beams it shares. By Snell's law the borders of two wavelengths'
-// beams differ by an angle of at most |dn| / (n sqrt(n^2 - 1)), over the path through the stone.
-// Bands share beams while that is below the allowed map error.
-std::vector<std::size_t> shared_beams(const OpticalSetup& setup, const ScreenView& view,
-                                      const Vec3& middle, double size, const BeamLimits& limits) {
-    // Segments measure about 2/3 of the stone; few longer paths carry light.
-    constexpr double k_segment = 2.0 / 3;
-    constexpr int k_longest = 16;
-    const ScreenImage here = view.of_point(middle),
-                      beside = view.of_point(middle + size * view.right);
-    const double pixels =
-        std::hypot(beside.x / beside.z - here.x / here.z, beside.y / beside.z - here.y / here.z);
-    const double way = k_segment * std::min(limits.depth, k_longest) * pixels;
-    std::vector<std::size_t> leader(setup.bands.size());
-    for (std::size_t first = 0; first < leader.size();) {
-        const auto index = [&](std::size_t b) {
-            return setup.bands[b].n / setup.bands[b].n_outside;
-        };
-        const auto apart = [&](std::size_t a, std::size_t b) {
-            const double n = std::min(index(a), index(b));
-            return way * std::abs(index(a) - index(b)) / (n * std::sqrt((n - 1) * (n + 1)));
-        };
-        std::size_t middle_band = first, end = first + 1;
-        // Extend from both ends to the middle band.
-        while (end < leader.size() && apart(first, end) <= 2 * limits.map_error) {
-            ++end;
-            while (middle_band + 1 < end && apart(first, middle_band + 1) <= limits.map_error)
-                ++middle_band;
-        }
-        while (end > first + 1 && apart(middle_band, end - 1) > limits.map_error) --end;
-        for (; first < end; ++first) leader[first] = std::min(middle_band, end - 1);
-    }
-    return leader;
+std::size_t strips_of(int rows) {
+    return static_cast<std::size_t>((rows + k_strip - 1) / k_strip);
 }
 
 }  // namespace
@@ -103,11 +55,17 @@ struct BeamRenderer::Work {
 
     // Colour of each plane: radiance or a Stokes parameter at a node.
     std::vector<std::array<float, 3>> rgb_of_plane;
+    std::size_t first_pixel(int strip) const {
+        return static_cast<std::size_t>(std::min(strip * k_strip, canvas.height)) *
+               static_cast<std::size_t>(canvas.width);
+    }
     void clear(int strip);
     void develop(int strip, Picture& picture) const;
     void prepare(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
                  std::size_t planes, Picture& picture, Listener& listener);
     void keep_spectra(const Scene& scene, const OpticalSetup& setup, Picture& picture) const;
+
+    struct Drawing;
 };
 
 void BeamRenderer::Work::prepare(const Scene& scene, const OpticalSetup& setup,
@@ -144,22 +102,14 @@ void BeamRenderer::Work::prepare(const Scene& scene, const OpticalSetup& setup,
 }
 
 void BeamRenderer::Work::clear(int strip) {
-    const std::size_t width = static_cast<std::size_t>(canvas.width);
-    const std::size_t begin = static_cast<std::size_t>(strip * k_strip) * width,
-                      count = static_cast<std::size_t>(
-                                  std::min(k_strip, canvas.height - strip * k_strip)) *
-                              width;
+    const std::size_t begin = first_pixel(strip), count = first_pixel(strip + 1) - begin;
     for (std::size_t p = 0; p < rgb_of_plane.size(); ++p)
         std::fill_n(canvas.planes.data() + p * canvas.pixels() + begin, count, 0.0f);
     std::fill_n(canvas.coverage.data() + begin, count, 0.0f);
 }
 
 void BeamRenderer::Work::develop(int strip, Picture& picture) const {
-    const std::size_t width = static_cast<std::size_t>(canvas.width);
-    const std::size_t begin = static_cast<std::size_t>(strip * k_strip) * width,
-                      end =
-                          static_cast<std::size_t>(std::min((strip + 1) * k_strip, canvas.height)) *
-                          width;
+    const std::size_t begin = first_pixel(strip), end = first_pixel(strip + 1);
     float* rgb = picture.rgb.data();
     if (rgb_of_plane.size() == 1) {
         spread_to_rgb(canvas.planes.data() + begin, end - begin, rgb + 3 * begin);
@@ -204,83 +154,43 @@ const BeamReport& BeamRenderer::report() const {
     return work_->report;
 }
 
-void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
-                        const BeamSettings& settings, Picture& picture, const Progress& progress) {
-    Work& work = *work_;
-    const std::size_t nodes = setup.wavelengths_nm.size();
-    const std::size_t stokes = setup.stokes && scene.settings.spectral ? 4 : 1;
-    const std::vector<ScreenView> views = views_of(scene, setup);
-    const int strips = (scene.camera.height + k_strip - 1) / k_strip;
-    Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
-    work.prepare(scene, setup, colours, stokes * nodes, picture, listener);
-    std::vector<ShadingPass> passes =
-        shading_passes(scene, setup, colours, work.stone.shaded.middle, work.pyramid,
-                       static_cast<int>(stokes), settings.crystal == CrystalBeams::split);
-    const std::vector<std::size_t> leader = shared_beams(setup, views[0], work.stone.shaded.middle,
-                                                         work.stone.net.size(), settings.limits);
-    for (ShadingPass& pass : passes) pass.beams = leader[pass.beams];
+// What the steps of one drawing share.
+struct BeamRenderer::Work::Drawing {
+    Work& work;
+    const Scene& scene;
+    const OpticalSetup& setup;
+    const BeamSettings& settings;
+    Picture& picture;
+    Listener& listener;
+    const std::vector<ScreenView>& views;
+    std::vector<ShadingPass> passes;
+    std::vector<std::size_t> leader;  // of each band (shading_passes.h)
+    WorkMeter* meter = scene.settings.meter.get();
     BeamReport& report = work.report;
-    report = {};
-    PaintOptions options;
-    options.shading = settings.shading;
-    options.depth = settings.limits.depth;
-    options.cut_weight = settings.limits.cut_weight;
-    options.share = 1.0 / static_cast<double>(views.size());
-
-    const std::size_t bands = setup.bands.size();
-    work.beams.resize(views.size() * bands);
-    StripSums whole;
+    StripSums whole = {};
     double lost = 0;
     int trees = 0;
-    WorkMeter* const meter = scene.settings.meter.get();
-    const auto may_spend = [&](double ns) {
+
+    SortedBeams* beams_of(std::size_t view) { return &work.beams[view * setup.bands.size()]; }
+    bool may_spend(double ns) const {
         return listener.still_goes_on() && (meter == nullptr || !(ns > meter->left()));
-    };
-    for (std::size_t v = 0; v < views.size(); ++v) {
-        SortedBeams* beams = work.beams.data() + v * bands;
-        std::vector<StripSums> sums(static_cast<std::size_t>(strips));
-        const std::vector<FrontFacet> fronts = front_facets(work.stone.net, views[v]);
+    }
+
+    void draw(std::size_t view) {
+        std::vector<StripSums> sums(strips_of(scene.camera.height));
+        const std::vector<FrontFacet> fronts = front_facets(work.stone.net, views[view]);
         on_threads(settings.threads, [&] {
             const auto building = Clock::now();
             tbb::parallel_for(
-                std::size_t{0}, bands,
-                [&](std::size_t b) {
-                    const Band& band = setup.bands[b];
-                    if (band.two_waves && settings.crystal == CrystalBeams::split) return;
-                    if (leader[b] != b) return;
-                    beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
-                                  settings.limits, [&](long long grown) {
-                                      return may_spend(price_ns(DrawnBeams{.grown = grown}));
-                                  });
-                    const BeamTree& tree = beams[b].tree;
-                    if (meter != nullptr)
-                        meter->spend(price_ns(DrawnBeams{.grown = tree.discarded + tree.grown(),
-                                                         .walked = tree.faces()}));
-                },
+                std::size_t{0}, setup.bands.size(), [&](std::size_t band) { grow(view, band); },
                 tbb::simple_partitioner());
             report.seconds_build += seconds_from(building);
             const auto shading = Clock::now();
             tbb::parallel_for(
-                0, strips,
-                [&](int strip) {
+                std::size_t{0}, sums.size(),
+                [&](std::size_t strip) {
                     if (!listener.goes_on() || (meter != nullptr && meter->over())) return;
-                    if (v == 0) work.clear(strip);
-                    // Count work while painting, as a strip may take seconds.
-                    double spent = 0;
-                    PaintOptions asking = options;
-                    asking.goes_on = [&](const StripSums& sum) {
-                        const double before = spent;
-                        spent = std::floor(price_ns(DrawnBeams{.split = sum.beams,
-                                                               .fragments = sum.fragments,
-                                                               .faces = sum.faces,
-                                                               .nodes = passes[0].lights.nodes}));
-                        if (meter != nullptr) meter->spend(spent - before);
-                        return may_spend(0);
-                    };
-                    const StripSums& sum = sums[static_cast<std::size_t>(strip)] =
-                        work.painters.local().paint(strip, views[v], beams, fronts, passes, asking);
-                    asking.goes_on(sum);
-                    if (v + 1 == views.size()) work.develop(strip, picture);
+                    sums[strip] = paint(view, static_cast<int>(strip), fronts);
                 },
                 tbb::simple_partitioner());
             report.seconds_shade += seconds_from(shading);
@@ -288,10 +198,51 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
         if (listener.stopped()) throw Interrupted();
         if (meter != nullptr) meter->require_not_over();
         for (const StripSums& sum : sums) whole += sum;
-        const bool kept = settings.crystal == CrystalBeams::merged || !setup.splits;
-        for (std::size_t b = 0; kept && b < bands; ++b) {
-            if (leader[b] != b) continue;
-            const BeamTree& tree = beams[b].tree;
+        if (settings.crystal == CrystalBeams::merged || !setup.splits) count_trees(view);
+    }
+
+    void grow(std::size_t view, std::size_t number) {
+        const Band& band = setup.bands[number];
+        if (band.two_waves && settings.crystal == CrystalBeams::split) return;
+        if (leader[number] != number) return;
+        SortedBeams& beams = beams_of(view)[number];
+        beams.grow(
+            work.stone.net, views[view], band.n / band.n_outside, settings.limits,
+            [&](long long grown) { return may_spend(price_ns(DrawnBeams{.grown = grown})); });
+        if (meter != nullptr)
+            meter->spend(price_ns(DrawnBeams{.grown = beams.tree.discarded + beams.tree.grown(),
+                                             .walked = beams.tree.faces()}));
+    }
+
+    StripSums paint(std::size_t view, int strip, const std::vector<FrontFacet>& fronts) {
+        if (view == 0) work.clear(strip);
+        PaintOptions options;
+        options.shading = settings.shading;
+        options.depth = settings.limits.depth;
+        options.cut_weight = settings.limits.cut_weight;
+        options.share = 1.0 / static_cast<double>(views.size());
+        // Count work while painting, as a strip may take seconds.
+        double spent = 0;
+        options.goes_on = [&](const StripSums& sum) {
+            const double before = spent;
+            spent = std::floor(price_ns(DrawnBeams{.split = sum.beams,
+                                                   .fragments = sum.fragments,
+                                                   .faces = sum.faces,
+                                                   .nodes = passes[0].lights.nodes}));
+            if (meter != nullptr) meter->spend(spent - before);
+            return may_spend(0);
+        };
+        const StripSums sum = work.painters.local().paint(strip, views[view], beams_of(view),
+                                                          fronts, passes, options);
+        options.goes_on(sum);
+        if (view + 1 == views.size()) work.develop(strip, picture);
+        return sum;
+    }
+
+    void count_trees(std::size_t view) {
+        for (std::size_t band = 0; band < setup.bands.size(); ++band) {
+            if (leader[band] != band) continue;
+            const BeamTree& tree = beams_of(view)[band].tree;
             report.beams += tree.grown();
             report.deepest = std::max(report.deepest, tree.deepest());
             if (!(tree.front_area > 0)) continue;
@@ -299,17 +250,46 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
             ++trees;
         }
     }
-    report.fragments = whole.fragments;
-    report.beams += whole.beams;
-    report.deepest = std::max(report.deepest, whole.deepest);
-    report.retraced = whole.retraced;
-    report.filled = whole.filled;
-    report.lost_area = trees > 0 ? lost / trees : 0;
-    if (whole.filled > 0) {
+
+    void fill_report() {
+        report.fragments = whole.fragments;
+        report.beams += whole.beams;
+        report.deepest = std::max(report.deepest, whole.deepest);
+        report.retraced = whole.retraced;
+        report.filled = whole.filled;
+        report.lost_area = trees > 0 ? lost / trees : 0;
+        if (!(whole.filled > 0)) return;
         report.remainder = whole.remainder / whole.filled;
         report.absorbed = whole.absorbed / whole.filled;
         report.luminance = whole.luminance / whole.filled;
     }
+};
+
+void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
+                        const BeamSettings& settings, Picture& picture, const Progress& progress) {
+    Work& work = *work_;
+    const int stokes = setup.stokes && scene.settings.spectral ? 4 : 1;
+    const std::vector<ScreenView> views = views_of(scene, setup);
+    Listener listener(progress, static_cast<double>(views.size() * strips_of(scene.camera.height)));
+    work.prepare(scene, setup, colours,
+                 static_cast<std::size_t>(stokes) * setup.wavelengths_nm.size(), picture, listener);
+    const Vec3& middle = work.stone.shaded.middle;
+    Work::Drawing drawing{
+        work,
+        scene,
+        setup,
+        settings,
+        picture,
+        listener,
+        views,
+        shading_passes(scene, setup, colours, middle, work.pyramid, stokes,
+                       settings.crystal == CrystalBeams::split),
+        shared_beams(setup, views[0], middle, work.stone.net.size(), settings.limits)};
+    for (ShadingPass& pass : drawing.passes) pass.beams = drawing.leader[pass.beams];
+    work.report = {};
+    work.beams.resize(views.size() * setup.bands.size());
+    for (std::size_t view = 0; view < views.size(); ++view) drawing.draw(view);
+    drawing.fill_report();
     std::swap(picture.coverage, work.canvas.coverage);
     if (scene.settings.spectral) work.keep_spectra(scene, setup, picture);
 }

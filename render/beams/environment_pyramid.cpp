@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -30,6 +31,29 @@ Vec3 direction_at(double u, double v, double& solid_angle) {
     return p / length;
 }
 
+// Red, green and blue times weights, and the weights.
+using WeightedSum = glm::dvec4;
+
+// Of `subsamples`^2 directions in a texel of the finest level.
+WeightedSum sum_of_map(const EnvironmentMap& map, int side, int subsamples, int x, int y) {
+    WeightedSum sum(0);
+    const double step = 2.0 / (side * subsamples);
+    for (int i = 0; i < subsamples * subsamples; ++i) {
+        double weight = 0;
+        const Vec3 direction =
+            direction_at(-1 + step * (subsamples * x + i % subsamples + 0.5),
+                         -1 + step * (subsamples * y + i / subsamples + 0.5), weight);
+        const Rgb seen = map.at(direction);
+        sum += weight * WeightedSum(seen[0], seen[1], seen[2], 1);
+    }
+    return sum;
+}
+
+std::size_t index_in(int side, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+           static_cast<std::size_t>(x);
+}
+
 }  // namespace
 
 EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map,
@@ -46,65 +70,57 @@ EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map,
         start += static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2);
     }
     for (auto& plane : planes_) plane.assign(start, 0.0f);
-    std::vector<double> finer_weights;
-    for (std::size_t l = 0; l < levels_.size(); ++l) {
-        const Level& level = levels_[l];
-        const int side = level.side;
-        const auto at = [](const Level& of, int x, int y) {
-            return of.start +
-                   static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(of.side + 2) +
-                   static_cast<std::size_t>(x + 1);
-        };
-        std::vector<double> weights(static_cast<std::size_t>(side) *
-                                    static_cast<std::size_t>(side));
-        tbb::parallel_for(0, side, [&](int y) {
-            if (goes_on && !goes_on()) return;
-            for (int x = 0; x < side; ++x) {
-                double sum = 0;
-                std::array<double, 3> rgb{};
-                if (l == 0) {
-                    const double step = 2.0 / (side * subsamples);
-                    for (int i = 0; i < subsamples * subsamples; ++i) {
-                        double weight = 0;
-                        const Vec3 direction = direction_at(
-                            -1 + step * (subsamples * x + i % subsamples + 0.5),
-                            -1 + step * (subsamples * y + i / subsamples + 0.5), weight);
-                        const Rgb seen = map.at(direction);
-                        for (std::size_t c = 0; c < 3; ++c) rgb[c] += weight * seen[c];
-                        sum += weight;
-                    }
-                } else {
-                    const Level& finer = levels_[l - 1];
-                    for (int i = 0; i < 4; ++i) {
-                        const int fx = 2 * x + i % 2, fy = 2 * y + i / 2;
-                        const double weight = finer_weights[static_cast<std::size_t>(fy) *
-                                                                static_cast<std::size_t>(2 * side) +
-                                                            static_cast<std::size_t>(fx)];
-                        for (std::size_t c = 0; c < 3; ++c)
-                            rgb[c] += weight * static_cast<double>(planes_[c][at(finer, fx, fy)]);
-                        sum += weight;
-                    }
-                }
-                for (std::size_t c = 0; c < 3; ++c)
-                    planes_[c][at(level, x, y)] = static_cast<float>(rgb[c] / sum);
-                weights[static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
-                        static_cast<std::size_t>(x)] = sum;
+    std::vector<double> weights = fill(levels_[0], goes_on, [&](int x, int y) {
+        return sum_of_map(map, finest, subsamples, x, y);
+    });
+    for (std::size_t l = 1; l < levels_.size(); ++l) {
+        const Level& finer = levels_[l - 1];
+        weights = fill(levels_[l], goes_on, [&](int x, int y) {
+            WeightedSum sum(0);
+            for (int i = 0; i < 4; ++i) {
+                const int fx = 2 * x + i % 2, fy = 2 * y + i / 2;
+                const std::size_t at = finer.at(fx, fy);
+                sum += weights[index_in(finer.side, fx, fy)] *
+                       WeightedSum(planes_[0][at], planes_[1][at], planes_[2][at], 1);
             }
+            return sum;
         });
-        finer_weights = std::move(weights);
-        // The border continues over the square's edges, which are folded at their middles.
-        for (auto& plane : planes_) {
-            for (int i = 0; i < side; ++i) {
-                plane[at(level, i, -1)] = plane[at(level, side - 1 - i, 0)];
-                plane[at(level, i, side)] = plane[at(level, side - 1 - i, side - 1)];
-                plane[at(level, -1, i)] = plane[at(level, 0, side - 1 - i)];
-                plane[at(level, side, i)] = plane[at(level, side - 1, side - 1 - i)];
-            }
-            plane[at(level, -1, -1)] = plane[at(level, side - 1, side - 1)];
-            plane[at(level, side, -1)] = plane[at(level, 0, side - 1)];
-            plane[at(level, -1, side)] = plane[at(level, side - 1, 0)];
-            plane[at(level, side, side)] = plane[at(level, 0, 0)];
+    }
+}
+
+// Sets the texels to means; returns the weights of their sums.
+template <class SumOf>
+std::vector<double> EnvironmentPyramid::fill(const Level& level,
+                                             const std::function<bool()>& goes_on,
+                                             const SumOf& sum_of) {
+    std::vector<double> weights(index_in(level.side, 0, level.side));
+    tbb::parallel_for(0, level.side, [&](int y) {
+        if (goes_on && !goes_on()) return;
+        for (int x = 0; x < level.side; ++x) {
+            const WeightedSum sum = sum_of(x, y);
+            for (int c = 0; c < 3; ++c)
+                planes_[c][level.at(x, y)] = static_cast<float>(sum[c] / sum.w);
+            weights[index_in(level.side, x, y)] = sum.w;
         }
+    });
+    continue_over_edges(level);
+    return weights;
+}
+
+// The border continues over the square's edges, which are folded at their middles.
+void EnvironmentPyramid::continue_over_edges(const Level& level) {
+    const int side = level.side;
+    for (auto& plane : planes_) {
+        for (int i = 0; i < side; ++i) {
+            plane[level.at(i, -1)] = plane[level.at(side - 1 - i, 0)];
+            plane[level.at(i, side)] = plane[level.at(side - 1 - i, side - 1)];
+            plane[level.at(-1, i)] = plane[level.at(0, side - 1 - i)];
+            plane[level.at(side, i)] = plane[level.at(side - 1, side - 1 - i)];
+        }
+        plane[level.at(-1, -1)] = plane[level.at(side - 1, side - 1)];
+        plane[level.at(side, -1)] = plane[level.at(0, side - 1)];
+        plane[level.at(-1, side)] = plane[level.at(side - 1, 0)];
+        plane[level.at(side, side)] = plane[level.at(0, 0)];
     }
 }
 

@@ -24,6 +24,11 @@ public:
         int side = 1;           ///< texels along an edge, without the border
         std::size_t start = 0;  ///< index of the border's corner texel
         float texel = 1;        ///< its largest angular extent, radians
+        /// Index of a texel; the border's are at -1 and `side`.
+        std::size_t at(int x, int y) const {
+            return start + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(side + 2) +
+                   static_cast<std::size_t>(x + 1);
+        }
     };
     const std::vector<Level>& levels() const { return levels_; }
     /// One plane of all levels per channel: red, green, blue.
@@ -32,6 +37,11 @@ public:
     }
 
 private:
+    template <class SumOf>
+    std::vector<double> fill(const Level& level, const std::function<bool()>& goes_on,
+                             const SumOf& sum_of);
+    void continue_over_edges(const Level& level);
+
     std::vector<Level> levels_;
     std::vector<float> planes_[3];
 };

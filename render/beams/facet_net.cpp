@@ -24,6 +24,16 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
     const double too_short = std::sqrt(std::numeric_limits<double>::epsilon()) * size_;
     const Solid solid = contract_near_meets(bounded.solid, too_short).solid;
     corners_ = solid.vertices;
+    join_edges(solid);
+    find_far_points(too_short);
+    for (const std::vector<NetEdge>& edges : edges_) {
+        std::vector<NetNeighbour>& beyond = neighbours_.emplace_back();
+        for (const NetEdge& edge : edges) beyond.push_back({plane(edge.beyond), edge.beyond});
+    }
+    find_exits();
+}
+
+void FacetNet::join_edges(const Solid& solid) {
     edges_.resize(planes_.size());
     std::map<std::pair<int, int>, int> facet_at;
     for (const Facet& facet : solid.facets) {
@@ -45,6 +55,9 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
             edge.line = line->second;
         }
     }
+}
+
+void FacetNet::find_far_points(double too_short) {
     far_along_.resize(static_cast<std::size_t>(lines_));
     for (int f = 0; f < facets(); ++f) {
         for (const NetEdge& edge : edges(f)) {
@@ -61,10 +74,9 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
             }
         }
     }
-    for (const std::vector<NetEdge>& edges : edges_) {
-        std::vector<NetNeighbour>& beyond = neighbours_.emplace_back();
-        for (const NetEdge& edge : edges) beyond.push_back({plane(edge.beyond), edge.beyond});
-    }
+}
+
+void FacetNet::find_exits() {
     exits_.assign(cell_of(facets(), {-1, -1, 1}), 0);
     for (int from = 0; from < facets(); ++from) {
         if (edges(from).empty()) continue;

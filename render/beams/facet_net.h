@@ -68,6 +68,9 @@ private:
                                         step(d.x));
     }
     int walk(int start, const Vec3& x, const Vec3& d) const;
+    void join_edges(const Solid& solid);
+    void find_far_points(double too_short);
+    void find_exits();
 
     std::vector<Plane> planes_;
     std::vector<std::vector<NetEdge>> edges_;

@@ -72,4 +72,15 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     return view;
 }
 
+std::vector<ScreenView> pupil_views(const Camera& camera, int points) {
+    constexpr double k_golden_angle = 2.39996322972865332;
+    std::vector<ScreenView> views;
+    for (int i = 0; i < points; ++i) {
+        const double radius = std::sqrt((i + 0.5) / points);
+        views.push_back(screen_view(camera, radius * std::cos(k_golden_angle * i),
+                                    radius * std::sin(k_golden_angle * i)));
+    }
+    return views;
+}
+
 }  // namespace culet

@@ -40,4 +40,7 @@ struct ScreenView {
 /// whose rays do not meet in a point of the pupil.
 ScreenView screen_view(const Camera& camera, double pupil_x = 0, double pupil_y = 0);
 
+/// From points of the pupil with equal areas: Vogel's sunflower (1979).
+std::vector<ScreenView> pupil_views(const Camera& camera, int points);
+
 }  // namespace culet

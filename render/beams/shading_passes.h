@@ -17,4 +17,8 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& 
                                         std::shared_ptr<const EnvironmentPyramid> environment,
                                         int stokes, bool split);
 
+/// For each band the band whose beams it shares. `middle`, `size`: of the stone.
+std::vector<std::size_t> shared_beams(const OpticalSetup& setup, const ScreenView& view,
+                                      const Vec3& middle, double size, const BeamLimits& limits);
+
 }  // namespace culet

@@ -28,6 +28,24 @@ std::array<Vec3, 3> with_changes(const std::array<Vec3, 3>& v) {
     return {v[0], (v[1] - v[0]) / k_beside, (v[2] - v[0]) / k_beside};
 }
 
+// What leaves the stone on the reference ray and on its neighbours.
+struct LeavingRays {
+    std::array<Vec3, 3> points, directions, tangents;
+    std::array<double, 3> weights{}, Q{}, U{};
+
+    LeavingBeam beam(const ScreenPoint& reference) const {
+        LeavingBeam beam;
+        beam.reference = reference;
+        beam.point = with_changes(points);
+        beam.direction = with_changes(directions);
+        beam.s = with_changes(tangents);
+        beam.weight = with_changes(weights);
+        beam.Q = with_changes(Q);
+        beam.U = with_changes(U);
+        return beam;
+    }
+};
+
 // Radiance behind the eye's optics, from amplitudes along the picture's x and y.
 double seen(const Stokes& response, const Complex& x, const Complex& y) {
     const Complex xy = x * std::conj(y);
@@ -59,11 +77,8 @@ void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* regi
     const FacetRegion part{facet, {0, count}, doubled_area(region, count)};
     const Plane& plane = net_.plane(facet);
     std::array<Rays, 2> inside;
-    LeavingBeam mirrored;
-    mirrored.reference = reference_;
-    std::array<Vec3, 3> points, directions, tangents;
-    std::array<double, 3> weights{}, Q{}, U{};
-    for (int i = 0; i < 3; ++i) {
+    LeavingRays mirrored;
+    for (std::size_t i = 0; i < 3; ++i) {
         const ScreenPoint at{reference_.x + (i == 1 ? k_beside : 0),
                              reference_.y + (i == 2 ? k_beside : 0)};
         const Vec3 origin = view.origin(at), d = glm::normalize(view.towards(at));
@@ -77,7 +92,7 @@ void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* regi
                    p = glm::cross(d, s);
         const double xs = glm::dot(x, s), xp = glm::dot(x, p), ys = glm::dot(y, s),
                      yp = glm::dot(y, p);
-        for (int m = 0; m < 2; ++m) {
+        for (std::size_t m = 0; m < 2; ++m) {
             Ray& ray = inside[m][i];
             ray.point = point;
             ray.mode = entry.modes[m];
@@ -85,9 +100,9 @@ void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* regi
                               ys * entry.into[0][m] + yp * entry.into[1][m]);
             std::fill_n(ray.transmitted.begin(), band_.count, 1.0);
         }
-        points[i] = point;
-        directions[i] = d - 2 * cosine * plane.normal;
-        tangents[i] = s;
+        mirrored.points[i] = point;
+        mirrored.directions[i] = d - 2 * cosine * plane.normal;
+        mirrored.tangents[i] = s;
         // Reflected light that vibrates along s, along p and at 45 degrees.
         const auto reflected = [&](const Complex& of_s, const Complex& of_p) {
             const Complex in_s = of_s * entry.back[0][0] + of_p * entry.back[0][1],
@@ -96,21 +111,16 @@ void SplitBeams::grow(const ScreenView& view, int facet, const ScreenPoint* regi
         };
         const double along_s = reflected(1, 0), along_p = reflected(0, 1);
         const double half = std::sqrt(0.5);
-        weights[i] = along_s + along_p;
-        Q[i] = along_s - along_p;
-        U[i] = reflected(half, half) - reflected(half, -half);
+        mirrored.weights[i] = along_s + along_p;
+        mirrored.Q[i] = along_s - along_p;
+        mirrored.U[i] = reflected(half, half) - reflected(half, -half);
     }
-    mirrored.point = with_changes(points);
-    mirrored.direction = with_changes(directions);
-    mirrored.s = with_changes(tangents);
-    mirrored.weight = with_changes(weights);
-    mirrored.Q = with_changes(Q);
-    mirrored.U = with_changes(U);
-    std::fill_n(mirrored.transmitted[0].begin(), band_.count, 1.0);
+    LeavingBeam beam = mirrored.beam(reference_);
+    std::fill_n(beam.transmitted[0].begin(), band_.count, 1.0);
     ++beams_;
-    sink(mirrored, pool_.data(), count);
-    for (int m = 0; m < 2; ++m) {
-        if (inside[m][0].mode.propagates) follow(inside[m], facet, part, 1);
+    sink(beam, pool_.data(), count);
+    for (const Rays& rays : inside) {
+        if (rays[0].mode.propagates) follow(rays, facet, part, 1);
     }
 }
 
@@ -149,6 +159,18 @@ InsideView SplitBeams::view_of(const Rays& rays, double length) const {
     return view;
 }
 
+void SplitBeams::absorb(Ray& ray, double way) const {
+    const std::array<double, 3> shares = absorption_shares(band_.crystal, ray.mode);
+    for (std::size_t node = 0; node < static_cast<std::size_t>(band_.count); ++node) {
+        double alpha = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            alpha += shares[axis] * band_.absorption[axis][node];
+        double& transmitted = ray.transmitted[node];
+        transmitted *= std::exp(std::min(-alpha * way, k_most_regained));
+        transmitted = std::min(transmitted, std::exp(k_most_regained));
+    }
+}
+
 // Follows a beam that left `facet`, the `event`th facet that it met.
 void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, int event) {
     ++beams_;
@@ -184,17 +206,7 @@ void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, in
             Ray& ray = at[i];
             const double way = length_to(ray, plane);
             ray.point += way * ray.mode.ray;
-            if (band_.absorbs) {
-                const std::array<double, 3> shares = absorption_shares(band_.crystal, ray.mode);
-                for (std::size_t node = 0; node < static_cast<std::size_t>(band_.count); ++node) {
-                    double alpha = 0;
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        alpha += shares[axis] * band_.absorption[axis][node];
-                    double& transmitted = ray.transmitted[node];
-                    transmitted *= std::exp(std::min(-alpha * way, k_most_regained));
-                    transmitted = std::min(transmitted, std::exp(k_most_regained));
-                }
-            }
+            if (band_.absorbs) absorb(ray, way);
             hits[i] = hit_face(band_.crystal, band_.n_outside, ray.mode, plane.normal);
         }
         absorbed_ += 0.5 * next.doubled_area * rays[0].weight *
@@ -218,27 +230,19 @@ void SplitBeams::follow(const Rays& rays, int facet, const FacetRegion& part, in
 
 void SplitBeams::leave(const std::array<CrystalHit, 3>& hits, const Rays& at,
                        const FacetRegion& part, int event) {
-    LeavingBeam beam;
-    beam.reference = reference_;
-    beam.facets = event;
-    std::array<Vec3, 3> points, directions, tangents;
-    std::array<double, 3> weights{}, Q{}, U{};
-    for (int i = 0; i < 3; ++i) {
+    LeavingRays rays;
+    for (std::size_t i = 0; i < 3; ++i) {
         const CrystalHit& hit = hits[i].transmitted > 0 ? hits[i] : hits[0];
-        points[i] = at[i].point;
-        directions[i] = hit.exit_direction;
-        tangents[i] = hit.s;
+        rays.points[i] = at[i].point;
+        rays.directions[i] = hit.exit_direction;
+        rays.tangents[i] = hit.s;
         const Complex &s = hit.out[0], &p = hit.out[1];
-        weights[i] = at[i].weight * hit.transmitted;
-        Q[i] = at[i].weight * (std::norm(s) - std::norm(p));
-        U[i] = at[i].weight * 2 * (s * std::conj(p)).real();
+        rays.weights[i] = at[i].weight * hit.transmitted;
+        rays.Q[i] = at[i].weight * (std::norm(s) - std::norm(p));
+        rays.U[i] = at[i].weight * 2 * (s * std::conj(p)).real();
     }
-    beam.point = with_changes(points);
-    beam.direction = with_changes(directions);
-    beam.s = with_changes(tangents);
-    beam.weight = with_changes(weights);
-    beam.Q = with_changes(Q);
-    beam.U = with_changes(U);
+    LeavingBeam beam = rays.beam(reference_);
+    beam.facets = event;
     for (std::size_t node = 0; node < static_cast<std::size_t>(band_.count); ++node) {
         const std::array<double, 3> change = with_changes(std::array<double, 3>{
             at[0].transmitted[node], at[1].transmitted[node], at[2].transmitted[node]});

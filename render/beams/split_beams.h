@@ -64,6 +64,7 @@ private:
     };
     using Rays = std::array<Ray, 3>;
 
+    void absorb(Ray& ray, double way) const;
     void follow(const Rays& rays, int facet, const FacetRegion& part, int event);
     void leave(const std::array<CrystalHit, 3>& hits, const Rays& at, const FacetRegion& part,
                int event);

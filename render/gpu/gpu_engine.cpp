@@ -122,6 +122,23 @@ Picture Drawing::picture() {
     return picture;
 }
 
+// Uniforms of a pass that shows each wavelength in its own channel; with `stokes` parameter k.
+std::vector<GpuUniform> one_a_channel(const GpuPass& pass, bool stokes, int k) {
+    std::vector<GpuUniform> uniforms = pass.uniforms;
+    for (GpuUniform& uniform : uniforms) {
+        if (uniform.name != "u_colour") continue;
+        std::fill(uniform.values.begin(), uniform.values.end(), 0.0f);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(pass.count); ++i)
+            uniform.values[3 * i + i] = 1;
+    }
+    GpuUniform row{"u_response", 4, false, {}};
+    for (int i = 0; i < pass.count; ++i) {
+        for (int j = 0; j < 4; ++j) row.values.push_back(j == k ? 1.0f : 0.0f);
+    }
+    if (stokes) uniforms.push_back(row);
+    return uniforms;
+}
+
 // Draws wavelength by wavelength, with all four Stokes parameters if needed.
 Picture Drawing::spectral_picture() {
     const GpuProgram made = program();
@@ -139,20 +156,7 @@ Picture Drawing::spectral_picture() {
     const double share = 1 / static_cast<double>(pattern.size());
     for (int k = 0; k < planes; ++k) {
         for (const GpuPass& pass : made.passes) {
-            std::vector<GpuUniform> uniforms = pass.uniforms;
-            // Show each wavelength in its own channel.
-            for (GpuUniform& uniform : uniforms) {
-                if (uniform.name != "u_colour") continue;
-                std::fill(uniform.values.begin(), uniform.values.end(), 0.0f);
-                for (std::size_t i = 0; i < static_cast<std::size_t>(pass.count); ++i)
-                    uniform.values[3 * i + i] = 1;
-            }
-            GpuUniform row{"u_response", 4, false, {}};
-            for (int i = 0; i < pass.count; ++i) {
-                for (int j = 0; j < 4; ++j) row.values.push_back(j == k ? 1.0f : 0.0f);
-            }
-            if (setup.stokes) uniforms.push_back(row);
-            draw(made, canvas, {uniforms}, listener);
+            draw(made, canvas, {one_a_channel(pass, setup.stokes, k)}, listener);
             if (k == 0) add_balance(canvas, 1);
             const std::vector<float> sum = canvas.read(0);
             for (std::size_t pixel = 0; pixel < pixels; ++pixel) {

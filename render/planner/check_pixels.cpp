@@ -62,59 +62,33 @@ Contrast contrast_of(const Picture& picture, int windows, double filled) {
     return found;
 }
 
-// Uses the root of the local contrast: pixels of little contrast have errors, too, as a picture may
-// lack what is there.
-CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
-                                const Progress& progress, FrameRenderer* frames) {
-    CheckPixels chosen;
-    chosen.pixels.in_picture = some.in_picture;
-    chosen.first = k_first_pixels;
-    const Contrast contrast =
-        contrast_of(picture, scene.camera.optics.two_windows ? 2 : 1, some.in_picture);
-    const std::vector<Contrast::Pixel>& pixels = contrast.pixels;
-    const std::size_t size = pixels.size();
-    const double count = static_cast<double>(size);
-    if (size <= k_first_pixels) {
-        // A stone of few pixels, or a picture without coverage.
-        for (const Contrast::Pixel& pixel : pixels) chosen.pixels.at.emplace_back(pixel.x, pixel.y);
-        chosen.all = size > 0;
-        if (!chosen.all) chosen.pixels.at = some.at;
-        chosen.weights.assign(chosen.pixels.at.size(), 1.0);
-        return chosen;
-    }
-    std::vector<double> edges;
+namespace {
+
+// Chances of the pixels, 1 on average: some for all, some by the root of the local contrast, and by
+// `edges` if there are any. Pixels of little contrast have errors, too, as a picture may lack what
+// is there.
+std::vector<double> chances_of(const Contrast& contrast, const std::vector<double>& edges) {
+    const double count = static_cast<double>(contrast.pixels.size());
     double sum_of_edges = 0;
-    // Mean radiance without the excess of the few brightest pixels.
-    const double much = k_bright * contrast.radiance / count;
-    double radiance = 0;
-    for (const Contrast::Pixel& pixel : pixels) radiance += std::min(pixel.radiance, much);
-    const Brightness bright{k_bright * radiance / count, brightest_light(scene)};
-    if (radiance > 0 && bright.most > bright.least) {
-        chosen.bright = true;
-        chosen.sun = bright.sun();
-        const LightEdgeScan scan(scene, bright, progress, frames);
-        edges.reserve(size);
-        for (const Contrast::Pixel& pixel : pixels) {
-            edges.push_back(scan.near(pixel.x, pixel.y));
-            sum_of_edges += edges.back();
-        }
-        // Enough for some pixels to see a light that may be there; more for finer tolerances, where
-        // such pixels are rarer.
-        chosen.first = static_cast<std::size_t>(
-            2 * k_first_pixels * std::clamp(0.03 / scene.settings.tolerance, 1.0, 10.0));
-    }
-    // Cumulative probabilities (1 on average), sampled evenly by multiples of the golden ratio.
+    for (const double edge : edges) sum_of_edges += edge;
     const double of_edges = sum_of_edges > 0 ? (1 - k_even_share) / 2 : 0,
                  of_contrast = 1 - k_even_share - of_edges,
                  by_edge = sum_of_edges > 0 ? of_edges * count / sum_of_edges : 0,
                  by_root = contrast.sum > 0 ? of_contrast * count / contrast.sum : 0;
-    const auto chance = [&](std::size_t i) {
-        return k_even_share + by_root * pixels[i].root + (by_edge > 0 ? by_edge * edges[i] : 0);
-    };
+    std::vector<double> chances;
+    for (std::size_t i = 0; i < contrast.pixels.size(); ++i)
+        chances.push_back(k_even_share + by_root * contrast.pixels[i].root +
+                          (by_edge > 0 ? by_edge * edges[i] : 0));
+    return chances;
+}
+
+// Samples the cumulative chances evenly, by multiples of the golden ratio.
+void choose_by(const std::vector<double>& chances, const Contrast& contrast, CheckPixels& chosen) {
+    const std::size_t size = chances.size();
     std::vector<double> sums;
     sums.reserve(size);
     double total = 0;
-    for (std::size_t i = 0; i < size; ++i) sums.push_back(total += chance(i));
+    for (const double chance : chances) sums.push_back(total += chance);
     for (std::size_t i = 0; i < std::min(k_most_pixels, size); ++i) {
         const double place =
             total * std::fmod(0.6180339887498949 * (static_cast<double>(i) + 0.5), 1.0);
@@ -122,9 +96,48 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
             std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), place) -
                                               sums.begin()),
                      size - 1);
-        chosen.pixels.at.emplace_back(pixels[at].x, pixels[at].y);
-        chosen.weights.push_back(total / count / chance(at));
+        chosen.pixels.at.emplace_back(contrast.pixels[at].x, contrast.pixels[at].y);
+        chosen.weights.push_back(total / static_cast<double>(size) / chances[at]);
     }
+}
+
+}  // namespace
+
+CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
+                                const Progress& progress, FrameRenderer* frames) {
+    CheckPixels chosen;
+    chosen.pixels.in_picture = some.in_picture;
+    chosen.first = k_first_pixels;
+    const Contrast contrast =
+        contrast_of(picture, scene.camera.optics.two_windows ? 2 : 1, some.in_picture);
+    if (contrast.pixels.size() <= k_first_pixels) {
+        // A stone of few pixels, or a picture without coverage.
+        for (const Contrast::Pixel& pixel : contrast.pixels)
+            chosen.pixels.at.emplace_back(pixel.x, pixel.y);
+        chosen.all = !contrast.pixels.empty();
+        if (!chosen.all) chosen.pixels.at = some.at;
+        chosen.weights.assign(chosen.pixels.at.size(), 1.0);
+        return chosen;
+    }
+    std::vector<double> edges;
+    // Mean radiance without the excess of the few brightest pixels.
+    const double count = static_cast<double>(contrast.pixels.size()),
+                 much = k_bright * contrast.radiance / count;
+    double radiance = 0;
+    for (const Contrast::Pixel& pixel : contrast.pixels) radiance += std::min(pixel.radiance, much);
+    const Brightness bright{k_bright * radiance / count, brightest_light(scene)};
+    if (radiance > 0 && bright.most > bright.least) {
+        chosen.bright = true;
+        chosen.sun = bright.sun();
+        const LightEdgeScan scan(scene, bright, progress, frames);
+        for (const Contrast::Pixel& pixel : contrast.pixels)
+            edges.push_back(scan.near(pixel.x, pixel.y));
+        // Enough for some pixels to see a light that may be there; more for finer tolerances, where
+        // such pixels are rarer.
+        chosen.first = static_cast<std::size_t>(
+            2 * k_first_pixels * std::clamp(0.03 / scene.settings.tolerance, 1.0, 10.0));
+    }
+    choose_by(chances_of(contrast, edges), contrast, chosen);
     return chosen;
 }
 

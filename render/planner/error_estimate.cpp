@@ -33,8 +33,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
     limits_.split_weight = tree_split(tolerance);
     limits_.roulette = branches;
     work_ = work_along_paths(plan);
-    levels_.resize(1);
-    levels_[0].samples = grid(0);
+    take_more();
 }
 
 // Avoids the scene's own grid: its picture would share the truth's rays.
@@ -52,9 +51,8 @@ int ErrorEstimator::samples() const {
 
 void ErrorEstimator::take_more() {
     if (levels_.size() == k_truth_sides.size()) return;
-    Level more;
-    more.samples = grid(levels_.size());
-    levels_.push_back(more);
+    const int samples = grid(levels_.size());
+    levels_.emplace_back().samples = samples;
 }
 
 double ErrorEstimator::band_ns() const {
@@ -83,8 +81,10 @@ double ErrorEstimator::noise_of_16() {
     if (!(drawing.few_rays > 0)) return 0;
     // Few pixels easily miss the reflexes with the largest errors: add 1.5 standard errors.
     const double count = static_cast<double>(drawing.halves_apart.size());
-    const double spread = std::sqrt(std::max(0.0, squares * count - sum * sum) / count) / sum;
-    noise_of_16_ = (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
+    const double standard_error =
+        std::sqrt(std::max(0.0, squares * count - sum * sum) / count) / sum;
+    noise_of_16_ = (1 + 1.5 * standard_error) * drawing.few_rays / k_halves_over_noise *
+                   std::pow(levels_[0].samples / 16.0, k_power_of_rays);
     return *noise_of_16_;
 }
 
@@ -130,8 +130,7 @@ Rgb ErrorEstimator::truth(std::vector<Rgb> Level::*of, std::size_t pixel) const 
     for (const Level& level : levels_) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += level.samples * (level.*of)[pixel][c];
     }
-    const double all = samples();
-    for (double& v : sum) v /= all;
+    for (double& v : sum) v /= samples();
     return sum;
 }
 
@@ -164,6 +163,23 @@ double ErrorEstimator::without_effects(const std::array<bool, k_effect_count>& e
     const double off = errors / sizes, noise = noise_of(level);
     return std::sqrt(std::max(0.0, off * off - noise * noise));
 }
+
+namespace {
+
+// The mean's standard error and its skewness correction; `sizes`: sum of the radiance.
+void add_scatter(const std::vector<double>& errors, double sum, double squares, double sizes,
+                 ErrorEstimate& estimate) {
+    const double pixels = static_cast<double>(errors.size()), mean = sum / pixels,
+                 deviation = std::sqrt(std::max(0.0, squares - sum * mean) / (pixels - 1));
+    estimate.standard_error = deviation * std::sqrt(pixels) / sizes;
+    if (!(deviation > 0)) return;
+    double cubes = 0;
+    for (const double error : errors) cubes += std::pow((error - mean) / deviation, 3) / pixels;
+    constexpr double t = k_standard_errors;
+    estimate.skewness = std::max(0.0, cubes) * (1 + 2 * t * t) / 6 * deviation / sizes;
+}
+
+}  // namespace
 
 ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     draw_up_to(wanted);
@@ -201,19 +217,7 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     }
     if (!(sizes > 0)) return estimate;
     estimate.difference = (errors + surely) / sizes;
-    if (!chosen_.all && count > 1) {
-        const double mean = errors / pixels,
-                     deviation = std::sqrt(std::max(0.0, squares - errors * mean) / (pixels - 1));
-        estimate.standard_error = deviation * std::sqrt(pixels) / sizes;
-        if (deviation > 0) {
-            double cubes = 0;
-            for (const double error : errors_of) {
-                cubes += std::pow((error - mean) / deviation, 3) / pixels;
-            }
-            constexpr double t = k_standard_errors;
-            estimate.skewness = std::max(0.0, cubes) * (1 + 2 * t * t) / 6 * deviation / sizes;
-        }
-    }
+    if (!chosen_.all && count > 1) add_scatter(errors_of, errors, squares, sizes, estimate);
     double noise = 0, cut = 0;
     for (const Level& level : levels_) {
         const double share = static_cast<double>(level.samples) / samples();
@@ -286,11 +290,7 @@ ErrorEstimate estimate_error(const Scene& scene, const Picture& picture, const P
     Scene window = scene;
     if (window.camera.optics.two_windows) window.camera.width /= 2;
     const StonePixels some = stone_pixels(window, k_first_pixels);
-    if (some.at.empty()) {
-        ErrorEstimate none;
-        none.bound = std::numeric_limits<double>::quiet_NaN();
-        return none;
-    }
+    if (some.at.empty()) return {.bound = std::numeric_limits<double>::quiet_NaN()};
     const double tolerance = scene.settings.tolerance;
     // About two seconds of processor time.
     return ErrorEstimator(window, some, tolerance, progress).estimate(picture, tolerance, 2e9);

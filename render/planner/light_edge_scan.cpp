@@ -164,6 +164,24 @@ void look_closer(const Scene& scene, const StonePixels& at, std::size_t cells,
     for (std::size_t k = 0; k < order.size(); ++k) seen[order[k]] = found[k];
 }
 
+// Makes the pixels larger where the stone covers many; returns how many times.
+int coarsen(Scene& scene) {
+    const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
+    const int times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
+    // Beams that fill little of a pixel are not split. In smaller pictures, allow the same share of
+    // the stone.
+    scene.settings.tolerance = 0.1 * std::pow(std::min(1.0, across / k_across), 2);
+    if (times > 1) scene.camera = coarser(scene.camera, times);
+    return times;
+}
+
+// The angle between rays behind the stone that a pixel apart enter it. At an exit angle of 60
+// degrees, refraction widens it by the index times two, the inverse of that angle's cosine.
+double pixel_angle(const Scene& scene, const Vec3& middle, double index) {
+    return 2 * index * pixel_on_stone(scene) /
+           std::max(glm::length(scene.camera.position - middle), 1e-300);
+}
+
 }  // namespace
 
 LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const Progress& progress,
@@ -174,12 +192,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     const Vec3 middle = centroid(scene.stone.solid);
     const IndexSpans spans = index_spans(scene);
     const double apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
-    // At an exit angle of 60 degrees, refraction widens the angle between rays by the index times
-    // two, the inverse of that angle's cosine.
-    const auto pixel = [&] {
-        return 2 * spans.mean * pixel_on_stone(scene) /
-               std::max(glm::length(scene.camera.position - middle), 1e-300);
-    };
+    const auto pixel = [&] { return pixel_angle(scene, middle, spans.mean); };
     // A map's brightest texels do not depend on the width.
     Lights lights = whole.lights;
     const auto map = lights.environment ? brightest_of(*lights.environment, bright.least) : nullptr;
@@ -196,12 +209,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     double step = k_cell;  // cell size in these pixels
     light(apart + pixel());
     if (refused_by_beams(scene).empty()) {
-        const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
-        times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
-        // Beams that fill little of a pixel are not split. In smaller pictures, allow the same
-        // share of the stone.
-        scene.settings.tolerance = 0.1 * std::pow(std::min(1.0, across / k_across), 2);
-        if (times > 1) scene.camera = coarser(scene.camera, times);
+        times = coarsen(scene);
         light(apart + pixel());
         std::optional<FrameRenderer> own;
         if (frames == nullptr) {

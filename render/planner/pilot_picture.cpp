@@ -114,6 +114,28 @@ StonePixels all_stone_pixels(const Scene& scene) {
     return pixels;
 }
 
+namespace {
+
+void add_sums(const std::vector<PixelSums>& sums, PilotDrawing& drawing) {
+    PixelSums whole;
+    for (const PixelSums& sum : sums) {
+        whole += sum;
+        drawing.halves_apart.push_back(sum.halves_apart);
+    }
+    const double count = static_cast<double>(sums.size());
+    for (const Rgb& rgb : drawing.rgb) drawing.mean += (rgb[0] + rgb[1] + rgb[2]) / (3 * count);
+    drawing.rays = static_cast<double>(whole.rays);
+    drawing.events = static_cast<double>(whole.events);
+    if (whole.hit > 0) {
+        drawing.remainder = whole.remainder / whole.hit;
+        drawing.cut = whole.cut / whole.hit;
+        drawing.absorbed = whole.absorbed / whole.hit;
+    }
+    if (whole.radiance > 0) drawing.few_rays = whole.halves_apart / whole.radiance;
+}
+
+}  // namespace
+
 PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
                         int samples, int nodes, const Progress& progress) {
     using Clock = std::chrono::steady_clock;
@@ -165,22 +187,8 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     });
     if (listener.stopped()) throw Interrupted();
     if (meter != nullptr) meter->require_not_over();
-    PixelSums whole;
-    for (const PixelSums& sum : sums) {
-        whole += sum;
-        drawing.halves_apart.push_back(sum.halves_apart);
-    }
-    const double count = static_cast<double>(pixels.at.size());
-    for (const Rgb& rgb : drawing.rgb) drawing.mean += (rgb[0] + rgb[1] + rgb[2]) / (3 * count);
-    drawing.rays = static_cast<double>(whole.rays);
-    drawing.events = static_cast<double>(whole.events);
+    add_sums(sums, drawing);
     drawing.surroundings_ns = prepared.surroundings->spent_ns();
-    if (whole.hit > 0) {
-        drawing.remainder = whole.remainder / whole.hit;
-        drawing.cut = whole.cut / whole.hit;
-        drawing.absorbed = whole.absorbed / whole.hit;
-    }
-    if (whole.radiance > 0) drawing.few_rays = whole.halves_apart / whole.radiance;
     drawing.seconds = 1e-9 * static_cast<double>(nanoseconds);
     return drawing;
 }

@@ -21,6 +21,30 @@ struct RowSums {
     long long rays = 0;
 };
 
+RenderStats stats_of(const std::string& engine, const Camera& camera,
+                     const std::vector<RowSums>& rows) {
+    RowSums whole;
+    for (const RowSums& row : rows) {
+        whole.met += row.met;
+        whole.luminance += row.luminance;
+        whole.rays += row.rays;
+    }
+    RenderStats stats;
+    stats.engine = engine;
+    stats.rays = whole.rays;
+    if (whole.met > 0) stats.mean_radiance = whole.luminance / whole.met;
+    for (int e = 0; e < k_effect_count; ++e) {
+        const auto effect = static_cast<Effects>(e);
+        const bool on = effect == Effects::aperture && camera.aperture_radius > 0;
+        stats.effects.push_back({effect, on,
+                                 on ? "the camera has an aperture" : "a plain shading has none",
+                                 on ? 0 : std::numeric_limits<double>::quiet_NaN()});
+    }
+    stats.error_bound = std::numeric_limits<double>::quiet_NaN();
+    stats.notes.push_back("a plain shading, not a computation of light: docs/engines.md");
+    return stats;
+}
+
 }  // namespace
 
 std::string refused_by_shading(const Scene& scene) {
@@ -81,26 +105,8 @@ RenderResult shaded_picture(const Scene& scene, const std::string& engine, const
     };
     on_threads(scene.settings.threads, [&] { tbb::parallel_for(0, camera.height, shade_row); });
     if (listener.stopped()) throw Interrupted();
-    RowSums whole;
-    for (const RowSums& row : rows) {
-        whole.met += row.met;
-        whole.luminance += row.luminance;
-        whole.rays += row.rays;
-    }
-    RenderStats& stats = result.stats;
-    stats.engine = engine;
-    stats.rays = whole.rays;
-    if (whole.met > 0) stats.mean_radiance = whole.luminance / whole.met;
-    for (int e = 0; e < k_effect_count; ++e) {
-        const auto effect = static_cast<Effects>(e);
-        const bool on = effect == Effects::aperture && camera.aperture_radius > 0;
-        stats.effects.push_back({effect, on,
-                                 on ? "the camera has an aperture" : "a plain shading has none",
-                                 on ? 0 : std::numeric_limits<double>::quiet_NaN()});
-    }
-    stats.error_bound = std::numeric_limits<double>::quiet_NaN();
-    stats.notes.push_back("a plain shading, not a computation of light: docs/engines.md");
-    stats.seconds_shade =
+    result.stats = stats_of(engine, camera, rows);
+    result.stats.seconds_shade =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

@@ -153,6 +153,20 @@ TEST(ErrorEstimate, LooksAtAFalseSunInALaterPicture) {
     }
 }
 
+// A scene that draws 16 rays itself has a truth of 36.
+TEST(ErrorEstimate, KnowsTheNoiseOf16RaysWhereTheSceneDrawsAsMany) {
+    const Progress none;
+    for (const char* light : {"daylight", "lightbox", "aset"}) {
+        Scene scene = plan_scene_of("spinel", "princess", light, 64).scene;
+        const auto noise = [&](int samples) {
+            scene.settings.samples = samples;
+            return ErrorEstimator(scene, stone_pixels(scene, 48), 0.03, none).noise_of_16();
+        };
+        const double right = noise(0);
+        EXPECT_NEAR(noise(16), right, 0.2 * right) << light;
+    }
+}
+
 TEST(LightRims, OfACapLieOnBothSidesOfItsEdges) {
     Lights lights;
     lights.sources.push_back(DiscLight{{0, 0, 1}, 0.3, 0.5, {2.0}});
