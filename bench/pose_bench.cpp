@@ -83,7 +83,7 @@ Trial one_trial(const Settings& settings, Fault fault, int seed) {
     trial.seconds = clocks().cpu - before;
     trial.usable = pose.usable();
     const StoneView found = stone_view(pose.camera, centroid(made.model));
-    const Vec3 off = turn_between(made.truth, found, made.fold);
+    const Vec3 off = turn_between(made.truth, found, made.symmetry_order);
     trial.angle = degrees(glm::length(off));
     trial.shift = std::hypot(found.at.x - made.truth.at.x, found.at.y - made.truth.at.y);
     trial.scale = found.scale / made.truth.scale - 1;

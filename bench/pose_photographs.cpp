@@ -21,7 +21,7 @@ namespace {
 
 struct Cut {
     std::string name, material;
-    int fold = 1;                                       // order of the model's symmetry about z
+    int symmetry_order = 1;                             // order of the model's symmetry about z
     std::string other;                                  // a cut with about the same outline
     std::map<std::string, double> angles, no_angles{};  // other proportions
 };
@@ -102,10 +102,10 @@ const std::vector<std::pair<std::string, Fault>>& faults() {
     return k_faults;
 }
 
-Vec3 turn_between(const StoneView& truth, const StoneView& found, int fold) {
+Vec3 turn_between(const StoneView& truth, const StoneView& found, int symmetry_order) {
     Vec3 best(1e9);
-    for (int k = 0; k < fold; ++k) {
-        const glm::dmat3 symmetric = rotation_by({0, 0, 2 * std::numbers::pi * k / fold});
+    for (int k = 0; k < symmetry_order; ++k) {
+        const glm::dmat3 symmetric = rotation_by({0, 0, 2 * std::numbers::pi * k / symmetry_order});
         const glm::dmat3 turn = found.turn * symmetric * glm::transpose(truth.turn);
         const double angle = angle_of(turn);
         const Vec3 axis(turn[1][2] - turn[2][1], turn[2][0] - turn[0][2], turn[0][1] - turn[1][0]);
@@ -129,7 +129,7 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
                                   ? k_lights[(pick / k_cuts.size()) % k_lights.size()]
                                   : settings.light;
     PosePhotograph made;
-    made.fold = cut.fold;
+    made.symmetry_order = cut.symmetry_order;
     made.model = make_cut(cut.name);
     Solid stone = made.model;
     const bool asymmetric = fault == Fault::mirrored || fault == Fault::turned_start;
@@ -138,7 +138,7 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
                                                                          : 0;
     if (off_standard > 0) {
         made.model = synthetic::tilted_facets(made.model, radians(off_standard), random);
-        made.fold = 1;
+        made.symmetry_order = 1;
     }
     stone = synthetic::tilted_facets(made.model, radians(settings.facet_deg), random);
     synthetic::Standpoint place;
@@ -188,7 +188,7 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
     Camera near = front;
     if (fault == Fault::turned_start) {
         StoneView turned = stone_view(near, centroid(made.model));
-        const double step = 2 * std::numbers::pi / std::max(2, cut.fold);
+        const double step = 2 * std::numbers::pi / std::max(2, cut.symmetry_order);
         turned.turn = turned.turn * rotation_by({0, 0, step});
         near = camera_of(turned, near);
     }

@@ -37,7 +37,7 @@ struct PosePhotograph {
     Solid model;
     StoneView truth;
     Camera start;
-    int fold = 1;  ///< order of the model's symmetry about z
+    int symmetry_order = 1;  ///< order of the model's symmetry about z
     std::string label;
 };
 
@@ -45,6 +45,6 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed,
                                Fault fault = Fault::none);
 
 /// Takes the smallest over the turns of the model's symmetry.
-Vec3 turn_between(const StoneView& truth, const StoneView& found, int fold);
+Vec3 turn_between(const StoneView& truth, const StoneView& found, int symmetry_order);
 
 }  // namespace culet

@@ -14,7 +14,7 @@
 #include "fit/mesh/repair.h"
 #include "fit/take_outlines.h"
 #include "fit/uncertainty/prior_needed.h"
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -124,7 +124,7 @@ FitResult fit_stone(const FitInput& input, const FitOptions& options, const Prog
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const auto begin = std::chrono::steady_clock::now();
-    StopsHeeded stops(progress);
+    StopScope stops(progress);
     Problem given{stone, readings, options};
     given.stone.changed.clear();  // listed once, at the end
     if (has_outlines(readings)) prepare_for_outlines(stone, given.options);

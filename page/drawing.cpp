@@ -30,7 +30,7 @@ std::string point_list(const std::vector<glm::dvec2>& corners) {
 }
 
 std::string label_svg(const FacetLabel& label) {
-    if (label.led) {
+    if (label.has_leader) {
         return fmt::format(
             "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.1f}\" "
             "text-anchor=\"{}\">{}</text>",
@@ -116,14 +116,14 @@ DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetP
     const FacetLabels labels = place_labels(solid, view);
     std::string lines, names, led;
     for (const FacetLabel& label : labels.labels) {
-        if (label.led) {
+        if (label.has_leader) {
             const double end = label.at.x + (label.at_right ? -4 : 4);
             lines += fmt::format(
                 "<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" "
                 "r=\"3\"/>",
                 label.foot.x, label.foot.y, end, label.at.y, label.foot.x, label.foot.y);
         }
-        (label.led ? led : names) += label_svg(label);
+        (label.has_leader ? led : names) += label_svg(label);
     }
     result.content += marks;
     result.content += fmt::format(

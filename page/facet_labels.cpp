@@ -187,7 +187,7 @@ FacetLabels place_labels(const Solid& solid, const FacetView& view) {
         const std::string text = shortened(solid.facets[static_cast<std::size_t>(seen.facet)].name);
         FacetLabel label = inside(seen, text);
         if (label.size < k_smallest) {
-            label.led = true;
+            label.has_leader = true;
             label.turn_deg = 0;
             label.foot = centre_of(seen.corners);
             label.at_right = label.foot.x > 0.5 * view.width;
@@ -197,12 +197,12 @@ FacetLabels place_labels(const Solid& solid, const FacetView& view) {
     }
     std::vector<FacetLabel*> left, right;
     for (FacetLabel& label : result.labels) {
-        if (label.led) (label.at_right ? right : left).push_back(&label);
+        if (label.has_leader) (label.at_right ? right : left).push_back(&label);
     }
     result.left = stack(left, view.height);
     result.right = stack(right, view.height);
     for (FacetLabel& label : result.labels) {
-        if (label.led) label.at.x = label.at_right ? view.width + k_gap : -k_gap;
+        if (label.has_leader) label.at.x = label.at_right ? view.width + k_gap : -k_gap;
     }
     std::erase_if(result.labels, [](const FacetLabel& label) { return !(label.size > 0); });
     return result;

@@ -10,19 +10,19 @@
 namespace culet {
 
 struct FacetLabel {
-    int facet = 0;          ///< index in the solid
-    std::string text;       ///< the name, shortened when it is very long
-    glm::dvec2 at{0, 0};    ///< middle of the text; if `led`: its end next to the drawing
-    double size = 0;        ///< line height
-    double turn_deg = 0;    ///< clockwise on the page
-    bool led = false;       ///< stands beside the drawing, with a leader line to the facet
-    bool at_right = false;  ///< if `led`
-    glm::dvec2 foot{0, 0};  ///< where the leader ends, in the facet
+    int facet = 0;            ///< index in the solid
+    std::string text;         ///< the name, shortened when it is very long
+    glm::dvec2 at{0, 0};      ///< middle of the text; if `has_leader`: its end next to the drawing
+    double size = 0;          ///< line height
+    double turn_deg = 0;      ///< clockwise on the page
+    bool has_leader = false;  ///< stands beside the drawing, with a leader line to the facet
+    bool at_right = false;    ///< if `has_leader`
+    glm::dvec2 foot{0, 0};    ///< where the leader ends, in the facet
 };
 
 struct FacetLabels {
     std::vector<FacetLabel> labels;
-    double left = 0, right = 0;  ///< room that `led` names need beside the drawing
+    double left = 0, right = 0;  ///< room that names with a leader need beside the drawing
 };
 
 /// A name stands in its facet, as large as fits, turned along it where that helps. If it would be

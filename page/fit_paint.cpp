@@ -24,7 +24,7 @@ std::string pose_of(const Json& facet) {
            (azimuth ? ", azimuth " + quantity(number_at(facet, "azimuth"), azimuth, "deg") : "");
 }
 
-std::string freedoms_of(const Json& fit, const std::string& facet) {
+std::string undetermined_directions(const Json& fit, const std::string& facet) {
     std::string freedoms;
     for (const Json& one : array_at(fit, "undetermined")) {
         if (text_at(one, "facet") != facet) continue;
@@ -91,7 +91,8 @@ FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
         const Json* facet = facet_in(fit, name);
         sigmas.push_back(facet ? direction_sigma(*facet) : std::nullopt);
         // Undetermined facets do not count for the scale.
-        if (sigmas.back() && freedoms_of(fit, name).empty()) known.push_back(*sigmas.back());
+        if (sigmas.back() && undetermined_directions(fit, name).empty())
+            known.push_back(*sigmas.back());
     }
     const double top = top_of(known);
     for (std::size_t f = 0; f < names.size(); ++f) {
@@ -99,7 +100,7 @@ FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
         const Json* facet = facet_in(fit, names[f]);
         own.about = facet ? pose_of(*facet) : "not in the report";
         own.colour = sigmas[f] ? css_colour(ColourMap::uncertainty, *sigmas[f] / top) : k_plain;
-        if (const std::string open = freedoms_of(fit, names[f]); !open.empty()) {
+        if (const std::string open = undetermined_directions(fit, names[f]); !open.empty()) {
             own.marked = true;
             own.about += "; left open by the readings: " + open;
             paint.legend.mark = "dashed: left open by the readings";

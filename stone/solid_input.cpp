@@ -53,7 +53,7 @@ ReadSolid solid_of_gltf(const std::filesystem::path& file) {
     return solid_from_faces(std::move(soup));
 }
 
-void stand_up(SolidInput& input) {
+void turn_table_up(SolidInput& input) {
     const std::optional<int> table = table_by_shape(input.solid);
     if (!table) return;
     const auto at = static_cast<std::size_t>(*table);
@@ -109,7 +109,7 @@ SolidInput solid_in(const std::filesystem::path& file, const CutReading& how,
     input.changed = std::move(mesh.changed);
     input.facets_are_whole = mesh.planes_stated;
     require_sane_size(input.solid, file);
-    if (standing == Orientation::upright) stand_up(input);
+    if (standing == Orientation::upright) turn_table_up(input);
     return input;
 }
 

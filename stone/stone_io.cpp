@@ -47,7 +47,7 @@ Vec3 unit_vector(const TomlTable& table, const char* key, const Vec3& value) {
 
 // Turns the stone, and what the file states in the mesh's frame, so that `up` faces +z. A facet
 // named by `up` may be tilted as tables are.
-void stand_as_stated(bool crystal_is_given, StoneFile& file) {
+void turn_as_stated(bool crystal_is_given, StoneFile& file) {
     Stone& stone = file.stone;
     const Vec3 up = stone.up_facet.empty() ? stone.up : axis_near(stone.up);
     if (up != Vec3{0, 0, 1}) {
@@ -212,7 +212,7 @@ StoneFile stone_of(const TomlTable& root) {
         default:
             stone.up = unit_vector(*table, "up", *table->vector("up"));
     }
-    stand_as_stated(table->has("optic_axis") || table->has("principal_axes"), result);
+    turn_as_stated(table->has("optic_axis") || table->has("principal_axes"), result);
 
     take_design(*table, stone.solid);
     if (const auto readings = table->path("readings")) result.readings_file = *readings;

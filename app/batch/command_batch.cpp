@@ -58,14 +58,14 @@ void refuse_jobs_inside(const fs::path& jobs, const fs::path& out) {
 }
 
 int tell(const MergedBatch& merged, const fs::path& folder, bool quiet) {
-    constexpr std::size_t k_most_told = 10;
+    constexpr std::size_t k_most_listed = 10;
     const BatchCounts& counts = merged.counts;
     std::string text = fmt::format("{} jobs: {} good", counts.all(), counts.good);
     if (counts.untrusted > 0) text += fmt::format(", {} not to be trusted", counts.untrusted);
     if (counts.failed > 0) text += fmt::format(", {} failed", counts.failed);
     if (counts.missing > 0) text += fmt::format(", {} not finished", counts.missing);
     say(text, quiet);
-    const std::size_t told = std::min(merged.complaints.size(), k_most_told);
+    const std::size_t told = std::min(merged.complaints.size(), k_most_listed);
     for (std::size_t i = 0; i < told; ++i) say("  " + merged.complaints[i], quiet);
     if (merged.complaints.size() > told)
         say(fmt::format("  and {} more: the table has them", merged.complaints.size() - told),

@@ -250,7 +250,7 @@ int run_render(const RenderOptions& options) {
     }
     const RenderStats& stats = result.stats;
     for (const std::string& note : stats.notes) say(note, quiet);
-    if (nears_truth) say_how_near(stats, scene.settings.check, time_limited, quiet);
+    if (nears_truth) print_accuracy(stats, scene.settings.check, time_limited, quiet);
     if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
     if (stats.verification) say_verified(*stats.verification, quiet);
     if (options.common.verbose && !quiet) say_all_about(stats);

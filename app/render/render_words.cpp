@@ -8,7 +8,7 @@
 
 namespace culet {
 
-void say_how_near(const RenderStats& stats, Check check, bool time_limited, bool quiet) {
+void print_accuracy(const RenderStats& stats, Check check, bool time_limited, bool quiet) {
     if (std::isnan(stats.error_bound) && check == Check::none) {
         say("not checked: the picture's error is unknown", quiet);
         return;

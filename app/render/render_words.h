@@ -11,7 +11,7 @@ namespace culet {
 constexpr int k_usual_seconds = 10;
 
 /// Says how accurate the picture is, if that was left to culet.
-void say_how_near(const RenderStats& stats, Check check, bool time_limited, bool quiet);
+void print_accuracy(const RenderStats& stats, Check check, bool time_limited, bool quiet);
 void say_all_about(const RenderStats& stats);
 void say_verified(const Verification& found, bool quiet);
 

@@ -42,7 +42,7 @@ TiltVariance::TiltVariance(const TiltModel& model) : samples_(model.noise.size()
     Eigen::MatrixXd changes = whitened(model.changes, noise);
     const double before = changes.squaredNorm();
     const Eigen::MatrixXd nuisances = span_of(whitened(model.nuisances, noise));
-    changes = without_span(changes, nuisances);
+    changes = orthogonal_part(changes, nuisances);
 
     const SymmetricEigen parts = symmetric_eigen(transpose_times(changes, changes));
     // From the largest; eigenvalues of directions without effect are only rounding error.

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "render/scene/environment_layout.h"
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 namespace culet {
 
@@ -78,7 +78,7 @@ ViewMap view_map(const BallView& view, int width) {
     const int steps = std::clamp(static_cast<int>(std::ceil(2 * texel / pixel)), 2, 12);
     const glm::dmat3 camera_from_world = glm::transpose(view.world_from_camera);
     tbb::parallel_for(0, map.height, [&](int y) {
-        heed_stop();
+        check_stop();
         for (int x = 0; x < map.width; ++x) {
             Rgb sum{};
             double weight = 0, over = 0, quality = 0, solid = 0;

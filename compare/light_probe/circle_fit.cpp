@@ -11,7 +11,7 @@
 #include "compare/photo/pixels.h"
 #include "stone/numbers/dense_algebra.h"
 #include "stone/numbers/upper_median.h"
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 namespace culet {
 
@@ -239,10 +239,10 @@ FoundBall to_a_fraction_of_a_pixel(const cv::Mat& linear, FoundBall ball) {
 
 std::optional<FoundBall> fitted_in_steps(const cv::Mat& plane, const BallCircle& rough,
                                          double reach) {
-    heed_stop();
+    check_stop();
     auto found = fitted(plane, rough, reach);
     for (const double narrower : {reach / 3, reach / 8}) {
-        heed_stop();
+        check_stop();
         if (!found) return found;
         const auto next = fitted(plane, found->circle, narrower);
         if (!next) break;

@@ -14,7 +14,7 @@
 
 #include "render/colour/colour.h"
 #include "render/scene/environment_layout.h"
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -133,7 +133,7 @@ struct PixelParts {
         column.resize(quality.size() * static_cast<std::size_t>(parts));
         row.resize(column.size());
         tbb::parallel_for(0, down, [&](int j) {
-            heed_stop();
+            check_stop();
             for (int i = 0; i < across; ++i) {
                 const std::size_t at = static_cast<std::size_t>(j) * across + i;
                 double sum = 0;
@@ -169,7 +169,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, const Pixe
         std::array<std::size_t, 64> texel{};
         std::array<float, 64> share{};
         for (int j = down * band / band_count; j < down * (band + 1) / band_count; ++j) {
-            heed_stop();
+            check_stop();
             for (int i = 0; i < across; ++i) {
                 const std::size_t at = static_cast<std::size_t>(j) * across + i;
                 const float quality = pixels.quality[at];

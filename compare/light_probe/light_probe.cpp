@@ -13,7 +13,7 @@
 #include "render/scene/environment_layout.h"
 #include "stone/numbers/quantile.h"
 #include "stone/numbers/units.h"
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -216,7 +216,7 @@ void in_stone_units(NearLight& light, const ProbeOptions& options) {
 
 LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
                        const Progress& asked) {
-    StopsHeeded stops(asked);
+    StopScope stops(asked);
     const Progress progress = stops.progress();
     if (views.empty()) throw InputError("no photograph of a ball was given");
     if (options.moved && views.size() < 2)

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 namespace culet {
 
@@ -21,7 +21,7 @@ constexpr std::size_t k_rings = 6;
 }  // namespace
 
 RimLook rim_look(const cv::Mat& light, const BallCircle& circle) {
-    heed_stop();
+    check_stop();
     double along = 0, across = 0;
     std::array<double, k_rings> outwards{};
     const double reach = std::min(k_outer * circle.radius, circle.radius - k_edge);

@@ -137,7 +137,7 @@ DeterminedMoves solved_moves(const PictureEquations& e) {
     for (int round = 0; round < k_rounds; ++round) {
         const Weighted w = weighted(e, determined.weights);
         const Eigen::MatrixXd open = span_of(w.nuisances);
-        const Eigen::MatrixXd changes = without_span(w.changes, open);
+        const Eigen::MatrixXd changes = orthogonal_part(w.changes, open);
         const Eigen::VectorXd difference = w.difference - open * (open.transpose() * w.difference);
         const Eigen::MatrixXd normal = transpose_times(changes, changes);
         const Eigen::VectorXd sums = changes.transpose() * difference;

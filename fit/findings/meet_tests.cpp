@@ -205,7 +205,7 @@ void test_misses(const Shape& shape, const Covariance& all, const Meet& meet,
     const Eigen::MatrixXd& u = meet.apart;
     const Eigen::VectorXd along = u.transpose() * offsets;
     const Eigen::MatrixXd covariance =
-        seen_through(u, all.joint(all.linear().writer.functions(heights)));
+        congruence(u, all.joint(all.linear().writer.functions(heights)));
     const QuadraticTest test = quadratic_test(along, covariance, k_free, k_told);
     finding.chi2 = test.statistic;
     finding.tested = test.tested;

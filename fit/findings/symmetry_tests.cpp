@@ -77,10 +77,10 @@ GroupTest test_group(const FitModel& model, const AxisGroup& group, const Told& 
     // With exact meets the number of ways is known; small asymmetries of the fitted shape would
     // seem to add more.
     const Eigen::MatrixXd ways =
-        range_of(without_span(told.reach, kept), k_repeats,
+        range_of(orthogonal_part(told.reach, kept), k_repeats,
                  model.meets().splits ? told.reach.cols() : edge_conditions(model, group));
     const QuadraticTest missed =
-        quadratic_test(ways.transpose() * symmetric.deviations, seen_through(ways, told.covariance),
+        quadratic_test(ways.transpose() * symmetric.deviations, congruence(ways, told.covariance),
                        k_exact, k_told_variance);
     test.conditions = missed.conditions;
     test.tested = missed.tested;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 namespace culet {
 
@@ -114,7 +114,7 @@ FunctionRow RowWriter::function(const Quantity& quantity) const {
 }
 
 FunctionRows RowWriter::functions(const std::vector<Quantity>& quantities) const {
-    heed_stop();
+    check_stop();
     JacobianRows rows;
     Parameters::Row sum = row();
     for (const Quantity& quantity : quantities) {

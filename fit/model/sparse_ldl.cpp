@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 namespace culet {
 
@@ -16,12 +16,12 @@ SparseLdl::SparseLdl() : factors_(std::make_unique<Factors>()) {}
 SparseLdl::~SparseLdl() = default;
 
 void SparseLdl::analyse(const Matrix& matrix) {
-    heed_stop();
+    check_stop();
     factors_->simplicial.analyzePattern(matrix);
 }
 
 bool SparseLdl::factor(const Matrix& matrix) {
-    heed_stop();
+    check_stop();
     factors_->simplicial.factorize(matrix);
     if (factors_->simplicial.info() != Eigen::Success) return false;
     factors_->pivots = factors_->simplicial.vectorD();
@@ -37,7 +37,7 @@ const SparseLdl::Matrix& SparseLdl::lower() const {
 }
 
 Eigen::VectorXd SparseLdl::solve(const Eigen::VectorXd& right) const {
-    heed_stop();
+    check_stop();
     return factors_->simplicial.solve(right);
 }
 

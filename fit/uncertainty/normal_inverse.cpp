@@ -6,7 +6,7 @@
 #include "fit/model/sparse_ldl.h"
 #include "fit/uncertainty/constants.h"
 #include "stone/numbers/dense_algebra.h"
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 namespace culet {
 
@@ -60,7 +60,7 @@ NormalInverse::NormalInverse() : factors_(std::make_unique<Factors>()) {}
 NormalInverse::~NormalInverse() = default;
 
 bool NormalInverse::compute(const NormalEquations& equations) {
-    heed_stop();
+    check_stop();
     const std::vector<Eigen::Index> apart = long_rows(equations.rows);
     factors_->compute(normal_matrix(equations, apart));
     if (factors_->info() != Eigen::Success) return false;
@@ -74,7 +74,7 @@ bool NormalInverse::compute(const NormalEquations& equations) {
 }
 
 double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
-    heed_stop();
+    check_stop();
     Eigen::VectorXd half = factors_->permutationP() * Eigen::VectorXd(f);
     factors_->matrixL().solveInPlace(half);
     double square = half.squaredNorm();
@@ -86,7 +86,7 @@ double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
 }
 
 Eigen::VectorXd NormalInverse::solve(const Eigen::VectorXd& right) const {
-    heed_stop();
+    check_stop();
     Eigen::VectorXd solution = factors_->solve(right);
     if (wide_.cols() > 0) {
         solution -= wide_ * capacitance_->solve_one(wide_.transpose() * right);

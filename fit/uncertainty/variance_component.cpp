@@ -14,7 +14,7 @@ Contrasts contrasts_of(const Eigen::VectorXd& deviations, const Eigen::MatrixXd&
     const Eigen::MatrixXd rest = qr.last(deviations.size() - qr.rank());
     Contrasts contrasts;
     if (rest.cols() == 0) return contrasts;
-    const SymmetricEigen eigen = symmetric_eigen(seen_through(rest, v));
+    const SymmetricEigen eigen = symmetric_eigen(congruence(rest, v));
     const Eigen::VectorXd z = eigen.vectors.transpose() * (rest.transpose() * deviations);
     for (Eigen::Index i = 0; i < z.size(); ++i) {
         contrasts.values.push_back(z(i));

@@ -9,10 +9,10 @@
 #include "compare/photo/rendered_photo.h"
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
+#include "python/bindings/bind_functions.h"
 #include "python/bindings/long_work.h"
 #include "python/bindings/python_picture.h"
 #include "python/bindings/python_stone.h"
-#include "python/bindings/rooms.h"
 
 namespace py = pybind11;
 namespace fs = std::filesystem;

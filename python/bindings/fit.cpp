@@ -8,9 +8,9 @@
 #include "app/input/fit_uncertainty.h"
 #include "fit/findings/summary.h"
 #include "python/bindings/arrays.h"
+#include "python/bindings/bind_functions.h"
 #include "python/bindings/long_work.h"
 #include "python/bindings/python_stone.h"
-#include "python/bindings/rooms.h"
 
 namespace py = pybind11;
 

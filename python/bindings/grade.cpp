@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "python/bindings/bind_functions.h"
 #include "python/bindings/long_work.h"
 #include "python/bindings/python_stone.h"
-#include "python/bindings/rooms.h"
 #include "render/grade/grade_json.h"
 #include "render/grade/grade_sigma.h"
 #include "stone/text/errors.h"

@@ -1,6 +1,6 @@
 // The compiled half of Python's culet. Users call culet/*.py.
 
-#include "python/bindings/rooms.h"
+#include "python/bindings/bind_functions.h"
 #include "stone/text/errors.h"
 
 namespace py = pybind11;

@@ -4,8 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "python/bindings/bind_functions.h"
 #include "python/bindings/python_picture.h"
-#include "python/bindings/rooms.h"
 #include "render/image/exposure.h"
 #include "render/image/image_io.h"
 

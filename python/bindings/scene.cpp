@@ -5,10 +5,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "python/bindings/arrays.h"
+#include "python/bindings/bind_functions.h"
 #include "python/bindings/long_work.h"
 #include "python/bindings/python_picture.h"
 #include "python/bindings/python_stone.h"
-#include "python/bindings/rooms.h"
 #include "render/image/exposure.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"

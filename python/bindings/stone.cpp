@@ -5,8 +5,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "python/bindings/arrays.h"
+#include "python/bindings/bind_functions.h"
 #include "python/bindings/python_stone.h"
-#include "python/bindings/rooms.h"
 #include "stone/design/design.h"
 #include "stone/file_kind.h"
 #include "stone/material/material_io.h"

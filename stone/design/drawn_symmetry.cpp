@@ -63,8 +63,8 @@ std::vector<Place> places_of(const Solid& solid, const Vec3& up, const Vec3& mid
 }
 
 struct Misfit {
-    double squares = 0, freedom = 0;
-    double variance() const { return freedom > 0 ? squares / freedom : 0; }
+    double squares = 0, degrees_of_freedom = 0;
+    double variance() const { return degrees_of_freedom > 0 ? squares / degrees_of_freedom : 0; }
 };
 
 Misfit misfit_of(const AxisGroup& group, const std::vector<Place>& places) {
@@ -82,7 +82,7 @@ Misfit misfit_of(const AxisGroup& group, const std::vector<Place>& places) {
             const Place& p = places[std::size_t(f)];
             misfit.squares += p.*weight * std::pow(p.*what - mean, 2);
         }
-        misfit.freedom += double(orbit.facets.size()) - 1;
+        misfit.degrees_of_freedom += double(orbit.facets.size()) - 1;
     };
     for (const FacetOrbit& orbit : orbits_of(group, places.size())) {
         if (orbit.facets.size() < 2) continue;
@@ -102,7 +102,7 @@ Misfit curvature_misfit(const Solid& solid) {
                 glm::dot(facet.plane.normal, solid.vertices[std::size_t(c)]) - facet.plane.offset,
                 2);
         }
-        bends.freedom += double(facet.corners.size()) - 3;
+        bends.degrees_of_freedom += double(facet.corners.size()) - 3;
     }
     return bends;
 }
@@ -131,8 +131,8 @@ public:
     bool is_near(const AxisGroup& group) const {
         const Misfit own = misfit(group);
         return own.variance() < std::pow(k_near * half_, 2) ||
-               f_tail(own.variance() / curvatures_.variance(), own.freedom, curvatures_.freedom) >
-                   k_level;
+               f_tail(own.variance() / curvatures_.variance(), own.degrees_of_freedom,
+                      curvatures_.degrees_of_freedom) > k_level;
     }
     bool loses_nothing(const AxisGroup& group) const {
         const std::vector<AxisGroup> parts = subgroups_of(group);
@@ -140,10 +140,10 @@ public:
         const double digits2 = digits() * digits();
         return std::all_of(parts.begin(), parts.end(), [&](const AxisGroup& part) {
             const Misfit own = misfit(part);
-            const double more = all.freedom - own.freedom;
-            if (!(more > 0) || !(own.freedom > 0)) return true;
+            const double more = all.degrees_of_freedom - own.degrees_of_freedom;
+            if (!(more > 0) || !(own.degrees_of_freedom > 0)) return true;
             const double f = (all.squares - own.squares) / more / (own.variance() + digits2);
-            return f_tail(f, more, own.freedom) > k_level / double(parts.size());
+            return f_tail(f, more, own.degrees_of_freedom) > k_level / double(parts.size());
         });
     }
 
@@ -197,8 +197,8 @@ DrawnSymmetry drawn_symmetry(const Solid& solid, const Vec3& up, int table) {
     const Search search(solid, up);
     find_groups(solid, up, table, search, drawn);
     const Misfit own = search.misfit(drawn.group);
-    drawn.scatter =
-        std::hypot(own.freedom > 0 ? std::sqrt(own.variance()) : search.bend(), search.digits());
+    drawn.scatter = std::hypot(
+        own.degrees_of_freedom > 0 ? std::sqrt(own.variance()) : search.bend(), search.digits());
     return drawn;
 }
 

@@ -96,7 +96,7 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
         names.push_back(of_facet.back()->name);
         of_tier.push_back(tiers[std::size_t(of_facet.back()->tier)]);
     }
-    names = told_apart(std::move(names), of_tier);
+    names = unique_names(std::move(names), of_tier);
     for (std::size_t i = 0; i < names.size(); ++i) {
         DesignTier& tier = design.tiers[std::size_t(of_facet[i]->tier)];
         tier.facets[std::size_t(of_facet[i]->facet)].facet = names[i];

@@ -60,7 +60,7 @@ public:
         for (const Facet& facet : solid.facets) names_.push_back(gemcad_word(facet.name));
         const bool any_named = std::any_of(names_.begin(), names_.end(),
                                            [](const std::string& name) { return !name.empty(); });
-        if (any_named) names_ = told_apart(std::move(names_));
+        if (any_named) names_ = unique_names(std::move(names_));
         for (std::size_t f = 0; f < names_.size(); ++f) facet_called_[names_[f]] = int(f);
     }
 
@@ -179,7 +179,7 @@ private:
                 wanted.push_back(names_[std::size_t(line.facets[i])]);
             }
         }
-        return told_apart(std::move(own), of_tier) == wanted;
+        return unique_names(std::move(own), of_tier) == wanted;
     }
 
     // Does as GemCad, if all names read back the same.
@@ -197,7 +197,7 @@ private:
                                            : std::string());
                 }
             }
-            const std::vector<std::string> read = told_apart(std::move(own), of_tier);
+            const std::vector<std::string> read = unique_names(std::move(own), of_tier);
             std::size_t at = 0;
             for (Line& tier : lines_) {
                 for (const std::string& label : tier.labels) {

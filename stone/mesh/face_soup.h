@@ -87,7 +87,7 @@ std::string writable_name(std::string_view name);
 /// Makes names unique: repeated ones get .1, .2 ...; empty ones become f0, f1 ... in order,
 /// skipping names in use. An unnamed facet whose tier has a name (`of_tier`; empty: none) counts as
 /// a repetition of it: A, A.1, A.2, ...
-std::vector<std::string> told_apart(std::vector<std::string> names,
-                                    const std::vector<std::string>& of_tier = {});
+std::vector<std::string> unique_names(std::vector<std::string> names,
+                                      const std::vector<std::string>& of_tier = {});
 
 }  // namespace culet

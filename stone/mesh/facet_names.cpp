@@ -12,8 +12,8 @@
 
 namespace culet {
 
-std::vector<std::string> told_apart(std::vector<std::string> names,
-                                    const std::vector<std::string>& of_tier) {
+std::vector<std::string> unique_names(std::vector<std::string> names,
+                                      const std::vector<std::string>& of_tier) {
     const std::set<std::string> given(names.begin(), names.end());
     std::set<std::string> taken;
     std::map<std::string, int> repetitions;

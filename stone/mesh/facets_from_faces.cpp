@@ -304,7 +304,7 @@ ReadSolid solid_from_faces(FaceSoup soup) {
     for (const Outline& outline : outlines) {
         names.push_back(outline.name >= 0 ? soup.names[outline.name] : std::string());
     }
-    names = told_apart(std::move(names));
+    names = unique_names(std::move(names));
     for (std::size_t i = 0; i < outlines.size(); ++i) {
         Facet facet;
         facet.name = std::move(names[i]);

@@ -28,11 +28,11 @@ MatrixXd times_transpose(const MatrixView& a, const MatrixView& b) {
     return a * b.transpose();
 }
 
-MatrixXd seen_through(const MatrixView& a, const MatrixView& b) {
+MatrixXd congruence(const MatrixView& a, const MatrixView& b) {
     return transpose_times(a, product(b, a));
 }
 
-MatrixXd without_span(const MatrixView& a, const MatrixView& orthonormal) {
+MatrixXd orthogonal_part(const MatrixView& a, const MatrixView& orthonormal) {
     MatrixXd left = a;
     left.noalias() -= orthonormal * transpose_times(orthonormal, a);
     return left;

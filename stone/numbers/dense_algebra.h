@@ -16,9 +16,9 @@ Eigen::MatrixXd product(const MatrixView& a, const MatrixView& b);
 Eigen::MatrixXd transpose_times(const MatrixView& a, const MatrixView& b);
 Eigen::MatrixXd times_transpose(const MatrixView& a, const MatrixView& b);
 /// A' B A with symmetric B.
-Eigen::MatrixXd seen_through(const MatrixView& a, const MatrixView& b);
+Eigen::MatrixXd congruence(const MatrixView& a, const MatrixView& b);
 /// A - B (B' A): the part of the columns of A that is orthogonal to orthonormal B.
-Eigen::MatrixXd without_span(const MatrixView& a, const MatrixView& orthonormal);
+Eigen::MatrixXd orthogonal_part(const MatrixView& a, const MatrixView& orthonormal);
 /// U' B with an upper triangular U, whose lower half is not read.
 Eigen::MatrixXd upper_transpose_times(const MatrixView& upper, const MatrixView& b);
 /// Adds weight A' A to the lower half of a square matrix; the upper half is not changed.

@@ -49,7 +49,7 @@ bool is_rounded_rectangle(const PlanOutline& outline) {
 
 GripOutline::GripOutline(const PlanOutline& outline) : hull_(convex_hull(outline)) {
     for (std::size_t i = 0; i < hull_.size(); ++i) {
-        ways_.push_back(length_);
+        arc_lengths_.push_back(length_);
         length_ += glm::length(hull_[(i + 1) % hull_.size()] - hull_[i]);
     }
     for (std::size_t i = 0; i < hull_.size(); ++i) {
@@ -77,13 +77,13 @@ void GripOutline::find_corners() {
         Corner corner;
         double moment = 0;
         for (std::size_t k = 0; k < count; ++k) {
-            const double distance = apart(ways_[i], ways_[k], length_);
+            const double distance = apart(arc_lengths_[i], arc_lengths_[k], length_);
             if (std::abs(distance) > reach) continue;
             corner.turn += turns[k];
             moment += turns[k] * distance;
         }
         if (corner.turn < k_corner_turn) continue;
-        corner.way = wrapped(ways_[i] + moment / corner.turn, length_);
+        corner.way = wrapped(arc_lengths_[i] + moment / corner.turn, length_);
         found.push_back(corner);
     }
     std::stable_sort(found.begin(), found.end(),
@@ -132,7 +132,8 @@ std::vector<GripOutline::Stretch> GripOutline::stretches() const {
     for (const double corner : corners_) ends.push_back({corner, corner, true});
     for (std::size_t i = 0; i < hull_.size(); ++i) {
         if (bridges_[i])
-            ends.push_back({ways_[i], i + 1 < ways_.size() ? ways_[i + 1] : length_, false});
+            ends.push_back({arc_lengths_[i],
+                            i + 1 < arc_lengths_.size() ? arc_lengths_[i + 1] : length_, false});
     }
     std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.from < b.from; });
     std::vector<Stretch> parts;
@@ -151,7 +152,7 @@ std::vector<GirdlePlace> GripOutline::places(int count, double width) const {
     const std::vector<Stretch> parts = stretches();
     if (parts.empty()) {
         // An even count stands on both sides of the x axis, an odd one begins on it.
-        const double start = way_to({1, 0}) + (count % 2 == 0 ? 0.5 * length_ / count : 0);
+        const double start = arc_length_to({1, 0}) + (count % 2 == 0 ? 0.5 * length_ / count : 0);
         for (int i = 0; i < count; ++i)
             ways.push_back(wrapped(start + i * length_ / count, length_));
     } else if (count <= corners()) {
@@ -182,7 +183,7 @@ std::vector<GirdlePlace> GripOutline::places(int count, double width) const {
         }
     }
     // From azimuth 0 on; a place that rounding puts just before 0 comes first.
-    const double first = way_to({1, 0}) - 1e-9 * length_;
+    const double first = arc_length_to({1, 0}) - 1e-9 * length_;
     std::sort(ways.begin(), ways.end(), [&](double a, double b) {
         return wrapped(a - first, length_) < wrapped(b - first, length_);
     });
@@ -192,10 +193,10 @@ std::vector<GirdlePlace> GripOutline::places(int count, double width) const {
 }
 
 PlanPoint GripOutline::point_at(double way) const {
-    const auto after = std::upper_bound(ways_.begin(), ways_.end(), way);
-    const std::size_t i = static_cast<std::size_t>(after - ways_.begin()) - 1;
+    const auto after = std::upper_bound(arc_lengths_.begin(), arc_lengths_.end(), way);
+    const std::size_t i = static_cast<std::size_t>(after - arc_lengths_.begin()) - 1;
     const PlanPoint side = hull_[(i + 1) % hull_.size()] - hull_[i];
-    return hull_[i] + side * ((way - ways_[i]) / glm::length(side));
+    return hull_[i] + side * ((way - arc_lengths_[i]) / glm::length(side));
 }
 
 GirdlePlace GripOutline::place_at(double way, double width) const {
@@ -206,7 +207,7 @@ GirdlePlace GripOutline::place_at(double way, double width) const {
     return {point_at(way), glm::normalize(PlanPoint(chord.y, -chord.x))};
 }
 
-double GripOutline::way_to(const PlanPoint& direction) const {
+double GripOutline::arc_length_to(const PlanPoint& direction) const {
     const PlanPoint middle = middle_of(hull_);
     const PlanPoint at =
         middle + std::max(0.0, distance_along(hull_, middle, direction)) * direction;
@@ -217,7 +218,7 @@ double GripOutline::way_to(const PlanPoint& direction) const {
         const double distance = glm::length(hull_[i] + t * side - at);
         if (distance >= nearest) continue;
         nearest = distance;
-        best = ways_[i] + t * glm::length(side);
+        best = arc_lengths_[i] + t * glm::length(side);
     }
     return best;
 }

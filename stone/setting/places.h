@@ -40,11 +40,11 @@ private:
     std::vector<Stretch> stretches() const;
     GirdlePlace place_at(double way, double width) const;
     PlanPoint point_at(double way) const;
-    double way_to(const PlanPoint& direction) const;
+    double arc_length_to(const PlanPoint& direction) const;
 
     PlanOutline hull_;
-    std::vector<double> ways_;   // arc lengths to the hull's corners, from the first
-    std::vector<bool> bridges_;  // sides of the hull that are not on the outline
+    std::vector<double> arc_lengths_;  // arc lengths to the hull's corners, from the first
+    std::vector<bool> bridges_;        // sides of the hull that are not on the outline
     std::vector<double> corners_;
     double length_ = 0;
 };

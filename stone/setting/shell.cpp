@@ -14,9 +14,9 @@ constexpr double k_half_turn = std::numbers::pi;
 
 // Rings of `sides` vertices each, each joined to the next. Vertices are counter-clockwise about
 // `along`.
-class Rounds {
+class Rings {
 public:
-    explicit Rounds(int sides) : sides_(sides) {}
+    explicit Rings(int sides) : sides_(sides) {}
 
     // A ring about `middle`, in the plane of `out` and `aside`; out x aside points backwards.
     void add(const Vec3& middle, const Vec3& out, const Vec3& aside) {
@@ -72,7 +72,7 @@ std::vector<Vec3> without_repeats(const std::vector<Vec3>& path, double near, bo
 
 Shell round_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3& aside, int sides) {
     const std::vector<Vec3> path = without_repeats(whole_path, 1e-3 * radius, false);
-    Rounds rounds(sides);
+    Rings rings(sides);
     const int rows = sides / 4;
     const std::size_t last = path.size() - 1;
     const Vec3 begins = glm::normalize(path[1] - path[0]),
@@ -80,43 +80,43 @@ Shell round_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3&
     // A half ball without its pole.
     for (int k = 1; k < rows; ++k) {
         const double angle = 0.5 * k_half_turn * k / rows;
-        rounds.add(path[0] - radius * std::cos(angle) * begins,
-                   radius * std::sin(angle) * glm::cross(begins, aside),
-                   radius * std::sin(angle) * aside);
+        rings.add(path[0] - radius * std::cos(angle) * begins,
+                  radius * std::sin(angle) * glm::cross(begins, aside),
+                  radius * std::sin(angle) * aside);
     }
     for (std::size_t i = 0; i <= last; ++i) {
         const Vec3 before = i == 0 ? begins : glm::normalize(path[i] - path[i - 1]);
         const Vec3 after = i == last ? ends : glm::normalize(path[i + 1] - path[i]);
         const Vec3 along = glm::normalize(before + after);
-        rounds.add(path[i], radius * glm::cross(along, aside), radius * aside);
+        rings.add(path[i], radius * glm::cross(along, aside), radius * aside);
     }
     for (int k = rows - 1; k >= 1; --k) {
         const double angle = 0.5 * k_half_turn * k / rows;
-        rounds.add(path[last] + radius * std::cos(angle) * ends,
-                   radius * std::sin(angle) * glm::cross(ends, aside),
-                   radius * std::sin(angle) * aside);
+        rings.add(path[last] + radius * std::cos(angle) * ends,
+                  radius * std::sin(angle) * glm::cross(ends, aside),
+                  radius * std::sin(angle) * aside);
     }
-    const int count = rounds.count();
-    for (int i = 0; i + 1 < count; ++i) rounds.join(i, i + 1);
-    rounds.close_end(0, path[0] - radius * begins, false);
-    rounds.close_end(count - 1, path[last] + radius * ends, true);
-    return rounds.take();
+    const int count = rings.count();
+    for (int i = 0; i + 1 < count; ++i) rings.join(i, i + 1);
+    rings.close_end(0, path[0] - radius * begins, false);
+    rings.close_end(count - 1, path[last] + radius * ends, true);
+    return rings.take();
 }
 
 Shell closed_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3& aside,
                   int sides) {
     const std::vector<Vec3> path = without_repeats(whole_path, 1e-3 * radius, true);
     const std::size_t count = path.size();
-    Rounds rounds(sides);
+    Rings rings(sides);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3 before = glm::normalize(path[i] - path[(i + count - 1) % count]),
                    after = glm::normalize(path[(i + 1) % count] - path[i]);
         const Vec3 along = glm::normalize(before + after);
-        rounds.add(path[i], radius / glm::dot(along, after) * glm::cross(along, aside),
-                   radius * aside);
+        rings.add(path[i], radius / glm::dot(along, after) * glm::cross(along, aside),
+                  radius * aside);
     }
-    for (int i = 0; i < rounds.count(); ++i) rounds.join(i, (i + 1) % rounds.count());
-    return rounds.take();
+    for (int i = 0; i < rings.count(); ++i) rings.join(i, (i + 1) % rings.count());
+    return rings.take();
 }
 
 Shell swept_collar(const PlanOutline& outline, const std::vector<PlanPoint>& section) {

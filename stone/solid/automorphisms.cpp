@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -147,7 +147,7 @@ std::vector<Automorphism> automorphisms(const Solid& solid) {
     all.push_back(found);
     for (const bool turns_over : {false, true}) {
         for (std::size_t d = 0; d < darts.size(); ++d) {
-            heed_stop();
+            check_stop();
             const int to = static_cast<int>(d);
             if (!turns_over && to == first) continue;
             if (propagation.follow(first, to, turns_over, found)) all.push_back(found);

@@ -18,7 +18,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_most_told = 20;
+constexpr int k_most_listed = 20;
 constexpr int k_most_parts_told = 4;
 
 // Angle in radians, and offset / diameter: far above the rounding of doubles, far below what a
@@ -269,11 +269,11 @@ private:
         std::vector<Fault> told;
         for (std::size_t i = 0, end = 0; i < faults_.size(); i = end) {
             for (end = i; end < faults_.size() && faults_[end].kind == faults_[i].kind; ++end) {
-                if (end - i < k_most_told) told.push_back(faults_[end]);
+                if (end - i < k_most_listed) told.push_back(faults_[end]);
             }
-            if (end - i > k_most_told) {
+            if (end - i > k_most_listed) {
                 told.push_back(
-                    {faults_[i].kind, fmt::format("and {} more", end - i - k_most_told)});
+                    {faults_[i].kind, fmt::format("and {} more", end - i - k_most_listed)});
             }
         }
         return told;

@@ -125,7 +125,7 @@ TEST(Drawing, KeepsNamesWithinTheirFacets) {
             ASSERT_EQ(labels.labels.size(), view.facets.size());
             for (std::size_t i = 0; i < view.facets.size(); ++i) {
                 const FacetLabel& label = labels.labels[i];
-                if (label.led) continue;
+                if (label.has_leader) continue;
                 EXPECT_GE(label.size, 17);
                 const double angle = label.turn_deg * std::numbers::pi / 180;
                 const glm::dvec2 along(std::cos(angle), std::sin(angle)), across(-along.y, along.x);
@@ -158,9 +158,9 @@ TEST(Drawing, KeepsLedNamesApart) {
     const FacetLabels labels = place_labels(solid, view);
     int led = 0;
     for (const FacetLabel& a : labels.labels) {
-        led += a.led;
+        led += a.has_leader;
         for (const FacetLabel& b : labels.labels) {
-            if (&a == &b || !a.led || !b.led || a.at_right != b.at_right) continue;
+            if (&a == &b || !a.has_leader || !b.has_leader || a.at_right != b.at_right) continue;
             EXPECT_GE(std::abs(a.at.y - b.at.y), 0.99 * std::max(a.size, b.size));
         }
     }

@@ -132,7 +132,7 @@ TEST(DenseAlgebra, TellsTheRankOfAMatrixAndWhatItsColumnsLeave) {
     const MatrixXd span = qr.first(2), rest = qr.last(2);
     EXPECT_LT(off(span.transpose() * span, MatrixXd::Identity(2, 2)), 1e-14);
     EXPECT_LT(transpose_times(rest, matrix).cwiseAbs().maxCoeff(), 1e-13);
-    EXPECT_LT(without_span(matrix, span).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LT(orthogonal_part(matrix, span).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_LT(qr.along(matrix.col(1)).tail(2).norm(), 1e-13);
     EXPECT_NEAR(singular_values(matrix).values(2), 0, 1e-13);
 }
@@ -161,7 +161,7 @@ TEST(DenseAlgebra, FitsALineByQr) {
 TEST(DenseAlgebra, MultipliesBlocks) {
     const MatrixXd a = counted(), b = second_differences(4);
     EXPECT_EQ(product(b.topRows(2), a), MatrixXd(b.topRows(2) * a));
-    EXPECT_EQ(off(seen_through(a, b), a.transpose() * b * a), 0);
+    EXPECT_EQ(off(congruence(a, b), a.transpose() * b * a), 0);
     MatrixXd lower = MatrixXd::Zero(3, 3);
     add_square(a, 2, lower);
     const MatrixXd whole = 2 * a.transpose() * a;

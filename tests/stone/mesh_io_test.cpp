@@ -54,7 +54,7 @@ TEST(Obj, NamesByGroupsAlone) {
 }
 
 TEST(Names, RepeatedAndMissingOnes) {
-    EXPECT_EQ(told_apart({"a", "a", "", "a", "f0", "a.1", ""}),
+    EXPECT_EQ(unique_names({"a", "a", "", "a", "f0", "a.1", ""}),
               (std::vector<std::string>{"a", "a.2", "f1", "a.3", "f0", "a.1", "f2"}));
 }
 

@@ -12,15 +12,15 @@ int facet_at(const Stone& stone, const Camera& camera, double x, double y) {
     return hit ? hit->facet : -1;
 }
 
-std::vector<SeenFacet> seen_facets(const Stone& stone, const Camera& camera) {
+std::vector<PickedFacet> seen_facets(const Stone& stone, const Camera& camera) {
     Camera pinhole = camera;
     pinhole.aperture_radius = 0;
     const ScreenView view = screen_view(pinhole);
-    std::vector<SeenFacet> seen;
+    std::vector<PickedFacet> seen;
     for (std::size_t f = 0; f < stone.solid.facets.size(); ++f) {
         const Facet& facet = stone.solid.facets[f];
         if (!view.sees(facet.plane)) continue;
-        SeenFacet one{static_cast<int>(f), {}};
+        PickedFacet one{static_cast<int>(f), {}};
         for (const int corner : facet.corners) {
             const ScreenImage image =
                 view.of_point(stone.solid.vertices[static_cast<std::size_t>(corner)]);

@@ -13,12 +13,12 @@ namespace culet {
 /// The facet there, or -1 where the stone is not met.
 int facet_at(const Stone& stone, const Camera& camera, double x, double y);
 
-struct SeenFacet {
+struct PickedFacet {
     int facet = 0;
     std::vector<std::array<double, 2>> points;
 };
 /// Throws InputError for a conoscope.
-std::vector<SeenFacet> seen_facets(const Stone& stone, const Camera& camera);
+std::vector<PickedFacet> seen_facets(const Stone& stone, const Camera& camera);
 
 /// Writes what `culet probe --json` writes. Throws InputError.
 std::string paths_at(const Scene& scene, double x, double y);

@@ -170,7 +170,7 @@ Json ViewerEngine::State::facet(const Json& arguments) {
 Json ViewerEngine::State::outline(const Json& arguments) {
     const FrameRequest request = request_of(arguments);
     Json facets = Json::array();
-    for (const SeenFacet& seen : seen_facets(shown().scene().stone, request.camera)) {
+    for (const PickedFacet& seen : seen_facets(shown().scene().stone, request.camera)) {
         Json points = Json::array();
         for (const auto& [x, y] : seen.points) points.push_back({x, y});
         facets.push_back({{"facet", seen.facet}, {"points", points}});

@@ -1,30 +1,30 @@
 #pragma once
 // Lets functions deep inside long work, which are not handed the progress, react to a stop: they
-// call `heed_stop`.
+// call `check_stop`.
 
 #include "stone/progress/progress.h"
 
 namespace culet {
 
-/// While it lives, `heed_stop` in this thread asks `progress`, which must outlive it.
-class StopsHeeded {
+/// While it lives, `check_stop` in this thread asks `progress`, which must outlive it.
+class StopScope {
 public:
-    explicit StopsHeeded(const Progress& progress);
-    ~StopsHeeded();
-    StopsHeeded(const StopsHeeded&) = delete;
-    StopsHeeded& operator=(const StopsHeeded&) = delete;
+    explicit StopScope(const Progress& progress);
+    ~StopScope();
+    StopScope(const StopScope&) = delete;
+    StopScope& operator=(const StopScope&) = delete;
 
     /// Pass this on in place of `progress`.
     Progress progress();
 
 private:
-    friend void heed_stop();
+    friend void check_stop();
     const Progress& asked_;
     double fraction_ = 0;
-    StopsHeeded* outer_;
+    StopScope* outer_;
 };
 
 /// Throws Interrupted when the surrounding work was asked to stop.
-void heed_stop();
+void check_stop();
 
 }  // namespace culet

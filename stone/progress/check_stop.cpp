@@ -1,4 +1,4 @@
-#include "stone/progress/heed_stop.h"
+#include "stone/progress/check_stop.h"
 
 #include "stone/text/errors.h"
 
@@ -6,19 +6,19 @@ namespace culet {
 
 namespace {
 
-thread_local StopsHeeded* innermost = nullptr;
+thread_local StopScope* innermost = nullptr;
 
 }  // namespace
 
-StopsHeeded::StopsHeeded(const Progress& progress) : asked_(progress), outer_(innermost) {
+StopScope::StopScope(const Progress& progress) : asked_(progress), outer_(innermost) {
     innermost = this;
 }
 
-StopsHeeded::~StopsHeeded() {
+StopScope::~StopScope() {
     innermost = outer_;
 }
 
-Progress StopsHeeded::progress() {
+Progress StopScope::progress() {
     if (!asked_) return {};
     return [this](double fraction) {
         fraction_ = fraction;
@@ -26,7 +26,7 @@ Progress StopsHeeded::progress() {
     };
 }
 
-void heed_stop() {
+void check_stop() {
     if (innermost == nullptr || !innermost->asked_) return;
     if (!innermost->asked_(innermost->fraction_)) throw Interrupted();
 }
