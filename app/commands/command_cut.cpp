@@ -157,6 +157,50 @@ int run_cut(const std::string& name, const CutOptions& options) {
     return exit_good;
 }
 
+void add_parameter(CLI::App& cut, const CutParameter& p,
+                   const std::shared_ptr<CutOptions>& options) {
+    // 6.5, 6.5mm, 57%: with or without the unit.
+    cut.add_option_function<std::string>(
+           "--" + p.name,
+           [options, key = p.name, unit = p.unit](const std::string& text) {
+               options->values[key] = number_in_unit(text, unit, "--" + key);
+           },
+           fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit, p.value))
+        ->transform(CLI::Validator(
+            [unit = p.unit](std::string& value) {
+                value = without_unit(value, unit);
+                return std::string();
+            },
+            ""))
+        ->type_name(p.unit.empty() ? "X" : p.unit);
+}
+
+void add_cut(CLI::App& command, const CutKind& kind, int& exit_code) {
+    auto options = std::make_shared<CutOptions>();
+    CLI::App* cut = command.add_subcommand(kind.name, kind.summary);
+    if (kind.name == "step") cut->alias("emerald");
+    cut->add_option("-o,--output", options->out, "mesh: .obj .off .ply .stl .asc")
+        ->type_name("MESH");
+    cut->add_option("--json", options->json, "the resulting proportions (- is stdout)")
+        ->type_name("FILE");
+    cut->add_option("--material", options->form.material,
+                    "for the weight in the proportions and the form, and the stone file")
+        ->type_name("NAME");
+    add_form_options(*cut, options->form);
+    for (const CutParameter& p : kind.parameters) add_parameter(*cut, p, options);
+    add_common(*cut, options->common);
+    const CutParameter& first = kind.parameters.front();
+    cut->footer(
+        fmt::format("Examples:\n  culet cut {0} -o {0}.obj\n  culet cut {0} --{1} {2} --girdle "
+                    "3 -o {0}.asc --json proportions.json",
+                    kind.name, first.name, first.value));
+    cut->allow_extras();  // so that a misspelt parameter is reported with the nearest
+    cut->callback([kind, cut, options, &exit_code] {
+        if (const auto words = cut->remaining(); !words.empty()) refuse(kind, words);
+        exit_code = run_cut(kind.name, *options);
+    });
+}
+
 }  // namespace
 
 void add_command_cut(CLI::App& program, int& exit_code) {
@@ -176,47 +220,7 @@ void add_command_cut(CLI::App& program, int& exit_code) {
         "  culet cut emerald --ratio 1.5 -o emerald.asc --json proportions.json --material "
         "emerald\n"
         "  culet cut oval --width 6.5mm -o oval.obj --readings form.csv --stone stone.toml");
-    for (const CutKind& kind : cut_kinds()) {
-        auto options = std::make_shared<CutOptions>();
-        CLI::App* cut = command->add_subcommand(kind.name, kind.summary);
-        if (kind.name == "step") cut->alias("emerald");
-        cut->add_option("-o,--output", options->out, "mesh: .obj .off .ply .stl .asc")
-            ->type_name("MESH");
-        cut->add_option("--json", options->json, "the resulting proportions (- is stdout)")
-            ->type_name("FILE");
-        cut->add_option("--material", options->form.material,
-                        "for the weight in the proportions and the form, and the stone file")
-            ->type_name("NAME");
-        add_form_options(*cut, options->form);
-        for (const CutParameter& p : kind.parameters) {
-            // 6.5, 6.5mm, 57%: with or without the unit.
-            cut->add_option_function<std::string>(
-                   "--" + p.name,
-                   [options, key = p.name, unit = p.unit](const std::string& text) {
-                       options->values[key] = number_in_unit(text, unit, "--" + key);
-                   },
-                   fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit,
-                               p.value))
-                ->transform(CLI::Validator(
-                    [unit = p.unit](std::string& value) {
-                        value = without_unit(value, unit);
-                        return std::string();
-                    },
-                    ""))
-                ->type_name(p.unit.empty() ? "X" : p.unit);
-        }
-        add_common(*cut, options->common);
-        const CutParameter& first = kind.parameters.front();
-        cut->footer(
-            fmt::format("Examples:\n  culet cut {0} -o {0}.obj\n  culet cut {0} --{1} {2} --girdle "
-                        "3 -o {0}.asc --json proportions.json",
-                        kind.name, first.name, first.value));
-        cut->allow_extras();  // so that a misspelt parameter is reported with the nearest
-        cut->callback([kind, cut, options, &exit_code] {
-            if (const auto words = cut->remaining(); !words.empty()) refuse(kind, words);
-            exit_code = run_cut(kind.name, *options);
-        });
-    }
+    for (const CutKind& kind : cut_kinds()) add_cut(*command, kind, exit_code);
     command->callback([command, list, unknown] {
         if (!command->get_subcommands().empty()) return;
         if (*list) return list_cuts();
