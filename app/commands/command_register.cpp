@@ -95,6 +95,40 @@ int run_register(const RegisterArguments& a) {
     return pose.usable() ? exit_good : exit_untrusted;
 }
 
+// How far off the camera and the model may be, and how sure the pose must be.
+void add_tolerances(CLI::App& command, RegisterArguments& a) {
+    command
+        .add_option("--search-deg", a.search_deg,
+                    "how far the rough camera's view may be off (default 35)")
+        ->check(CLI::Range(1.0, 180.0));
+    command
+        .add_option("--facet-error-deg", a.facet_error_deg,
+                    "how far the model's facets may be tilted, one sigma (default 0.2)")
+        ->check(CLI::Range(0.001, 5.0));
+    command
+        .add_option("--focal-error", a.focal_error,
+                    "of the rough camera's focal length, percent; 0: it is exact (default 20)")
+        ->check(CLI::Range(0.0, 100.0));
+    command
+        .add_option("--principal-point-error", a.principal_point_error,
+                    "percent of the picture's width; 0: it is as given (default)")
+        ->check(CLI::Range(0.0, 100.0));
+    command
+        .add_option("--within-deg", a.within_deg,
+                    "refuse a view that is not this sure (degrees, 99 %; default 10)")
+        ->check(CLI::Range(0.001, 90.0));
+    command
+        .add_option("--within-px", a.within_px,
+                    "refuse a place that is not this sure (pixels, 99 %; default 3 % of "
+                    "the stone's diameter, but no less than 1)")
+        ->check(CLI::Range(0.001, 1e6));
+    command
+        .add_option("--doubt", a.doubt_percent,
+                    "refuse a pose whose chance of being a wrong one is larger (percent; default "
+                    "0.1; 100 takes any)")
+        ->check(CLI::Range(1e-6, 100.0));
+}
+
 }  // namespace
 
 void add_command_register(CLI::App& program, int& exit_code) {
@@ -118,36 +152,7 @@ void add_command_register(CLI::App& program, int& exit_code) {
     command
         ->add_option("--mask", a.mask, "picture of the photograph's size, white where the stone is")
         ->type_name("FILE");
-    command
-        ->add_option("--search-deg", a.search_deg,
-                     "how far the rough camera's view may be off (default 35)")
-        ->check(CLI::Range(1.0, 180.0));
-    command
-        ->add_option("--facet-error-deg", a.facet_error_deg,
-                     "how far the model's facets may be tilted, one sigma (default 0.2)")
-        ->check(CLI::Range(0.001, 5.0));
-    command
-        ->add_option("--focal-error", a.focal_error,
-                     "of the rough camera's focal length, percent; 0: it is exact (default 20)")
-        ->check(CLI::Range(0.0, 100.0));
-    command
-        ->add_option("--principal-point-error", a.principal_point_error,
-                     "percent of the picture's width; 0: it is as given (default)")
-        ->check(CLI::Range(0.0, 100.0));
-    command
-        ->add_option("--within-deg", a.within_deg,
-                     "refuse a view that is not this sure (degrees, 99 %; default 10)")
-        ->check(CLI::Range(0.001, 90.0));
-    command
-        ->add_option("--within-px", a.within_px,
-                     "refuse a place that is not this sure (pixels, 99 %; default 3 % of "
-                     "the stone's diameter, but no less than 1)")
-        ->check(CLI::Range(0.001, 1e6));
-    command
-        ->add_option("--doubt", a.doubt_percent,
-                     "refuse a pose whose chance of being a wrong one is larger (percent; default "
-                     "0.1; 100 takes any)")
-        ->check(CLI::Range(1e-6, 100.0));
+    add_tolerances(*command, a);
     command->add_flag("--mirrored", a.mirrored,
                       "the photograph may be turned left to right: try it both ways");
     command
