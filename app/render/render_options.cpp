@@ -58,6 +58,34 @@ void add_settings(CLI::App& command, RenderOptions& options, CLI::Option* plan) 
         ->excludes(plan);
 }
 
+void add_uncertainty(CLI::App& command, RenderOptions& options, CLI::Option* frames) {
+    CLI::Option* const uncertainty =
+        command
+            .add_option("--uncertainty", options.uncertainty,
+                        "report of the stone's fit: the .exr gets the layers mean, sigma and "
+                        "bands, of stones drawn from what the readings leave open")
+            ->type_name("FIT.json")
+            ->excludes(frames);
+    command.add_option("--draws", options.draws, "stones drawn from the uncertainty")
+        ->needs(uncertainty)
+        ->check(CLI::Range(2, 100000))
+        ->capture_default_str();
+}
+
+// How a .png shows the light.
+void add_film(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("--exposure", options.exposure,
+                    "for .png: a factor on linear light, or auto: to the stone (which jeweller, "
+                    "daylight, lightbox and darkfield are shown with; else 1)")
+        ->type_name("auto|FACTOR");
+    command
+        .add_option("--tonemap", options.tonemap,
+                    fmt::format("for .png: {} (not given: as the scene's [film] says)",
+                                fmt::join(tone_map_names(), ", ")))
+        ->check(CLI::IsMember(tone_map_names()));
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
@@ -110,16 +138,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
         ->capture_default_str();
     command.add_flag("--spectral", options.spectral,
                      "Stokes parameters S0 to S3 at every wavelength in the .exr");
-    command
-        .add_option("--exposure", options.exposure,
-                    "for .png: a factor on linear light, or auto: to the stone (which jeweller, "
-                    "daylight, lightbox and darkfield are shown with; else 1)")
-        ->type_name("auto|FACTOR");
-    command
-        .add_option("--tonemap", options.tonemap,
-                    fmt::format("for .png: {} (not given: as the scene's [film] says)",
-                                fmt::join(tone_map_names(), ", ")))
-        ->check(CLI::IsMember(tone_map_names()));
+    add_film(command, options);
     add_common(command, options.common, true);
 }
 
