@@ -143,11 +143,7 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
     return white;
 }
 
-int run_photo(const PhotoArguments& a) {
-    // Keep freed memory for the next photo: the system clears new memory, which takes a quarter of
-    // the time.
-    mallopt(M_MMAP_THRESHOLD, 1 << 30);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+void require_consistent(const PhotoArguments& a) {
     for (const std::string& file : {a.out, a.json, a.plot}) require_writable(file);
     if (!a.out.ends_with(".exr"))
         throw InputError(std::filesystem::path(a.out), "linear light is written as .exr");
@@ -155,17 +151,10 @@ int run_photo(const PhotoArguments& a) {
     if (!a.white.empty() && !a.chart && a.grey.empty())
         throw InputError(
             "--white needs --grey X,Y,WIDTH,HEIGHT or --chart to say what is grey in it");
-    Bracket merged = read_and_merge(a);
-    Photo& photo = merged.photo;
-    Json json{{"schema", 1}, {"size", {photo.width, photo.height}}};
+}
 
-    if (!a.grey.empty() || a.chart) json["white"] = balance_white(a, merged);
-    if (!a.camera.empty()) {
-        const Lens lens = lens_for(read_lens(a.camera), photo.width, photo.height, a.shots[0]);
-        undistort(photo, lens);
-        json["lens"] = {{"focal_px", {lens.focal_x, lens.focal_y}},
-                        {"principal_px", {lens.principal_x, lens.principal_y}}};
-    }
+void describe(const PhotoArguments& a, const Bracket& merged, Json& json) {
+    const Photo& photo = merged.photo;
     json["response"] = merged.response == Response::calibrated ? "found" : "as read";
     if (merged.curve) {
         json["response_curve"] = {
@@ -183,13 +172,10 @@ int run_photo(const PhotoArguments& a) {
     for (const float s : photo.saturated) over += s;
     json["over_exposed"] = over / static_cast<double>(photo.rgb.size() / 3);
     json["notes"] = merged.notes;
+}
 
-    std::vector<std::pair<std::string, std::string>> text{
-        {"culet:photometric", photo.photometric ? "yes" : photo.not_photometric}};
-    write_picture(picture_of(photo), a.out, {}, text);
-    if (!a.json.empty())
-        write_text(a.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    if (merged.curve && !a.plot.empty()) write_text(a.plot, plot_of(*merged.curve));
+void say_result(const PhotoArguments& a, const Bracket& merged) {
+    const Photo& photo = merged.photo;
     const std::string settings = text_of(photo.shot);
     say(fmt::format("{} x {} pixels from {} shot{}{}", photo.width, photo.height, a.shots.size(),
                     a.shots.size() == 1 ? "" : "s", settings.empty() ? "" : ", first " + settings),
@@ -202,6 +188,34 @@ int run_photo(const PhotoArguments& a) {
             a.common.quiet);
     if (!photo.photometric) say("note: for shapes only: " + photo.not_photometric, a.common.quiet);
     say(fmt::format("next: culet register {} scene.toml -o posed.toml", a.out), a.common.quiet);
+}
+
+int run_photo(const PhotoArguments& a) {
+    // Keep freed memory for the next photo: the system clears new memory, which takes a quarter of
+    // the time.
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    require_consistent(a);
+    Bracket merged = read_and_merge(a);
+    Photo& photo = merged.photo;
+    Json json{{"schema", 1}, {"size", {photo.width, photo.height}}};
+
+    if (!a.grey.empty() || a.chart) json["white"] = balance_white(a, merged);
+    if (!a.camera.empty()) {
+        const Lens lens = lens_for(read_lens(a.camera), photo.width, photo.height, a.shots[0]);
+        undistort(photo, lens);
+        json["lens"] = {{"focal_px", {lens.focal_x, lens.focal_y}},
+                        {"principal_px", {lens.principal_x, lens.principal_y}}};
+    }
+    describe(a, merged, json);
+
+    std::vector<std::pair<std::string, std::string>> text{
+        {"culet:photometric", photo.photometric ? "yes" : photo.not_photometric}};
+    write_picture(picture_of(photo), a.out, {}, text);
+    if (!a.json.empty())
+        write_text(a.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (merged.curve && !a.plot.empty()) write_text(a.plot, plot_of(*merged.curve));
+    say_result(a, merged);
     return exit_good;
 }
 
