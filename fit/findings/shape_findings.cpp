@@ -90,8 +90,8 @@ std::string OpenShape::words(const ShapeFinding& finding) const {
                             name_list({finding.facets.begin() + 2, finding.facets.end()}));
     }
     const bool vanishes = finding.kind == Shapes::edge_vanishes;
-    return fmt::format("{}edge {} {} {} ± {} long: {}", vanishes ? "the readings want " : "",
-                       edge, vanishes ? "to be" : "is", length_words(finding.value, result_.unit),
+    return fmt::format("{}edge {} {} {} ± {} long: {}", vanishes ? "the readings want " : "", edge,
+                       vanishes ? "to be" : "is", length_words(finding.value, result_.unit),
                        length_words(finding.sigma, result_.unit),
                        vanishes ? "it is held at zero" : "the readings leave its sign open");
 }
