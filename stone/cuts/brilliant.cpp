@@ -92,6 +92,135 @@ Solid cut_culet(const Solid& solid, double level) {
     return contract_near_meets(raw, 1e-9 * diameter(raw)).solid;
 }
 
+struct Corners {
+    // One for every main, or for the edge between it and the next.
+    std::vector<int> table, star_meet, main_up, break_up, main_low, break_low, lower_meet;
+    int notch_table = -1, culet = -1;
+};
+
+Corners add_corners(Builder& b, const Outline& outline, const BrilliantProportions& p) {
+    const std::size_t k = outline.mains.size();
+    const double z_up = p.girdle / 2, z_low = -z_up;
+    const double z_table = z_up + p.crown_height, z_culet = z_low - p.pavilion_depth;
+    Corners c;
+    for (std::size_t i = 0; i < k; ++i) {
+        const std::size_t next = (i + 1) % k;
+        // The girdle's crossing is the table's enlarged, so from above both lie on a ray from the
+        // axis; the edge between two mains lies over it.
+        const Vec2 y = crossing(outline.mains[i], outline.tangents[i], outline.mains[next],
+                                outline.tangents[next]);
+        const double y_radius = glm::length(y);
+        const double girdle_radius =
+            radius_at(y, outline.mains[i], outline.breaks[i], outline.mains[next]);
+        const double table_radius = p.table * y_radius;
+        const double star_radius = table_radius + p.star * (girdle_radius - table_radius);
+        const double along = (star_radius / y_radius - p.table) / (1 - p.table);
+        const double low_radius = (1 - p.lower_half) * girdle_radius;
+        if (!(girdle_radius > table_radius && along > 0 && star_radius < girdle_radius)) {
+            throw InputError(
+                fmt::format("stars and a table of {:.0f} % leave no room for the upper halves: "
+                            "make the table smaller or the "
+                            "star longer",
+                            100 * p.table));
+        }
+        c.table.push_back(b.corner(p.table * outline.mains[i], z_table));
+        if (static_cast<int>(i) == outline.notch) c.notch_table = b.corner(p.table * y, z_table);
+        c.star_meet.push_back(
+            b.corner((star_radius / y_radius) * y, z_table - along * p.crown_height));
+        c.main_up.push_back(b.corner(outline.mains[i], z_up));
+        c.break_up.push_back(b.corner(outline.breaks[i], z_up));
+        c.main_low.push_back(b.corner(outline.mains[i], z_low));
+        c.break_low.push_back(b.corner(outline.breaks[i], z_low));
+        const double t = low_radius / y_radius;
+        c.lower_meet.push_back(b.corner(t * y, z_culet + t * p.pavilion_depth));
+    }
+    c.culet = b.corner({0, 0}, z_culet);
+    return c;
+}
+
+std::vector<GirdleStretch> girdle_stretches(Builder& b, const Outline& outline, const Corners& c) {
+    const std::size_t k = c.table.size();
+    std::vector<GirdleStretch> stretches;
+    for (std::size_t i = 0; i < k; ++i) {
+        const std::size_t next = (i + 1) % k;
+        stretches.push_back({c.main_up[i], c.break_up[i], c.main_low[i], c.break_low[i]});
+        stretches.push_back({c.break_up[i], c.main_up[next], c.break_low[i], c.main_low[next]});
+    }
+    for (std::size_t j = 0; j < outline.arcs.size(); ++j) {
+        add_scallops(b, stretches[j], outline.arcs[j], c.star_meet[j / 2], c.lower_meet[j / 2]);
+    }
+    return stretches;
+}
+
+void add_crown(Builder& b, int notch, const Corners& c,
+               const std::vector<GirdleStretch>& stretches) {
+    const std::size_t k = c.table.size();
+    std::vector<int> table_loop;
+    for (std::size_t i = 0; i < k; ++i) {
+        table_loop.push_back(c.table[i]);
+        if (static_cast<int>(i) == notch) table_loop.push_back(c.notch_table);
+    }
+    b.facet("T", table_loop);
+    for (std::size_t i = 0; i < k; ++i) {
+        if (static_cast<int>(i) == notch) continue;  // two mains meet in a valley: no star
+        b.facet(numbered("S", i), {c.table[i], c.star_meet[i], c.table[(i + 1) % k]});
+    }
+    for (std::size_t i = 0; i < k; ++i) {
+        const std::size_t before = (i + k - 1) % k;
+        std::vector<int> loop{c.table[i]};
+        if (static_cast<int>(before) == notch) loop.push_back(c.notch_table);
+        loop.insert(loop.end(), {c.star_meet[before], c.main_up[i], c.star_meet[i]});
+        if (static_cast<int>(i) == notch) loop.push_back(c.notch_table);
+        b.facet(numbered("C", i), loop);
+    }
+    for (std::size_t i = 0; i < k; ++i) {
+        for (const std::size_t j : {2 * i, 2 * i + 1}) {
+            std::vector<int> loop = stretches[j].up;
+            loop.insert(loop.begin(), c.star_meet[i]);
+            b.facet(numbered("U", j), loop);
+        }
+    }
+}
+
+void add_girdle(Builder& b, const std::vector<GirdleStretch>& stretches) {
+    std::size_t girdle_facets = 0;
+    for (const GirdleStretch& stretch : stretches) {
+        for (std::size_t s = 0; s + 1 < stretch.up.size(); ++s) {
+            b.facet(numbered("G", girdle_facets++),
+                    {stretch.up[s], stretch.low[s], stretch.low[s + 1], stretch.up[s + 1]});
+        }
+    }
+}
+
+void add_pavilion(Builder& b, const Corners& c, const std::vector<GirdleStretch>& stretches) {
+    const std::size_t k = c.table.size();
+    for (std::size_t i = 0; i < k; ++i) {
+        for (const std::size_t j : {2 * i, 2 * i + 1}) {
+            std::vector<int> loop(stretches[j].low.rbegin(), stretches[j].low.rend());
+            loop.push_back(c.lower_meet[i]);
+            b.facet(numbered("L", j), loop);
+        }
+    }
+    for (std::size_t i = 0; i < k; ++i) {
+        b.facet(numbered("P", i),
+                {c.main_low[i], c.lower_meet[(i + k - 1) % k], c.culet, c.lower_meet[i]});
+    }
+}
+
+Solid with_culet(const Solid& solid, const Corners& c, const BrilliantProportions& p) {
+    const double z_culet = solid.vertices[c.culet].z;
+    double deepest = 0;  // depth of the lower halves' meets / the pavilion's depth
+    for (const int meet : c.lower_meet) {
+        deepest = std::max(deepest, 1 - (solid.vertices[meet].z - z_culet) / p.pavilion_depth);
+    }
+    if (!(p.culet < 1 - deepest)) {
+        throw InputError(fmt::format(
+            "a culet of {:.1f} % cuts into the lower halves; with these at most {:.1f} %",
+            100 * p.culet, 100 * (1 - deepest)));
+    }
+    return cut_culet(solid, z_culet + p.culet * p.pavilion_depth);
+}
+
 }  // namespace
 
 double star_of_length(double star_length, double table, int mains) {
@@ -115,110 +244,13 @@ double star_of_length(double star_length, double table, int mains) {
 }
 
 Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
-    const std::size_t k = outline.mains.size();
-    const double z_up = p.girdle / 2, z_low = -z_up;
-    const double z_table = z_up + p.crown_height, z_culet = z_low - p.pavilion_depth;
     Builder b;
-    std::vector<int> table(k), star_meet(k), main_up(k), break_up(k), main_low(k), break_low(k),
-        lower_meet(k);
-    int notch_table = -1;
-    for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t next = (i + 1) % k;
-        const bool notch = static_cast<int>(i) == outline.notch;
-        // The girdle's crossing is the table's enlarged, so from above both lie on a ray from the
-        // axis; the edge between two mains lies over it.
-        const Vec2 y = crossing(outline.mains[i], outline.tangents[i], outline.mains[next],
-                                outline.tangents[next]);
-        const double y_radius = glm::length(y);
-        const double girdle_radius =
-            radius_at(y, outline.mains[i], outline.breaks[i], outline.mains[next]);
-        const double table_radius = p.table * y_radius;
-        const double star_radius = table_radius + p.star * (girdle_radius - table_radius);
-        const double along = (star_radius / y_radius - p.table) / (1 - p.table);
-        const double low_radius = (1 - p.lower_half) * girdle_radius;
-        if (!(girdle_radius > table_radius && along > 0 && star_radius < girdle_radius)) {
-            throw InputError(
-                fmt::format("stars and a table of {:.0f} % leave no room for the upper halves: "
-                            "make the table smaller or the "
-                            "star longer",
-                            100 * p.table));
-        }
-        table[i] = b.corner(p.table * outline.mains[i], z_table);
-        if (notch) notch_table = b.corner(p.table * y, z_table);
-        star_meet[i] = b.corner((star_radius / y_radius) * y, z_table - along * p.crown_height);
-        main_up[i] = b.corner(outline.mains[i], z_up);
-        break_up[i] = b.corner(outline.breaks[i], z_up);
-        main_low[i] = b.corner(outline.mains[i], z_low);
-        break_low[i] = b.corner(outline.breaks[i], z_low);
-        const double t = low_radius / y_radius;
-        lower_meet[i] = b.corner(t * y, z_culet + t * p.pavilion_depth);
-    }
-    const int culet = b.corner({0, 0}, z_culet);
-
-    std::vector<int> table_loop;
-    for (std::size_t i = 0; i < k; ++i) {
-        table_loop.push_back(table[i]);
-        if (static_cast<int>(i) == outline.notch) table_loop.push_back(notch_table);
-    }
-    b.facet("T", table_loop);
-    std::vector<GirdleStretch> stretches;
-    for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t next = (i + 1) % k;
-        stretches.push_back({main_up[i], break_up[i], main_low[i], break_low[i]});
-        stretches.push_back({break_up[i], main_up[next], break_low[i], main_low[next]});
-    }
-    for (std::size_t j = 0; j < outline.arcs.size(); ++j) {
-        add_scallops(b, stretches[j], outline.arcs[j], star_meet[j / 2], lower_meet[j / 2]);
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-        if (static_cast<int>(i) == outline.notch) continue;  // two mains meet in a valley: no star
-        b.facet(numbered("S", i), {table[i], star_meet[i], table[(i + 1) % k]});
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t before = (i + k - 1) % k;
-        std::vector<int> loop{table[i]};
-        if (static_cast<int>(before) == outline.notch) loop.push_back(notch_table);
-        loop.insert(loop.end(), {star_meet[before], main_up[i], star_meet[i]});
-        if (static_cast<int>(i) == outline.notch) loop.push_back(notch_table);
-        b.facet(numbered("C", i), loop);
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-        for (const std::size_t j : {2 * i, 2 * i + 1}) {
-            std::vector<int> loop = stretches[j].up;
-            loop.insert(loop.begin(), star_meet[i]);
-            b.facet(numbered("U", j), loop);
-        }
-    }
-    std::size_t girdle_facets = 0;
-    for (const GirdleStretch& stretch : stretches) {
-        for (std::size_t s = 0; s + 1 < stretch.up.size(); ++s) {
-            b.facet(numbered("G", girdle_facets++),
-                    {stretch.up[s], stretch.low[s], stretch.low[s + 1], stretch.up[s + 1]});
-        }
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-        for (const std::size_t j : {2 * i, 2 * i + 1}) {
-            std::vector<int> loop(stretches[j].low.rbegin(), stretches[j].low.rend());
-            loop.push_back(lower_meet[i]);
-            b.facet(numbered("L", j), loop);
-        }
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-        b.facet(numbered("P", i), {main_low[i], lower_meet[(i + k - 1) % k], culet, lower_meet[i]});
-    }
-    if (!(p.culet > 0)) return b.solid;
-
-    double deepest = 0;  // depth of the lower halves' meets / the pavilion's depth
-    for (std::size_t i = 0; i < k; ++i) {
-        deepest =
-            std::max(deepest, 1 - (b.solid.vertices[lower_meet[i]].z - z_culet) / p.pavilion_depth);
-    }
-    if (!(p.culet < 1 - deepest)) {
-        throw InputError(fmt::format(
-            "a culet of {:.1f} % cuts into the lower halves; with these at most {:.1f} %",
-            100 * p.culet, 100 * (1 - deepest)));
-    }
-    return cut_culet(b.solid, z_culet + p.culet * p.pavilion_depth);
+    const Corners c = add_corners(b, outline, p);
+    const std::vector<GirdleStretch> stretches = girdle_stretches(b, outline, c);
+    add_crown(b, outline.notch, c, stretches);
+    add_girdle(b, stretches);
+    add_pavilion(b, c, stretches);
+    return p.culet > 0 ? with_culet(b.solid, c, p) : b.solid;
 }
 
 }  // namespace culet
