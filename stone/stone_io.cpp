@@ -62,6 +62,81 @@ void turn_as_stated(bool crystal_is_given, StoneFile& file) {
     for (Vec3& axis : stone.crystal.axes) axis = turn_upright(stone.file_up) * axis;
 }
 
+// Facets are found by their names.
+void take_design(const TomlTable& table, Solid& solid) {
+    const auto file = table.path("design");
+    if (!file) return;
+    solid.design = read_solid(*file).solid.design;
+    if (!solid.design)
+        table.fail("design", fmt::format("{} holds no design: name a GemCad .asc or .gem, or a "
+                                         "mesh of culet cut",
+                                         file->filename().string()));
+    const std::vector<DesignPlace> places = places_of(solid);
+    if (std::none_of(places.begin(), places.end(), [](const auto& at) { return at.tier >= 0; }))
+        table.fail("design", fmt::format("no facet of the mesh has a name of the design {}: give "
+                                         "the facets the design's names (culet info -v lists them)",
+                                         file->filename().string()));
+}
+
+void take_material(const TomlTable& table, const TomlTable& root, StoneFile& result) {
+    Stone& stone = result.stone;
+    result.has_material = table.has("material") || root.has("material");
+    if (result.has_material) stone.material = material_named_in(table, root);
+    if (const auto own = table.number("density")) {
+        if (!(*own > 0.1 && *own < 30))
+            table.fail("density",
+                       fmt::format("density is {}; expected g/cm3 between 0.1 and 30", *own));
+        stone.material.density_g_cm3 = own;
+    }
+    if (result.has_material) stone.crystal = crystal_frame_in(table, stone.material.optic);
+}
+
+void take_mesh(const TomlTable& table, StoneFile& result) {
+    Stone& stone = result.stone;
+    const auto mesh = table.path("mesh");
+    if (!mesh) table.fail("", "[stone] has no mesh: name the hand-made mesh, mesh = \"hand.obj\"");
+    result.mesh_file = *mesh;
+    SolidFile file = read_solid(result.mesh_file,
+                                table.has("up") ? Orientation::as_given : Orientation::upright);
+    stone.solid = std::move(file.solid);
+    stone.file_up = file.file_up;
+    result.notes = std::move(file.notes);
+    if (std::string odd = doubtful_size(stone.solid); !odd.empty() && !table.has("unit"))
+        result.notes.push_back("the mesh " + odd);
+    stone.facets_are_whole = file.facets_are_whole;
+    stone.changed = std::move(file.changed);
+    result.details = std::move(file.details);
+}
+
+// A direction, or the facet of that name.
+void take_up(const TomlTable& table, const std::string& mesh, Stone& stone) {
+    switch (table.kind("up")) {
+        case TomlTable::Kind::missing:
+            break;
+        case TomlTable::Kind::text: {
+            const std::string name = *table.text("up");
+            int facet = find_facet(stone.solid, name);
+            if (facet < 0 && name == "table") facet = table_of(stone.solid);
+            if (facet < 0) {
+                std::vector<std::string> names;
+                for (const Facet& f : stone.solid.facets) names.push_back(f.name);
+                const auto near = nearest_name(name, names);
+                table.fail(
+                    "up",
+                    fmt::format(
+                        "the mesh {} has no facet \"{}\"{}; culet info -v lists its facets", mesh,
+                        name,
+                        near ? fmt::format(" (did you mean \"{}\"?)", *near) : std::string()));
+            }
+            stone.up_facet = stone.solid.facets[facet].name;
+            stone.up = stone.solid.facets[facet].plane.normal;
+            break;
+        }
+        default:
+            stone.up = unit_vector(table, "up", *table.vector("up"));
+    }
+}
+
 }  // namespace
 
 CrystalFrame crystal_frame_in(const TomlTable& table, OpticCharacter optic) {
@@ -121,22 +196,6 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
     table.fail("", k_no_material);
 }
 
-// Facets are found by their names.
-void take_design(const TomlTable& table, Solid& solid) {
-    const auto file = table.path("design");
-    if (!file) return;
-    solid.design = read_solid(*file).solid.design;
-    if (!solid.design)
-        table.fail("design", fmt::format("{} holds no design: name a GemCad .asc or .gem, or a "
-                                         "mesh of culet cut",
-                                         file->filename().string()));
-    const std::vector<DesignPlace> places = places_of(solid);
-    if (std::none_of(places.begin(), places.end(), [](const auto& at) { return at.tier >= 0; }))
-        table.fail("design", fmt::format("no facet of the mesh has a name of the design {}: give "
-                                         "the facets the design's names (culet info -v lists them)",
-                                         file->filename().string()));
-}
-
 StoneFile stone_of(const TomlTable& root) {
     root.refuse_unknown({"stone", "material", "reading", "silhouette", "fit"});
     const auto table = root.table("stone");
@@ -154,15 +213,7 @@ StoneFile stone_of(const TomlTable& root) {
         table->fail("unit", fmt::format("unit is \"{}\"; expected mm, cm, m or in", unit));
     }
 
-    result.has_material = table->has("material") || root.has("material");
-    if (result.has_material) stone.material = material_named_in(*table, root);
-    if (const auto own = table->number("density")) {
-        if (!(*own > 0.1 && *own < 30))
-            table->fail("density",
-                        fmt::format("density is {}; expected g/cm3 between 0.1 and 30", *own));
-        stone.material.density_g_cm3 = own;
-    }
-    if (result.has_material) stone.crystal = crystal_frame_in(*table, stone.material.optic);
+    take_material(*table, root, result);
     result.states_convex = table->has("convex");
     stone.convex = table->boolean("convex").value_or(true);
 
@@ -173,45 +224,8 @@ StoneFile stone_of(const TomlTable& root) {
     }
     stone.azimuth_from_mesh = zero == "mesh";
 
-    const auto mesh = table->path("mesh");
-    if (!mesh) table->fail("", "[stone] has no mesh: name the hand-made mesh, mesh = \"hand.obj\"");
-    result.mesh_file = *mesh;
-    SolidFile file = read_solid(result.mesh_file,
-                                table->has("up") ? Orientation::as_given : Orientation::upright);
-    stone.solid = std::move(file.solid);
-    stone.file_up = file.file_up;
-    result.notes = std::move(file.notes);
-    if (std::string odd = doubtful_size(stone.solid); !odd.empty() && !table->has("unit"))
-        result.notes.push_back("the mesh " + odd);
-    stone.facets_are_whole = file.facets_are_whole;
-    stone.changed = std::move(file.changed);
-    result.details = std::move(file.details);
-
-    switch (table->kind("up")) {
-        case TomlTable::Kind::missing:
-            break;
-        case TomlTable::Kind::text: {
-            const std::string name = *table->text("up");
-            int facet = find_facet(stone.solid, name);
-            if (facet < 0 && name == "table") facet = table_of(stone.solid);
-            if (facet < 0) {
-                std::vector<std::string> names;
-                for (const Facet& f : stone.solid.facets) names.push_back(f.name);
-                const auto near = nearest_name(name, names);
-                table->fail(
-                    "up",
-                    fmt::format(
-                        "the mesh {} has no facet \"{}\"{}; culet info -v lists its facets",
-                        mesh->filename().string(), name,
-                        near ? fmt::format(" (did you mean \"{}\"?)", *near) : std::string()));
-            }
-            stone.up_facet = stone.solid.facets[facet].name;
-            stone.up = stone.solid.facets[facet].plane.normal;
-            break;
-        }
-        default:
-            stone.up = unit_vector(*table, "up", *table->vector("up"));
-    }
+    take_mesh(*table, result);
+    take_up(*table, result.mesh_file.filename().string(), stone);
     turn_as_stated(table->has("optic_axis") || table->has("principal_axes"), result);
 
     take_design(*table, stone.solid);
