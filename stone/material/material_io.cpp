@@ -103,31 +103,22 @@ Spectrum absorption_of(const TomlTable& table, const std::string& key, OpticChar
     return absorption;
 }
 
-}  // namespace
-
-Material material_of(const TomlTable& table) {
-    table.refuse_unknown({"name", "optic", "density", "index", "absorption", "source"});
-    Material material;
-    material.id = "user";
-    material.name = table.text("name").value_or("material of " + table.file().filename().string());
-    material.source = table.text("source").value_or(table.file().filename().string());
+OpticCharacter optic_in(const TomlTable& table) {
     const std::string optic = table.text("optic").value_or("isotropic");
-    if (optic == "isotropic") {
-        material.optic = OpticCharacter::isotropic;
-    } else if (optic == "uniaxial") {
-        material.optic = OpticCharacter::uniaxial;
-    } else if (optic == "biaxial") {
-        material.optic = OpticCharacter::biaxial;
-    } else {
-        table.fail("optic",
-                   fmt::format("optic is \"{}\"; expected isotropic, uniaxial or biaxial", optic));
-    }
-    material.density_g_cm3 = table.number("density");
-    if (material.density_g_cm3 &&
-        !(*material.density_g_cm3 > 0.1 && *material.density_g_cm3 < 30)) {
-        table.fail("density", fmt::format("density is {}; expected g/cm3 between 0.1 and 30",
-                                          *material.density_g_cm3));
-    }
+    if (optic == "isotropic") return OpticCharacter::isotropic;
+    if (optic == "uniaxial") return OpticCharacter::uniaxial;
+    if (optic == "biaxial") return OpticCharacter::biaxial;
+    table.fail("optic",
+               fmt::format("optic is \"{}\"; expected isotropic, uniaxial or biaxial", optic));
+}
+
+void require_rays(const TomlTable& table, int rays) {
+    if (rays == 1) table.refuse_unknown({"n"});
+    if (rays == 2) table.refuse_unknown({"o", "e"});
+    if (rays == 3) table.refuse_unknown({"alpha", "beta", "gamma"});
+}
+
+void read_index(const TomlTable& table, Material& material) {
     const int rays = ray_count(material.optic);
     const auto index_kind = table.kind("index");
     if (index_kind == TomlTable::Kind::missing) table.fail("", "the material has no index");
@@ -139,34 +130,47 @@ Material material_of(const TomlTable& table) {
             material.index[ray] = index_of(table, "index", material.notes);
     } else {
         const TomlTable index = *table.table("index");
-        if (rays == 1) index.refuse_unknown({"n"});
-        if (rays == 2) index.refuse_unknown({"o", "e"});
-        if (rays == 3) index.refuse_unknown({"alpha", "beta", "gamma"});
+        require_rays(index, rays);
         for (int ray = 0; ray < rays; ++ray) {
             material.index[ray] = index_of(index, ray_name(material.optic, ray), material.notes);
         }
     }
-    const auto absorption_kind = table.kind("absorption");
-    if (absorption_kind == TomlTable::Kind::table) {
-        const TomlTable absorption = *table.table("absorption");
-        const bool per_ray = absorption.has("n") || absorption.has("o") || absorption.has("e") ||
-                             absorption.has("alpha") || absorption.has("beta") ||
-                             absorption.has("gamma");
-        if (per_ray && rays == 1) absorption.refuse_unknown({"n"});
-        if (per_ray && rays == 2) absorption.refuse_unknown({"o", "e"});
-        if (per_ray && rays == 3) absorption.refuse_unknown({"alpha", "beta", "gamma"});
-        for (int ray = 0; ray < rays; ++ray) {
-            material.absorption_per_mm[ray] =
-                per_ray ? absorption_of(absorption, ray_name(material.optic, ray), material.optic,
-                                        ray, material)
-                        : absorption_of(table, "absorption", material.optic, ray, material);
-        }
-    } else if (absorption_kind != TomlTable::Kind::missing) {
-        for (int ray = 0; ray < rays; ++ray) {
-            material.absorption_per_mm[ray] =
-                absorption_of(table, "absorption", material.optic, ray, material);
-        }
+}
+
+void read_absorption(const TomlTable& table, Material& material) {
+    const int rays = ray_count(material.optic);
+    bool per_ray = false;
+    if (table.kind("absorption") == TomlTable::Kind::table) {
+        const TomlTable form = *table.table("absorption");
+        for (const char* ray : {"n", "o", "e", "alpha", "beta", "gamma"})
+            per_ray = per_ray || form.has(ray);
+        if (per_ray) require_rays(form, rays);
     }
+    for (int ray = 0; ray < rays; ++ray) {
+        material.absorption_per_mm[ray] =
+            per_ray ? absorption_of(*table.table("absorption"), ray_name(material.optic, ray),
+                                    material.optic, ray, material)
+                    : absorption_of(table, "absorption", material.optic, ray, material);
+    }
+}
+
+}  // namespace
+
+Material material_of(const TomlTable& table) {
+    table.refuse_unknown({"name", "optic", "density", "index", "absorption", "source"});
+    Material material;
+    material.id = "user";
+    material.name = table.text("name").value_or("material of " + table.file().filename().string());
+    material.source = table.text("source").value_or(table.file().filename().string());
+    material.optic = optic_in(table);
+    material.density_g_cm3 = table.number("density");
+    if (material.density_g_cm3 &&
+        !(*material.density_g_cm3 > 0.1 && *material.density_g_cm3 < 30)) {
+        table.fail("density", fmt::format("density is {}; expected g/cm3 between 0.1 and 30",
+                                          *material.density_g_cm3));
+    }
+    read_index(table, material);
+    read_absorption(table, material);
     // A table that serves several rays gives its notes several times.
     std::vector<std::string>& notes = material.notes;
     std::sort(notes.begin(), notes.end());
