@@ -66,6 +66,10 @@ void orient_faces(FaceSoup& soup);
 /// face, if that leaves fewer open sides.
 void close_t_junctions(FaceSoup& soup, double tolerance);
 
+/// The outline of each facet: welds and orients the faces, merges those of one plane, removes
+/// corners within straight edges.
+std::vector<SoupFace> merged_outlines(FaceSoup& soup, double tolerance);
+
 /// The facet of each face, numbered in the order of their first faces.
 std::vector<int> facet_of_face(const FaceSoup& soup, double tolerance);
 

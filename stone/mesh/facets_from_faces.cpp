@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 
 #include "stone/design/design.h"
@@ -20,13 +19,6 @@ namespace {
 /// Planes from comments without a hash are used if corners are off by at most this share of the
 /// diameter, a little more than the meets of real designs miss.
 constexpr double k_plane_agrees = 1e-3;
-
-struct Outline {
-    std::vector<int> corners;
-    int name = -1;
-    Vec3 given_normal{0, 0, 0};
-    bool turned = false;
-};
 
 std::vector<Vec3> loop_of(const FaceSoup& soup, const std::vector<int>& corners) {
     std::vector<Vec3> loop;
@@ -87,121 +79,10 @@ void name_faces_by_planes(FaceSoup& soup) {
     }
 }
 
-/// Removes repeated corners, and faces without area because of that.
-void drop_collapsed_faces(FaceSoup& soup) {
-    const std::size_t before = soup.faces.size();
-    for (SoupFace& face : soup.faces) {
-        auto& corners = face.corners;
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-    }
-    std::erase_if(soup.faces, [](const SoupFace& face) { return face.corners.size() < 3; });
-    if (soup.faces.size() < before) {
-        soup.notes.push_back(fmt::format("left out {} faces with fewer than three distinct corners",
-                                         before - soup.faces.size()));
-    }
-}
-
-/// Empty when it is not a single loop.
-std::vector<int> outline_of(const FaceSoup& soup, const std::vector<int>& members) {
-    std::vector<std::pair<int, int>> sides;
-    for (const int f : members) {
-        const std::vector<int>& corners = soup.faces[f].corners;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            sides.emplace_back(corners[i], corners[(i + 1) % corners.size()]);
-        }
-    }
-    std::vector<std::pair<int, int>> sorted = sides;
-    std::sort(sorted.begin(), sorted.end());
-    std::unordered_map<int, int> next;
-    int start = -1;
-    for (const auto& [from, to] : sides) {
-        if (std::binary_search(sorted.begin(), sorted.end(), std::pair(to, from))) continue;
-        if (start < 0) start = from;
-        if (!next.emplace(from, to).second) return {};
-    }
-    std::vector<int> outline;
-    for (int at = start; start >= 0 && outline.size() <= next.size();) {
-        outline.push_back(at);
-        const auto step = next.find(at);
-        if (step == next.end()) return {};
-        at = step->second;
-        if (at == start) break;
-    }
-    return outline.size() == next.size() && outline.size() >= 3 ? outline : std::vector<int>{};
-}
-
-std::vector<Outline> merge_faces(FaceSoup& soup, double tolerance) {
-    const std::vector<int> facet = facet_of_face(soup, tolerance);
-    int count = 0;
-    for (const int f : facet) count = std::max(count, f + 1);
-    std::vector<std::vector<int>> members(count);
-    for (std::size_t i = 0; i < facet.size(); ++i) {
-        members[facet[i]].push_back(static_cast<int>(i));
-    }
-    std::vector<Outline> outlines;
-    int holed = 0;
-    for (const std::vector<int>& faces : members) {
-        const SoupFace& first = soup.faces[faces.front()];
-        std::vector<int> outline = faces.size() > 1 ? outline_of(soup, faces) : first.corners;
-        if (!outline.empty()) {
-            const bool turned = std::any_of(faces.begin(), faces.end(),
-                                            [&](int f) { return soup.faces[f].turned; });
-            outlines.push_back({std::move(outline), first.name, first.given_normal, turned});
-            continue;
-        }
-        // It has a hole, or touches itself in a corner, so it cannot be one facet.
-        ++holed;
-        for (const int f : faces) {
-            outlines.push_back(
-                {soup.faces[f].corners, soup.faces[f].name, {}, soup.faces[f].turned});
-        }
-    }
-    if (outlines.size() < soup.faces.size()) {
-        soup.notes.push_back(
-            fmt::format("merged {} faces into {} facets", soup.faces.size(), outlines.size()));
-    }
-    if (holed > 0) {
-        soup.notes.push_back(fmt::format(
-            "{} facets have a hole or touch themselves: their faces are left unmerged", holed));
-    }
-    return outlines;
-}
-
-void drop_straight_corners(const FaceSoup& soup, std::vector<Outline>& outlines, double tolerance) {
-    std::vector<std::vector<int>> facets_at(soup.vertices.size());
-    for (std::size_t f = 0; f < outlines.size(); ++f) {
-        for (const int corner : outlines[f].corners) {
-            facets_at[corner].push_back(static_cast<int>(f));
-        }
-    }
-    for (int v = 0; v < static_cast<int>(soup.vertices.size()); ++v) {
-        if (facets_at[v].size() != 2 || facets_at[v][0] == facets_at[v][1]) continue;
-        auto& a = outlines[facets_at[v][0]].corners;
-        auto& b = outlines[facets_at[v][1]].corners;
-        if (a.size() <= 3 || b.size() <= 3) continue;
-        const auto in_a = std::find(a.begin(), a.end(), v);
-        const auto in_b = std::find(b.begin(), b.end(), v);
-        const int before_a = in_a == a.begin() ? a.back() : *(in_a - 1);
-        const int after_a = in_a + 1 == a.end() ? a.front() : *(in_a + 1);
-        const int before_b = in_b == b.begin() ? b.back() : *(in_b - 1);
-        const int after_b = in_b + 1 == b.end() ? b.front() : *(in_b + 1);
-        if (before_a != after_b || after_a != before_b) continue;
-        const Vec3 &p = soup.vertices[before_a], &q = soup.vertices[after_a];
-        const Vec3& x = soup.vertices[v];
-        const double length = glm::length(q - p);
-        if (!(glm::dot(x - p, x - q) < 0) ||
-            !(glm::length(glm::cross(x - p, q - p)) <= tolerance * length)) {
-            continue;
-        }
-        a.erase(in_a);
-        b.erase(in_b);
-    }
-}
-
 /// The plane passes through the corners, unless the file gives the direction to more digits than
 /// they do (culet's ASCII STL).
-Plane facet_plane(const FaceSoup& soup, const Outline& outline, bool precise_normals, double size) {
+Plane facet_plane(const FaceSoup& soup, const SoupFace& outline, bool precise_normals,
+                  double size) {
     const Plane own = plane_through(loop_of(soup, outline.corners));
     const double length = glm::length(outline.given_normal);
     if (!precise_normals || !(length > 0)) return own;
@@ -230,7 +111,7 @@ void tell_unused_vertices(FaceSoup& soup) {
     }
 }
 
-void tell_turned_facets(const std::vector<Outline>& outlines, const Solid& solid, FaceSoup& soup) {
+void tell_turned_facets(const std::vector<SoupFace>& outlines, const Solid& solid, FaceSoup& soup) {
     constexpr int k_most_named = 5;
     std::string names;
     int count = 0;
@@ -261,6 +142,41 @@ void tell_turned_facets(const std::vector<Outline>& outlines, const Solid& solid
     soup.changed.push_back(facets_turned_round(why, count));
 }
 
+std::vector<SoupFace> stated_outlines(FaceSoup& soup) {
+    orient_faces(soup);
+    for (std::size_t i = 0; i < soup.faces.size(); ++i) {
+        Plane& plane = soup.planes[i].plane;
+        if (soup.faces[i].turned) plane = {-plane.normal, -plane.offset};
+    }
+    return soup.faces;
+}
+
+/// Returns the new index of each vertex; -1: no outline has it.
+std::vector<int> keep_used_vertices(const FaceSoup& soup, const std::vector<SoupFace>& outlines,
+                                    Solid& solid) {
+    std::vector<bool> used(soup.vertices.size(), false);
+    for (const SoupFace& outline : outlines) {
+        for (const int corner : outline.corners) used[corner] = true;
+    }
+    std::vector<int> index(soup.vertices.size(), -1);
+    for (std::size_t v = 0; v < used.size(); ++v) {
+        if (!used[v]) continue;
+        index[v] = static_cast<int>(solid.vertices.size());
+        solid.vertices.push_back(soup.vertices[v]);
+    }
+    return index;
+}
+
+void add_design(FaceSoup& soup, Solid& solid) {
+    if (soup.design.empty()) return;
+    try {
+        solid.design = std::make_shared<const Design>(design_in(soup.design));
+    } catch (const InputError& error) {
+        soup.notes.push_back(
+            fmt::format("the design in its comments is left out: {}", error.what()));
+    }
+}
+
 }  // namespace
 
 ReadSolid solid_from_faces(FaceSoup soup) {
@@ -269,39 +185,14 @@ ReadSolid solid_from_faces(FaceSoup soup) {
     if (stated != StatedPlanes::none) name_faces_by_planes(soup);
     const double size = size_of(soup);
     const double tolerance = merging_tolerance(soup, size);
-    std::vector<Outline> outlines;
-    if (stated == StatedPlanes::all) {
-        orient_faces(soup);
-        for (std::size_t i = 0; i < soup.faces.size(); ++i) {
-            SoupFace& face = soup.faces[i];
-            Plane& plane = soup.planes[i].plane;
-            if (face.turned) plane = {-plane.normal, -plane.offset};
-            outlines.push_back({std::move(face.corners), face.name, {}, face.turned});
-        }
-    } else {
-        weld_vertices(soup);
-        drop_collapsed_faces(soup);
-        drop_repeated_faces(soup);
-        close_t_junctions(soup, tolerance);
-        orient_faces(soup);
-        outlines = merge_faces(soup, tolerance);
-        drop_straight_corners(soup, outlines, tolerance);
-    }
+    const std::vector<SoupFace> outlines =
+        stated == StatedPlanes::all ? stated_outlines(soup) : merged_outlines(soup, tolerance);
 
     ReadSolid result;
     const bool precise_normals = soup.normal_precision.rounding() < 1e-14;
-    std::vector<bool> used(soup.vertices.size(), false);
-    for (const Outline& outline : outlines) {
-        for (const int corner : outline.corners) used[corner] = true;
-    }
-    std::vector<int> index(soup.vertices.size(), -1);
-    for (std::size_t v = 0; v < used.size(); ++v) {
-        if (!used[v]) continue;
-        index[v] = static_cast<int>(result.solid.vertices.size());
-        result.solid.vertices.push_back(soup.vertices[v]);
-    }
+    const std::vector<int> index = keep_used_vertices(soup, outlines, result.solid);
     std::vector<std::string> names;
-    for (const Outline& outline : outlines) {
+    for (const SoupFace& outline : outlines) {
         names.push_back(outline.name >= 0 ? soup.names[outline.name] : std::string());
     }
     names = unique_names(std::move(names));
@@ -315,14 +206,7 @@ ReadSolid solid_from_faces(FaceSoup soup) {
         result.solid.facets.push_back(std::move(facet));
     }
     tell_turned_facets(outlines, result.solid, soup);
-    if (!soup.design.empty()) {
-        try {
-            result.solid.design = std::make_shared<const Design>(design_in(soup.design));
-        } catch (const InputError& error) {
-            soup.notes.push_back(
-                fmt::format("the design in its comments is left out: {}", error.what()));
-        }
-    }
+    add_design(soup, result.solid);
     result.notes = std::move(soup.notes);
     result.changed = std::move(soup.changed);
     result.planes_stated = stated == StatedPlanes::all;
