@@ -258,10 +258,7 @@ std::vector<int> find_repeated(std::span<const NamedPlane> planes,
     return repeated;
 }
 
-}  // namespace
-
-HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes) {
-    HalfSpaceSolid result;
+void require_directions(std::span<const NamedPlane> planes) {
     for (const NamedPlane& p : planes) {
         const double length = glm::length(p.plane.normal);
         if (!all_finite(p.plane.normal) || !std::isfinite(p.plane.offset) ||
@@ -274,6 +271,13 @@ HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes) {
                 fmt::format("the plane of facet {} has no direction: its normal is zero", p.name));
         }
     }
+}
+
+}  // namespace
+
+HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes) {
+    HalfSpaceSolid result;
+    require_directions(planes);
     const int exponent = scale_exponent(planes);
     std::vector<Exact::Plane_3> exact;
     for (const NamedPlane& p : planes) exact.push_back(exact_plane(p.plane, exponent));
