@@ -188,6 +188,63 @@ std::string key_of(const Chart& chart) {
     return key;
 }
 
+// Points and lines that names keep off.
+LabelRoom room_beside(const Chart& chart, const Axis& x, const Axis& y) {
+    LabelRoom room({k_left, k_top - 16, k_width - 4, k_height - k_bottom});
+    for (const ChartSeries& series : chart.series) {
+        const ChartPoint* before = nullptr;
+        for (const ChartPoint& p : series.points) {
+            if (!shows(chart, p)) continue;
+            const double px = x.at(p.x), py = y.at(p.y);
+            if (series.markers) room.take({px - 7, py - 7, px + 7, py + 7});
+            if (series.line && before != nullptr)
+                room.take_line(x.at(before->x), y.at(before->y), px, py);
+            before = &p;
+        }
+    }
+    return room;
+}
+
+struct Marks {
+    std::string lines, points, names;
+};
+
+void draw_series(const Chart& chart, std::size_t s, const Axis& x, const Axis& y, LabelRoom& room,
+                 Marks& marks) {
+    const ChartSeries& series = chart.series[s];
+    const char* colour = colour_of(chart, s);
+    std::string path;
+    for (const ChartPoint& p : series.points) {
+        if (!shows(chart, p)) continue;
+        const double px = x.at(p.x), py = y.at(p.y);
+        path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
+        if (shows(chart, {p.x, p.y_low, {}, {}}) && shows(chart, {p.x, p.y_high, {}, {}})) {
+            marks.lines += fmt::format(
+                "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"{3}\" "
+                "stroke-width=\"2\"/>",
+                px, y.at(p.y_low), y.at(p.y_high), colour);
+        }
+        if (!series.markers) continue;
+        marks.points +=
+            fmt::format("<g role=\"img\" aria-label=\"{0}\"><title>{0}</title>{1}</g>\n",
+                        escaped(p.about.empty() ? series.name + " " + p.label : p.about),
+                        marker(s, px, py, colour, p.hollow));
+        if (p.label.empty()) continue;
+        const double width = 0.56 * (k_text - 1) * static_cast<double>(p.label.size()) + 2;
+        if (const auto box = room.find(px, py, width, k_text)) {
+            marks.names += fmt::format(
+                "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" "
+                "font-size=\"{:.0f}\" fill=\"{}\">{}</text>\n",
+                0.5 * (box->x0 + box->x1), box->y1 - 4, k_text - 1, colour, escaped(p.label));
+        }
+    }
+    if (series.line && !path.empty()) {
+        marks.lines +=
+            fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n", path,
+                        colour, dash_of(series));
+    }
+}
+
 }  // namespace
 
 std::string draw_chart_svg(const Chart& chart) {
@@ -213,60 +270,10 @@ std::string draw_chart_svg(const Chart& chart) {
         "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
         k_width, k_height, k_svg_font, k_text, escaped(chart.title), escaped(chart.about));
     svg += frame(chart, x, y);
-
-    LabelRoom room({k_left, k_top - 16, k_width - 4, k_height - k_bottom});
-    std::string lines, points, names;
-    for (const ChartSeries& series : chart.series) {
-        for (const ChartPoint& p : series.points) {
-            if (shows(chart, p) && series.markers) {
-                room.take({x.at(p.x) - 7, y.at(p.y) - 7, x.at(p.x) + 7, y.at(p.y) + 7});
-            }
-        }
-    }
-    for (const ChartSeries& series : chart.series) {
-        const ChartPoint* before = nullptr;
-        for (const ChartPoint& p : series.points) {
-            if (!series.line || !shows(chart, p)) continue;
-            if (before != nullptr) {
-                room.take_line(x.at(before->x), y.at(before->y), x.at(p.x), y.at(p.y));
-            }
-            before = &p;
-        }
-    }
-    for (std::size_t s = 0; s < chart.series.size(); ++s) {
-        const ChartSeries& series = chart.series[s];
-        const char* colour = colour_of(chart, s);
-        std::string path;
-        for (const ChartPoint& p : series.points) {
-            if (!shows(chart, p)) continue;
-            const double px = x.at(p.x), py = y.at(p.y);
-            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
-            if (shows(chart, {p.x, p.y_low, {}, {}}) && shows(chart, {p.x, p.y_high, {}, {}})) {
-                lines += fmt::format(
-                    "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}\" stroke=\"{3}\" "
-                    "stroke-width=\"2\"/>",
-                    px, y.at(p.y_low), y.at(p.y_high), colour);
-            }
-            if (!series.markers) continue;
-            points += fmt::format("<g role=\"img\" aria-label=\"{0}\"><title>{0}</title>{1}</g>\n",
-                                  escaped(p.about.empty() ? series.name + " " + p.label : p.about),
-                                  marker(s, px, py, colour, p.hollow));
-            if (p.label.empty()) continue;
-            const double width = 0.56 * (k_text - 1) * static_cast<double>(p.label.size()) + 2;
-            if (const auto box = room.find(px, py, width, k_text)) {
-                names += fmt::format(
-                    "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" "
-                    "font-size=\"{:.0f}\" fill=\"{}\">{}</text>\n",
-                    0.5 * (box->x0 + box->x1), box->y1 - 4, k_text - 1, colour, escaped(p.label));
-            }
-        }
-        if (series.line && !path.empty()) {
-            lines +=
-                fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
-                            path, colour, dash_of(series));
-        }
-    }
-    return svg + lines + points + names + key_of(chart) + "</svg>\n";
+    LabelRoom room = room_beside(chart, x, y);
+    Marks marks;
+    for (std::size_t s = 0; s < chart.series.size(); ++s) draw_series(chart, s, x, y, room, marks);
+    return svg + marks.lines + marks.points + marks.names + key_of(chart) + "</svg>\n";
 }
 
 }  // namespace culet
