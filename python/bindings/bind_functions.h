@@ -5,7 +5,10 @@
 
 namespace culet {
 
+struct PythonStone;
+
 void bind_stone(pybind11::module_& module);
+void bind_stone_shape(pybind11::class_<PythonStone>& stone);
 void bind_fit(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_picture(pybind11::module_& module);

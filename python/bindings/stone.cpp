@@ -10,10 +10,8 @@
 #include "stone/design/design.h"
 #include "stone/file_kind.h"
 #include "stone/material/material_io.h"
-#include "stone/solid/facet_triangles.h"
 #include "stone/solid_input.h"
 #include "stone/stone_io.h"
-#include "stone/upright.h"
 
 namespace py = pybind11;
 namespace fs = std::filesystem;
@@ -21,12 +19,6 @@ namespace fs = std::filesystem;
 namespace culet {
 
 namespace {
-
-using Sizes = std::vector<py::ssize_t>;
-
-py::ssize_t size_of(const auto& list) {
-    return static_cast<py::ssize_t>(list.size());
-}
 
 PythonStone load_stone(const fs::path& file, const std::vector<std::string>& overrides,
                        const std::string& material) {
@@ -166,96 +158,55 @@ PythonStone with_readings(PythonStone stone, const py::iterable& rows) {
     return stone;
 }
 
-py::array_t<double> normals_of(const PythonStone& s) {
-    std::vector<double> values;
-    for (const Facet& f : s.stone.solid.facets)
-        values.insert(values.end(), {f.plane.normal.x, f.plane.normal.y, f.plane.normal.z});
-    return array_of(values, Sizes{size_of(s.stone.solid.facets), 3});
-}
-
-py::array_t<double> vertices_of(const PythonStone& s) {
-    std::vector<double> values;
-    for (const Vec3& v : s.stone.solid.vertices) values.insert(values.end(), {v.x, v.y, v.z});
-    return array_of(values, Sizes{size_of(s.stone.solid.vertices), 3});
-}
-
-py::array_t<double> of_facets(const PythonStone& s, const auto& number) {
-    std::vector<double> values;
-    for (const Facet& f : s.stone.solid.facets) values.push_back(number(f));
-    return array_of(values, Sizes{size_of(values)});
-}
-
-py::tuple triangles_of(const PythonStone& s) {
-    std::vector<int> corners, facets;
-    for (std::size_t f = 0; f < s.stone.solid.facets.size(); ++f) {
-        for (const auto& t : facet_triangles(s.stone.solid, s.stone.solid.facets[f])) {
-            corners.insert(corners.end(), t.begin(), t.end());
-            facets.push_back(static_cast<int>(f));
-        }
-    }
-    return py::make_tuple(array_of(corners, Sizes{size_of(facets), 3}),
-                          array_of(facets, Sizes{size_of(facets)}));
-}
-
-void bind_shape(py::class_<PythonStone>& stone) {
+void bind_description(py::class_<PythonStone>& stone) {
     stone
         .def_property_readonly(
-            "facets",
-            [](const PythonStone& s) {
-                std::vector<std::string> names;
-                for (const Facet& f : s.stone.solid.facets) names.push_back(f.name);
-                return names;
-            },
-            "Names of the facets, F of them.")
-        .def_property_readonly("normals", normals_of, "(F, 3): unit normals, out of the stone.")
+            "name", [](const PythonStone& s) { return s.stone.name; }, "")
         .def_property_readonly(
-            "offsets",
-            [](const PythonStone& s) {
-                return of_facets(s, [](const Facet& f) { return f.plane.offset; });
-            },
-            "(F,): a facet's points x satisfy normal . x = offset; in `unit`.")
+            "unit", [](const PythonStone& s) { return std::string(name_of(s.stone.unit)); },
+            "mm, cm, m or in.")
         .def_property_readonly(
-            "inclinations",
-            [](const PythonStone& s) {
-                const Vec3 up = up_of(s.stone);
-                return of_facets(
-                    s, [&](const Facet& f) { return degrees(inclination(f.plane.normal, up)); });
+            "material",
+            [](const PythonStone& s) -> std::optional<std::string> {
+                if (!s.has_material) return std::nullopt;
+                return s.stone.material.id;
             },
-            "(F,): degrees, 0 (table) to 90 (girdle), from the stone's up direction.")
+            "Name of the material; None: it has none.")
         .def_property_readonly(
-            "azimuths",
-            [](const PythonStone& s) {
-                return of_facets(s,
-                                 [](const Facet& f) { return degrees(azimuth(f.plane.normal)); });
-            },
-            "(F,): degrees, counter-clockwise about +z from +x, seen from above.")
-        .def_property_readonly(
-            "areas",
-            [](const PythonStone& s) {
-                return of_facets(s, [&](const Facet& f) { return area(s.stone.solid, f); });
-            },
-            "(F,): in `unit` squared.")
-        .def_property_readonly("vertices", vertices_of, "(V, 3): in `unit`.")
-        .def_property_readonly(
-            "corners",
-            [](const PythonStone& s) {
-                std::vector<std::vector<int>> corners;
-                for (const Facet& f : s.stone.solid.facets) corners.push_back(f.corners);
-                return corners;
-            },
-            "Of each facet the rows of `vertices`, counter-clockwise seen from outside.")
-        .def_property_readonly("triangles", triangles_of,
-                               "Two arrays: (T, 3) rows of `vertices`, and (T,) the facet of each.")
-        .def_property_readonly(
-            "volume", [](const PythonStone& s) { return volume(s.stone.solid); },
-            "In `unit` cubed.")
-        .def(
-            "save",
-            [](const PythonStone& s, const fs::path& file) {
-                require_solid_name(file);
-                write_solid(s.stone.solid, file);
-            },
-            py::arg("file"), "Writes the mesh: .obj .off .ply .stl .asc, by the name's ending.");
+            "has_uncertainty", [](const PythonStone& s) { return s.uncertainty.has_value(); },
+            "True of a fitted stone, which knows how sure its facets are.")
+        .def_readonly("notes", &PythonStone::notes, "What there was to say about its file.")
+        .def("__repr__", [](const PythonStone& s) {
+            return fmt::format("<culet.Stone {}: {} facets, {}, {} readings>", s.stone.name,
+                               s.stone.solid.facets.size(),
+                               s.has_material ? s.stone.material.id : "no material",
+                               s.readings.size());
+        });
+}
+
+void bind_files(py::module_& module) {
+    module.def("load_stone", load_stone, py::arg("file"), py::arg("overrides"),
+               py::arg("material"));
+    module.def(
+        "kind_of",
+        [](const fs::path& file) {
+            switch (kind_of(file)) {
+                case FileKind::solid:
+                    return "solid";
+                case FileKind::stone:
+                    return "stone";
+                case FileKind::scene:
+                    return "scene";
+                case FileKind::picture:
+                    return "picture";
+                default:
+                    return "other";
+            }
+        },
+        py::arg("file"));
+    module.def(
+        "words_for", [](const fs::path& file) { return words_for(kind_of(file)); },
+        py::arg("file"));
 }
 
 }  // namespace
@@ -293,52 +244,10 @@ void bind_stone(py::module_& module) {
                 for (const WrittenReading& r : s.readings) rows.append(as_dict(r));
                 return rows;
             },
-            "The readings of its file, a dict each.")
-        .def_property_readonly(
-            "name", [](const PythonStone& s) { return s.stone.name; }, "")
-        .def_property_readonly(
-            "unit", [](const PythonStone& s) { return std::string(name_of(s.stone.unit)); },
-            "mm, cm, m or in.")
-        .def_property_readonly(
-            "material",
-            [](const PythonStone& s) -> std::optional<std::string> {
-                if (!s.has_material) return std::nullopt;
-                return s.stone.material.id;
-            },
-            "Name of the material; None: it has none.")
-        .def_property_readonly(
-            "has_uncertainty", [](const PythonStone& s) { return s.uncertainty.has_value(); },
-            "True of a fitted stone, which knows how sure its facets are.")
-        .def_readonly("notes", &PythonStone::notes, "What there was to say about its file.")
-        .def("__repr__", [](const PythonStone& s) {
-            return fmt::format("<culet.Stone {}: {} facets, {}, {} readings>", s.stone.name,
-                               s.stone.solid.facets.size(),
-                               s.has_material ? s.stone.material.id : "no material",
-                               s.readings.size());
-        });
-    bind_shape(stone);
-    module.def("load_stone", load_stone, py::arg("file"), py::arg("overrides"),
-               py::arg("material"));
-    module.def(
-        "kind_of",
-        [](const fs::path& file) {
-            switch (kind_of(file)) {
-                case FileKind::solid:
-                    return "solid";
-                case FileKind::stone:
-                    return "stone";
-                case FileKind::scene:
-                    return "scene";
-                case FileKind::picture:
-                    return "picture";
-                default:
-                    return "other";
-            }
-        },
-        py::arg("file"));
-    module.def(
-        "words_for", [](const fs::path& file) { return words_for(kind_of(file)); },
-        py::arg("file"));
+            "The readings of its file, a dict each.");
+    bind_description(stone);
+    bind_stone_shape(stone);
+    bind_files(module);
 }
 
 }  // namespace culet
