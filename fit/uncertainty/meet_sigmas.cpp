@@ -110,7 +110,7 @@ int estimate_meet_sigmas(FitModel& model, Finished& finished, const FitOptions& 
                           0};
         agree_with_residuals(model, solution.finished, options, progress);
         steps += solution.finished.iterations;
-        end.sigmas = model.meets().group_sigmas;
+        solution.sigmas = model.meets().group_sigmas;
         const bool known = std::any_of(
             solutions.begin(), solutions.end(),
             [&](const Solution& other) { return is_same(other.sigmas, solution.sigmas); });
