@@ -125,17 +125,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                      "print what would be simulated, left out, and why; draw nothing");
     command.add_flag("--verify", options.verify,
                      "compare some pixels with the reference, every effect on");
-    CLI::Option* const uncertainty =
-        command
-            .add_option("--uncertainty", options.uncertainty,
-                        "report of the stone's fit: the .exr gets the layers mean, sigma and "
-                        "bands, of stones drawn from what the readings leave open")
-            ->type_name("FIT.json")
-            ->excludes(frames);
-    command.add_option("--draws", options.draws, "stones drawn from the uncertainty")
-        ->needs(uncertainty)
-        ->check(CLI::Range(2, 100000))
-        ->capture_default_str();
+    add_uncertainty(command, options, frames);
     command.add_flag("--spectral", options.spectral,
                      "Stokes parameters S0 to S3 at every wavelength in the .exr");
     add_film(command, options);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "render/scene/scene.h"
 
