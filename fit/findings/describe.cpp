@@ -92,8 +92,8 @@ void describe_meets(const FitModel& model, const Shape& shape, const Covariance&
         const bool may_meet = meet.how == "released" && meet.tested > 0 && meet.p > 0.05;
         if (!meet.contradicted && !may_meet) continue;
         meet.advice = fmt::format(
-            "meet of {}: planes miss by {} ± {}: {}", name_list(meet.facets),
-            length_words(meet.miss, result.unit), length_words(meet.sigma, result.unit),
+            "meet of {}: planes miss by {}: {}", name_list(meet.facets),
+            length_words(meet.miss, meet.sigma, result.unit),
             meet.contradicted ? "release it" : "within the readings this may be a common point");
     }
 }

@@ -90,10 +90,10 @@ std::string OpenShape::words(const ShapeFinding& finding) const {
                             name_list({finding.facets.begin() + 2, finding.facets.end()}));
     }
     const bool vanishes = finding.kind == Shapes::edge_vanishes;
-    return fmt::format("{}edge {} {} {} ± {} long: {}", vanishes ? "the readings want " : "", edge,
-                       vanishes ? "to be" : "is", length_words(finding.value, result_.unit),
-                       length_words(finding.sigma, result_.unit),
-                       vanishes ? "it is held at zero" : "the readings leave its sign open");
+    return fmt::format("{}edge {} {} {} long: {}", vanishes ? "the readings want " : "", edge,
+                       vanishes ? "to be" : "is",
+                       length_words(finding.value, finding.sigma, result_.unit),
+                       vanishes ? "it is held at zero" : "it may have no length");
 }
 
 void OpenShape::add(Shapes kind, std::vector<std::string> facets, double unit, double value,

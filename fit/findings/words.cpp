@@ -33,10 +33,11 @@ std::string slip_words(const Proposal& proposal) {
                        (proposal.in_radians ? degrees(1) : 1) * proposal.corrected, proposal.slip);
 }
 
-std::string length_words(double value, LengthUnit unit) {
-    const double micrometres = value * mm_per(unit) * 1000;
-    if (std::abs(micrometres) < 1000) return fmt::format("{:.2g} um", micrometres);
-    return fmt::format("{:.3g} {}", value, name_of(unit));
+std::string length_words(double value, double sigma, LengthUnit unit) {
+    const double micrometres = 1000 * mm_per(unit);
+    if (std::abs(micrometres * value) < 1000)
+        return fmt::format("{:.2g} ± {:.2g} µm", micrometres * value, micrometres * sigma);
+    return fmt::format("{:.3g} ± {:.2g} {}", value, sigma, name_of(unit));
 }
 
 std::string sentence_of(std::string text) {

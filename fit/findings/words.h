@@ -20,8 +20,8 @@ double file_unit(ReadingKind kind);
 /// `; 33.8? (two digits swapped)`; empty if no slip explains the reading.
 std::string slip_words(const Proposal& proposal);
 
-/// In micrometres below a millimetre, else in `unit`.
-std::string length_words(double value, LengthUnit unit);
+/// `4 ± 6 µm`: in micrometres below a millimetre, else in `unit`.
+std::string length_words(double value, double sigma, LengthUnit unit);
 
 /// Adds a capital at the beginning and a full stop at the end.
 std::string sentence_of(std::string text);

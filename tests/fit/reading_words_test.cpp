@@ -218,7 +218,7 @@ TEST_F(Words, TableIsTheMeanOverOppositeCorners) {
     EXPECT_EQ(rows("azimuth,C1,0,0.1\ntable,,3.42,0.02\n").size(), 5u);
     stone_ = stone_of(make_cut("step"));
     stone_.up_facet = "T";
-    EXPECT_THAT(complaint("table,,3,0.01\n"), HasSubstr("no regular polygon"));
+    EXPECT_THAT(complaint("table,,3,0.01\n"), HasSubstr("not a regular polygon"));
 }
 
 TEST_F(Words, CrownAngleIsTheMeanOfTheMains) {

@@ -63,7 +63,7 @@ TEST(Summary, NamesTheSlipThatWouldExplainASuspect) {
     r.findings.suspects = {"r0"};
     r.findings.proposals = {
         {"r0", true, radians(34.41), radians(0.1), "digits swapped", radians(34.4), {}}};
-    EXPECT_THAT(fit_summary(r), Contains(says("34.41 +- 0.1", "digits swapped", "34.4?")));
+    EXPECT_THAT(fit_summary(r), Contains(says("34.41 ± 0.1", "digits swapped", "34.4?")));
 }
 
 TEST(Summary, NamesASetOnlyWhereNoSingleReadingExplains) {
@@ -85,17 +85,17 @@ TEST(Summary, TellsWhatWasFoundOut) {
     r.findings.own_axis.azimuth = radians(120);
     MeetFinding meet;
     meet.contradicted = true;
-    meet.advice = "meet of P1..P8: planes miss by 20 um: release it";
+    meet.advice = "meet of P1..P8: planes miss by 20 µm: release it";
     r.findings.meets = {meet, {}};
     r.findings.symmetry.emplace();
     r.findings.symmetry->message = "C8v is supported";
     const auto lines = fit_summary(r);
     // Findings keep their wording; a sentence begins with a capital letter.
     for (const char* words : {"azimuth of star S3", "edges gone: A|B",
-                              "P1..P8: planes miss by 20 um: release it", "C8v is supported"}) {
+                              "P1..P8: planes miss by 20 µm: release it", "C8v is supported"}) {
         EXPECT_THAT(lines, Contains(HasSubstr(words)));
     }
-    EXPECT_THAT(lines, Contains(HasSubstr("0.8 +- 0.04")));
+    EXPECT_THAT(lines, Contains(HasSubstr("0.8 ± 0.04")));
     EXPECT_THAT(lines, Contains(says("azimuth", "S4")));
     // A tilt within its uncertainty is not reported, and a reading that gains little is not
     // requested.

@@ -113,7 +113,7 @@ using Pixels = std::vector<std::pair<int, int>>;
 
 TEST(BrightOutliers, HaveMoreThanAShareOfTheLightAndThan30Means) {
     Picture picture = grey_picture(100, 100);
-    EXPECT_TRUE(outstanding_pixels(picture, 1, 1e-6, 10).empty()) << "all are alike";
+    EXPECT_TRUE(bright_outliers(picture, 1, 1e-6, 10).empty()) << "all are alike";
     // Of 5000, plus what they add themselves.
     light_up(picture, 7, 30, 30);
     light_up(picture, 60, 2, 100);
