@@ -54,13 +54,21 @@ std::vector<std::vector<std::size_t>> views_of(const std::vector<SortedShot>& sh
     return views;
 }
 
-ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) {
+namespace {
+
+/// The shots of all views, and which belong to each.
+struct GroupedShots {
+    std::vector<SortedShot> shots;
+    std::vector<std::vector<std::size_t>> views;
+};
+
+GroupedShots grouped(const BallSeries& series) {
     std::vector<std::filesystem::path> files = series.files;
-    std::vector<std::vector<std::size_t>> groups;
+    GroupedShots result;
     for (const auto& view : series.views) {
-        groups.emplace_back();
+        result.views.emplace_back();
         for (const auto& file : view) {
-            groups.back().push_back(files.size());
+            result.views.back().push_back(files.size());
             files.push_back(file);
         }
     }
@@ -73,41 +81,64 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
                         "the order of the files",
                         series.exposures.size(), files.size()));
     }
-    std::vector<SortedShot> shots;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        shots.push_back({files[i], series.exposures.empty()
-                                       ? exposure_of(read_shot_data(files[i]))
-                                       : std::optional<double>(series.exposures[i])});
+        result.shots.push_back({files[i], series.exposures.empty()
+                                              ? exposure_of(read_shot_data(files[i]))
+                                              : std::optional<double>(series.exposures[i])});
     }
-    if (groups.empty()) groups = views_of(shots);
+    if (result.views.empty()) result.views = views_of(result.shots);
+    return result;
+}
 
+std::vector<BracketShot> bracket_of(const GroupedShots& all, std::size_t view) {
+    const std::vector<std::size_t>& group = all.views[view];
+    std::vector<BracketShot> bracket;
+    for (const std::size_t i : group) {
+        const SortedShot& shot = all.shots[i];
+        if (!shot.exposure && group.size() > 1) {
+            throw InputError(shot.file,
+                             "says no exposure time: give one for each photograph with "
+                             "--exposure 1/10,1/40,...");
+        }
+        bracket.push_back({shot.file.string(), shot.exposure.value_or(1.0),
+                           [file = shot.file] { return read_photo(file); }});
+    }
+    return bracket;
+}
+
+ProbeView view_of(Photo photo, const std::string& name, const std::optional<Lens>& given) {
+    ProbeView view;
+    view.name = name;
+    view.photo = std::move(photo);
+    view.focal_px = focal_px_of(view.photo.shot, std::hypot(view.photo.width, view.photo.height));
+    if (given) {
+        const Lens lens = lens_for(*given, view.photo.width, view.photo.height, view.name);
+        undistort(view.photo, lens);
+        view.focal_px = (lens.focal_x + lens.focal_y) / 2;
+        view.principal = PixelPlace{lens.principal_x, lens.principal_y};
+    }
+    return view;
+}
+
+}  // namespace
+
+ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) {
+    const GroupedShots all = grouped(series);
+    const std::size_t views = all.views.size();
     ReadSeries result;
     double first_exposure = 0;
-    for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (std::size_t g = 0; g < views; ++g) {
         const Progress view_progress = [&](double part) {
             return !progress ||
-                   progress((static_cast<double>(g) + part) / static_cast<double>(groups.size()));
+                   progress((static_cast<double>(g) + part) / static_cast<double>(views));
         };
-        std::vector<BracketShot> bracket;
-        bool known = true;
-        for (const std::size_t i : groups[g]) {
-            if (!shots[i].exposure) {
-                known = false;
-                if (groups[g].size() > 1) {
-                    throw InputError(files[i],
-                                     "says no exposure time: give one for each photograph with "
-                                     "--exposure 1/10,1/40,...");
-                }
-            }
-            bracket.push_back({files[i].string(), shots[i].exposure.value_or(1.0),
-                               [file = files[i]] { return read_photo(file); }});
-        }
+        const std::vector<BracketShot> bracket = bracket_of(all, g);
         const double exposure = bracket[0].exposure;
         if (g == 0) first_exposure = exposure;
         const std::string& name = bracket[0].name;
         Bracket merged = merge_bracket(bracket, {}, view_progress);
         // Convert to units of the very first shot.
-        if (known && first_exposure > 0) {
+        if (all.shots[all.views[g][0]].exposure && first_exposure > 0) {
             const auto scale = static_cast<float>(first_exposure / exposure);
             for (float& v : merged.photo.rgb) v *= scale;
             for (float& v : merged.photo.variance) v *= scale * scale;
@@ -119,19 +150,7 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
             result.notes.push_back(fmt::format("{}: {}: the light is as right as that curve", name,
                                                merged.photo.not_photometric));
         }
-        ProbeView view;
-        view.name = name;
-        view.photo = std::move(merged.photo);
-        view.focal_px =
-            focal_px_of(view.photo.shot, std::hypot(view.photo.width, view.photo.height));
-        if (series.lens) {
-            const Lens lens =
-                lens_for(*series.lens, view.photo.width, view.photo.height, view.name);
-            undistort(view.photo, lens);
-            view.focal_px = (lens.focal_x + lens.focal_y) / 2;
-            view.principal = PixelPlace{lens.principal_x, lens.principal_y};
-        }
-        result.views.push_back(std::move(view));
+        result.views.push_back(view_of(std::move(merged.photo), name, series.lens));
     }
     return result;
 }

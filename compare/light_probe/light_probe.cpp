@@ -9,10 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "compare/light_probe/probe_certainty.h"
 #include "compare/light_probe/view_places.h"
-#include "render/scene/environment_layout.h"
-#include "stone/numbers/quantile.h"
-#include "stone/numbers/units.h"
 #include "stone/progress/check_stop.h"
 #include "stone/text/errors.h"
 
@@ -22,7 +20,6 @@ namespace {
 
 constexpr double k_smallest_radius = 20;  // pixels
 constexpr double k_usual_distance = 30;   // radii, the default
-constexpr double k_much = 0.7;            // stops between two views: too much disagreement
 constexpr int k_narrowest = 128, k_widest = 4096;
 
 [[noreturn]] void refuse(const ProbeView& view, const std::string& message) {
@@ -77,103 +74,6 @@ double over_exposed(const ProbeView& view, const Photo& picture, const BallCircl
     return over / std::max(pixels, 1.0);
 }
 
-void doubt_views(LightProbe& probe) {
-    for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
-        const ViewAlignment& a = probe.alignments[v];
-        if (!a.ambiguous) continue;
-        probe.doubt = fmt::format(
-            "{}: the views do not fit together in one way only (correlation {:.2f}, the next best "
-            "turn {:.2f}): {}, or check that they show one room",
-            probe.views[v + 1].name, a.correlation, a.rival,
-            probe.views.size() == 2 ? "say how far the camera went with --turned DEGREES"
-                                    : "leave it out");
-    }
-    if (!probe.doubt.empty() || probe.alignments.empty()) return;
-    if (probe.middle_disagreement <= k_much) {
-        if (probe.mean_disagreement > k_much) {
-            probe.notes.push_back(
-                "what is near the ball, and the photographer, is elsewhere in each view: light "
-                "from there is a mean (see the disagreement picture)");
-        }
-        return;
-    }
-    const auto worst = std::max_element(
-        probe.alignments.begin(), probe.alignments.end(),
-        [](const ViewAlignment& a, const ViewAlignment& b) { return a.residual < b.residual; });
-    const std::string what_to_do =
-        probe.views.size() == 2
-            ? "look"
-            : fmt::format("leave out {}, which differs the most, or look",
-                          probe.views[std::size_t(worst - probe.alignments.begin()) + 1].name);
-    probe.doubt = fmt::format(
-        "the views differ by {:.1f} stops over half of the room: {} at the disagreement picture "
-        "(did lights change or the ball move?)",
-        probe.middle_disagreement, what_to_do);
-}
-
-// Sets notes for people, and `doubt`.
-void assess(LightProbe& probe) {
-    double omega_sum = 0, covered = 0;
-    std::vector<float> stops;
-    double sum = 0;
-    const MergedLight& light = probe.light;
-    for (int y = 0; y < light.map.height; ++y) {
-        const double omega = lat_long_solid_angle(y, light.map.width, light.map.height);
-        for (int x = 0; x < light.map.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * light.map.width + x;
-            omega_sum += omega;
-            if (light.coverage[i] > 1e-4f) covered += omega;
-            if (std::isfinite(light.disagreement[i])) {
-                stops.push_back(light.disagreement[i]);
-                sum += light.disagreement[i];
-            }
-        }
-    }
-    probe.covered = covered / omega_sum;
-    if (!stops.empty()) {
-        probe.mean_disagreement = sum / static_cast<double>(stops.size());
-        probe.middle_disagreement = quantile(stops, 0.5);
-        probe.worst_disagreement = quantile(std::move(stops), 0.99);
-    }
-    const double missing = 100 * (1 - probe.covered);
-    if (probe.views.size() == 1 || probe.moved) {
-        probe.notes.push_back(
-            fmt::format("one view: the {:.0f} degrees behind the ball are filled from around "
-                        "them, and camera and photographer are still in the light; a second view "
-                        "from the side mends both",
-                        2 * degrees(std::asin(1 / probe.views[0].distance))));
-    } else if (missing > 0.05) {
-        probe.notes.push_back(
-            fmt::format("{:.1f} % of all directions are seen by no view well", missing));
-    }
-    for (const ProbeViewResult& view : probe.views) {
-        if (view.over_exposed > 1e-5) {
-            probe.notes.push_back(
-                fmt::format("{}: {:.2f} % of the ball is over-exposed: lights there are brighter "
-                            "than found; add a shorter exposure",
-                            view.name, 100 * view.over_exposed));
-        }
-        if (view.distance_from == "assumed") {
-            probe.notes.push_back(fmt::format(
-                "{}: the camera is taken to be {:g} ball radii away: say better with --distance",
-                view.name, view.distance));
-        }
-    }
-    for (const ProbeViewResult& view : probe.views) {
-        if (!view.rival || !probe.doubt.empty()) continue;
-        probe.doubt = fmt::format(
-            "{}: the ball may be at {:.0f},{:.0f} with radius {:.0f} or at {:.0f},{:.0f} with "
-            "radius {:.0f}: look, and say which with --ball X,Y,RADIUS",
-            view.name, view.circle.x, view.circle.y, view.circle.radius, view.rival->x,
-            view.rival->y, view.rival->radius);
-    }
-    doubt_views(probe);
-    for (const NearLight& near : probe.near_lights) {
-        probe.notes.insert(probe.notes.end(), near.notes.begin(), near.notes.end());
-        if (!near.usable() && probe.doubt.empty()) probe.doubt = near.doubt;
-    }
-}
-
 // Requests in ball radii and in pixels of the cut pictures.
 std::vector<NearLightRequest> requests_of(const ProbeOptions& options,
                                           const std::vector<CutToBall>& ready) {
@@ -212,14 +112,9 @@ void in_stone_units(NearLight& light, const ProbeOptions& options) {
     for (std::size_t c = 0; c < 3; ++c) light.radiance[c] /= options.reflectance[c];
 }
 
-}  // namespace
-
-LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
-                       const Progress& asked) {
-    StopScope stops(asked);
-    const Progress progress = stops.progress();
+void check_views(const std::vector<ProbeView>& views, bool moved) {
     if (views.empty()) throw InputError("no photograph of a ball was given");
-    if (options.moved && views.size() < 2)
+    if (moved && views.size() < 2)
         throw InputError("--moved needs the ball at two places: one photograph was given");
     for (const ProbeView& view : views) {
         if (view.photo.width != views[0].photo.width ||
@@ -230,9 +125,10 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
                                      views[0].photo.width, views[0].photo.height));
         }
     }
-    LightProbe probe;
+}
+
+std::vector<FoundBall> balls_in(const std::vector<ProbeView>& views, const Progress& progress) {
     std::vector<FoundBall> balls;
-    double largest = 0;
     for (const ProbeView& view : views) {
         balls.push_back(ball_in(view));
         if (balls.back().circle.radius < k_smallest_radius) {
@@ -240,24 +136,35 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
                                      "needed: go nearer",
                                      balls.back().circle.radius, k_smallest_radius));
         }
-        largest = std::max(largest, balls.back().circle.radius);
         if (progress &&
             !progress(0.2 * static_cast<double>(balls.size()) / static_cast<double>(views.size())))
             throw Interrupted();
     }
-    // 20 % more texels round the horizon than the ball has pixels, so that none is lost, in
-    // multiples of 128. Coarser maps are averaged from this one; finer ones are made directly.
+    return balls;
+}
+
+struct MapWidth {
+    int computed = 0, coarser = 1;  // averaged over `coarser` texels
+};
+
+// 20 % more texels round the horizon than the largest ball has pixels, so that none is lost, in
+// multiples of 128. Coarser maps are averaged from this one; finer ones are made directly.
+MapWidth width_of_map(const std::vector<FoundBall>& balls, int asked) {
+    double largest = 0;
+    for (const FoundBall& ball : balls) largest = std::max(largest, ball.circle.radius);
     const int natural =
         std::clamp(128 * static_cast<int>(std::ceil(1.2 * std::numbers::pi * largest / 128)),
                    k_narrowest, k_widest);
-    const int coarser = options.width > 0 && options.width < natural
-                            ? (natural + options.width - 1) / options.width
-                            : 1;
-    const int width = options.width > 0 ? coarser * options.width : natural;
+    if (asked <= 0) return {natural, 1};
+    const int coarser = asked < natural ? (natural + asked - 1) / asked : 1;
+    return {coarser * asked, coarser};
+}
 
+// Where the views are, as far as is known before they are aligned; adds them to the result.
+PlacedViews views_to_place(const std::vector<ProbeView>& views, const std::vector<FoundBall>& balls,
+                           const ProbeOptions& options, int width, LightProbe& probe) {
     PlacedViews placed;
     placed.gains.assign(views.size(), 1.0);
-    probe.moved = options.moved;
     for (std::size_t v = 0; v < views.size(); ++v) {
         placed.cuts.push_back(
             cut_to_ball(views[v], balls[v].circle, balls[v].sigma_px, options, width));
@@ -279,48 +186,76 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
                                options.photographer, glm::dmat3(1.0)});
         placed.places.push_back({placed.seen.back()});
     }
+    placed.seen[0].world_from_camera =
+        world_from_camera(options.towards_azimuth, options.towards_elevation);
+    return placed;
+}
+
+FoundNearLights near_lights_in(PlacedViews& placed, const std::vector<NearLightRequest>& requests) {
+    for (std::size_t v = 0; v < placed.seen.size(); ++v) {
+        placed.places[v].view = placed.seen[v];
+        placed.places[v].view.left_out = nullptr;
+        placed.places[v].gain = placed.gains[v];
+    }
+    return find_near_lights(placed.places, requests);
+}
+
+// Places the views and finds the near lights, which are left out of the views.
+FoundNearLights place_views(PlacedViews& placed, const ProbeOptions& options,
+                            const Progress& progress) {
     const std::vector<NearLightRequest> requests = requests_of(options, placed.cuts);
     std::vector<ViewPrior> priors;
     for (const CutToBall& cut : placed.cuts) priors.push_back(cut.prior);
-    placed.seen[0].world_from_camera =
-        world_from_camera(options.towards_azimuth, options.towards_elevation);
-    const auto find_near = [&] {
-        for (std::size_t v = 0; v < placed.seen.size(); ++v) {
-            placed.places[v].view = placed.seen[v];
-            placed.places[v].view.left_out = nullptr;
-            placed.places[v].gain = placed.gains[v];
-        }
-        return find_near_lights(placed.places, requests);
-    };
-    FoundNearLights near;
     if (options.moved) {
         place_moved_balls(placed);
     } else {
         align_all(placed, options,
                   [&](double done) { return !progress || progress(0.2 + 0.3 * done); });
     }
-    if (!requests.empty()) near = find_near();
+    FoundNearLights near;
+    if (!requests.empty()) near = near_lights_in(placed, requests);
     if (!requests.empty() && !options.moved && placed.seen.size() > 1) {
         // The first alignment fitted the near lights too, which hides their parallax: align again
         // without them.
         leave_out(near, placed);
         align_without_near_lights(placed, priors);
-        near = find_near();
+        near = near_lights_in(placed, requests);
     }
     leave_out(near, placed);
+    return near;
+}
+
+void describe_places(const PlacedViews& placed, LightProbe& probe) {
     probe.alignments = placed.alignments;
-    for (std::size_t v = 0; v < views.size(); ++v) {
+    for (std::size_t v = 0; v < probe.views.size(); ++v) {
+        const BallView& seen = placed.seen[v];
         ProbeViewResult& result = probe.views[v];
-        result.circle = placed.cuts[v].in_photograph(placed.seen[v].ball.circle());
-        result.distance = placed.seen[v].ball.distance();
-        result.focal_px = placed.seen[v].ball.focal_px() * placed.cuts[v].factor;
+        result.circle = placed.cuts[v].in_photograph(seen.ball.circle());
+        result.distance = seen.ball.distance();
+        result.focal_px = seen.ball.focal_px() * placed.cuts[v].factor;
         result.gain = placed.gains[v];
-        result.world_from_camera = placed.seen[v].world_from_camera;
+        result.world_from_camera = seen.world_from_camera;
         result.centre = placed.places[v].centre;
         const Vec3 a = placed.seen[0].world_from_camera * placed.seen[0].ball.towards_camera();
-        const Vec3 b = placed.seen[v].world_from_camera * placed.seen[v].ball.towards_camera();
-        result.turned = options.moved ? 0 : angle_between(a, b);
+        const Vec3 b = seen.world_from_camera * seen.ball.towards_camera();
+        result.turned = probe.moved ? 0 : angle_between(a, b);
     }
+}
+
+}  // namespace
+
+LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
+                       const Progress& asked) {
+    StopScope stops(asked);
+    const Progress progress = stops.progress();
+    check_views(views, options.moved);
+    const std::vector<FoundBall> balls = balls_in(views, progress);
+    const auto [width, coarser] = width_of_map(balls, options.width);
+    LightProbe probe;
+    probe.moved = options.moved;
+    PlacedViews placed = views_to_place(views, balls, options, width, probe);
+    FoundNearLights near = place_views(placed, options, progress);
+    describe_places(placed, probe);
     // Moved balls see near lights elsewhere, so only the first ball's view is merged.
     const std::vector<BallView> merged =
         options.moved ? std::vector<BallView>{placed.seen[0]} : std::move(placed.seen);
