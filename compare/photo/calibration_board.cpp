@@ -12,6 +12,7 @@
 #include <string>
 
 #include "compare/photo/pixels.h"
+#include "stone/numbers/units.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -43,6 +44,112 @@ cv::Mat grey_of(const Photo& photo) {
     cv::Mat grey;
     encoded(y / std::max(white, 1e-30)).convertTo(grey, CV_8U, 240);
     return grey;
+}
+
+using Board = cv::Ptr<cv::aruco::CharucoBoard>;
+
+/// The corners found, and their numbers, of the pictures that show enough of them.
+struct SeenBoards {
+    std::vector<std::vector<cv::Point2f>> corners;
+    std::vector<std::vector<int>> ids;
+    std::vector<std::size_t> pictures;
+};
+
+void require_same_size(const std::filesystem::path& file, const Photo& photo, const Lens& lens) {
+    if (photo.width == lens.width && photo.height == lens.height) return;
+    throw InputError(file, fmt::format("is {} x {} pixels, the first is {} x {}: hold the camera "
+                                       "the same way round, and do not cut pictures",
+                                       photo.width, photo.height, lens.width, lens.height));
+}
+
+// Returns the number of corners found.
+int find_corners(const cv::Mat& grey, const Board& board, std::size_t picture, SeenBoards& seen) {
+    std::vector<std::vector<cv::Point2f>> marker_corners, rejected;
+    std::vector<int> marker_ids;
+    const auto parameters = cv::aruco::DetectorParameters::create();
+    cv::Mat corners, ids;
+    try {
+        cv::aruco::detectMarkers(grey, markers(), marker_corners, marker_ids, parameters, rejected);
+        if (!marker_ids.empty()) {
+            cv::aruco::interpolateCornersCharuco(marker_corners, marker_ids, grey, board, corners,
+                                                 ids);
+        }
+    } catch (const cv::Exception&) {
+        ids.release();
+    }
+    const int count = static_cast<int>(ids.total());
+    if (count < k_least_corners) return count;
+    seen.corners.emplace_back(corners.begin<cv::Point2f>(), corners.end<cv::Point2f>());
+    seen.ids.emplace_back(ids.begin<int>(), ids.end<int>());
+    seen.pictures.push_back(picture);
+    return count;
+}
+
+// Reads the pictures; sets their size and notes.
+SeenBoards boards_in(const std::vector<std::filesystem::path>& pictures, const Board& board,
+                     const Progress& progress, LensCalibration& result) {
+    SeenBoards seen;
+    std::set<std::string> told;  // the pictures' notes, each once
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        if (progress &&
+            !progress(static_cast<double>(i) / static_cast<double>(pictures.size() + 1)))
+            throw Interrupted();
+        const Photo photo = read_photo(pictures[i]);
+        for (const std::string& note : photo.notes) {
+            if (told.insert(note).second)
+                result.notes.push_back(fmt::format("{}: {}", pictures[i].string(), note));
+        }
+        if (i == 0) {
+            result.lens.width = photo.width;
+            result.lens.height = photo.height;
+        }
+        require_same_size(pictures[i], photo, result.lens);
+        const int corners = find_corners(grey_of(photo), board, i, seen);
+        result.pictures.push_back({pictures[i].string(), corners, 0});
+    }
+    for (const BoardPicture& picture : result.pictures) {
+        if (picture.corners < k_least_corners) {
+            result.notes.push_back(
+                fmt::format("{}: left out, only {} corners of the board were found", picture.name,
+                            picture.corners));
+        }
+    }
+    return seen;
+}
+
+// Sets the lens, the sigmas and the pictures' residuals; returns the board's steepest tilt,
+// radians.
+double solve_lens(const SeenBoards& seen, const Board& board, LensCalibration& result) {
+    Lens& lens = result.lens;
+    cv::Mat camera, distortion, sigma, sigma_poses, per_view;
+    std::vector<cv::Mat> turns, places;
+    try {
+        lens.residual_px = cv::aruco::calibrateCameraCharuco(
+            seen.corners, seen.ids, board, {lens.width, lens.height}, camera, distortion, turns,
+            places, sigma, sigma_poses, per_view,
+            seen.pictures.size() < 6 ? cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST : 0);
+    } catch (const cv::Exception&) {
+        throw InputError(
+            "the photographs of the board do not determine a lens: take more, tilted by 20 to 40 "
+            "degrees in several directions");
+    }
+    lens.focal_x = camera.at<double>(0, 0);
+    lens.focal_y = camera.at<double>(1, 1);
+    lens.principal_x = camera.at<double>(0, 2);
+    lens.principal_y = camera.at<double>(1, 2);
+    for (int k = 0; k < 5 && k < static_cast<int>(distortion.total()); ++k)
+        lens.distortion[static_cast<std::size_t>(k)] = distortion.at<double>(k);
+    lens.pictures = static_cast<int>(seen.pictures.size());
+    result.focal_sigma_px = sigma.at<double>(0);
+    result.principal_sigma_px = std::max(sigma.at<double>(2), sigma.at<double>(3));
+    double steepest = 0;
+    for (std::size_t k = 0; k < seen.pictures.size(); ++k) {
+        result.pictures[seen.pictures[k]].residual_px = per_view.at<double>(static_cast<int>(k));
+        cv::Matx33d rotation;
+        cv::Rodrigues(turns[k], rotation);
+        steepest = std::max(steepest, std::acos(std::clamp(std::abs(rotation(2, 2)), 0.0, 1.0)));
+    }
+    return steepest;
 }
 
 }  // namespace
@@ -89,99 +196,19 @@ std::string board_svg(const BoardShape& shape) {
 LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& pictures,
                                const BoardShape& shape, const Progress& progress) {
     if (pictures.empty()) throw InputError("name the photographs of the board");
-    const auto board = board_of(shape);
+    const Board board = board_of(shape);
     LensCalibration result;
-    std::vector<std::vector<cv::Point2f>> corners;
-    std::vector<std::vector<int>> ids;
-    std::vector<std::size_t> used;
-    std::set<std::string> told;  // the pictures' notes, each once
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        if (progress &&
-            !progress(static_cast<double>(i) / static_cast<double>(pictures.size() + 1)))
-            throw Interrupted();
-        const Photo photo = read_photo(pictures[i]);
-        for (const std::string& note : photo.notes) {
-            if (told.insert(note).second)
-                result.notes.push_back(fmt::format("{}: {}", pictures[i].string(), note));
-        }
-        if (i == 0) {
-            result.lens.width = photo.width;
-            result.lens.height = photo.height;
-        } else if (photo.width != result.lens.width || photo.height != result.lens.height) {
-            throw InputError(
-                pictures[i],
-                fmt::format("is {} x {} pixels, the first is {} x {}: hold the camera "
-                            "the same way round, and do not cut pictures",
-                            photo.width, photo.height, result.lens.width, result.lens.height));
-        }
-        const cv::Mat grey = grey_of(photo);
-        std::vector<std::vector<cv::Point2f>> marker_corners, rejected;
-        std::vector<int> marker_ids;
-        const auto parameters = cv::aruco::DetectorParameters::create();
-        cv::Mat found_corners, found_ids;
-        try {
-            cv::aruco::detectMarkers(grey, markers(), marker_corners, marker_ids, parameters,
-                                     rejected);
-            if (!marker_ids.empty()) {
-                cv::aruco::interpolateCornersCharuco(marker_corners, marker_ids, grey, board,
-                                                     found_corners, found_ids);
-            }
-        } catch (const cv::Exception&) {
-            found_ids.release();
-        }
-        result.pictures.push_back({pictures[i].string(), static_cast<int>(found_ids.total()), 0});
-        if (static_cast<int>(found_ids.total()) < k_least_corners) continue;
-        corners.emplace_back(found_corners.begin<cv::Point2f>(), found_corners.end<cv::Point2f>());
-        ids.emplace_back(found_ids.begin<int>(), found_ids.end<int>());
-        used.push_back(i);
-    }
-    for (const BoardPicture& picture : result.pictures) {
-        if (picture.corners < k_least_corners) {
-            result.notes.push_back(
-                fmt::format("{}: left out, only {} corners of the board were found", picture.name,
-                            picture.corners));
-        }
-    }
-    if (static_cast<int>(used.size()) < k_least_pictures) {
+    const SeenBoards seen = boards_in(pictures, board, progress, result);
+    if (static_cast<int>(seen.pictures.size()) < k_least_pictures) {
         throw InputError(fmt::format(
             "{} of {} photographs show the board of {} x {} squares (at least {} must): is it the "
             "one that culet camera --board wrote, sharp, whole and evenly lit? --columns, --rows "
             "say otherwise",
-            used.size(), pictures.size(), shape.columns, shape.rows, k_least_pictures));
+            seen.pictures.size(), pictures.size(), shape.columns, shape.rows, k_least_pictures));
     }
-    cv::Mat camera, distortion, sigma, sigma_poses, per_view;
-    std::vector<cv::Mat> turns, places;
-    double residual = 0;
-    try {
-        residual = cv::aruco::calibrateCameraCharuco(
-            corners, ids, board, {result.lens.width, result.lens.height}, camera, distortion, turns,
-            places, sigma, sigma_poses, per_view,
-            used.size() < 6 ? cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST : 0);
-    } catch (const cv::Exception&) {
-        throw InputError(
-            "the photographs of the board do not determine a lens: take more, tilted by 20 to 40 "
-            "degrees in several directions");
-    }
-    Lens& lens = result.lens;
-    lens.focal_x = camera.at<double>(0, 0);
-    lens.focal_y = camera.at<double>(1, 1);
-    lens.principal_x = camera.at<double>(0, 2);
-    lens.principal_y = camera.at<double>(1, 2);
-    for (int k = 0; k < 5 && k < static_cast<int>(distortion.total()); ++k)
-        lens.distortion[static_cast<std::size_t>(k)] = distortion.at<double>(k);
-    lens.residual_px = residual;
-    lens.pictures = static_cast<int>(used.size());
-    result.focal_sigma_px = sigma.at<double>(0);
-    result.principal_sigma_px = std::max(sigma.at<double>(2), sigma.at<double>(3));
-    double steepest = 0;
-    for (std::size_t k = 0; k < used.size(); ++k) {
-        result.pictures[used[k]].residual_px = per_view.at<double>(static_cast<int>(k));
-        cv::Matx33d rotation;
-        cv::Rodrigues(turns[k], rotation);
-        steepest = std::max(steepest, std::acos(std::clamp(std::abs(rotation(2, 2)), 0.0, 1.0)));
-    }
-    const double degree = 0.017453292519943295;
-    if (!(std::isfinite(residual) && lens.focal_x > 0 && lens.focal_y > 0)) {
+    const double steepest = solve_lens(seen, board, result);
+    const double residual = result.lens.residual_px;
+    if (!(std::isfinite(residual) && result.lens.focal_x > 0 && result.lens.focal_y > 0)) {
         throw InputError("the photographs of the board do not determine a lens: take more, tilted");
     }
     if (residual > 1) {
@@ -189,7 +216,7 @@ LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& picture
             "the corners are off by {:.1f} pixels: is the board flat, are "
             "the pictures sharp, was the zoom or focus changed?",
             residual);
-    } else if (steepest < 10 * degree) {
+    } else if (steepest < radians(10.0)) {
         result.doubt =
             "the board was never tilted by 10 degrees: its size and its distance cannot "
             "be told apart, and the focal length is a guess";

@@ -93,6 +93,38 @@ struct FreeImage {
     void operator()(libraw_processed_image_t* image) const { LibRaw::dcraw_clear_mem(image); }
 };
 
+using ProcessedImage = std::unique_ptr<libraw_processed_image_t, FreeImage>;
+
+void require_size(const std::filesystem::path& file, const libraw_data_t& data) {
+    const double pixels = static_cast<double>(data.sizes.width) * data.sizes.height;
+    if (!(pixels >= 1) || pixels > k_max_photo_pixels) {
+        throw InputError(
+            file, fmt::format("has {} x {} pixels; up to {:.0f} million are read", data.sizes.width,
+                              data.sizes.height, k_max_photo_pixels / 1e6));
+    }
+}
+
+// 16 bits, linear, with the camera's white balance.
+ProcessedImage developed(const std::filesystem::path& file, LibRaw& processor) {
+    libraw_output_params_t& params = processor.imgdata.params;
+    params.gamm[0] = params.gamm[1] = 1;
+    params.no_auto_bright = 1;
+    params.adjust_maximum_thr = 0;  // the white level is the file's, not the picture's
+    params.output_bps = 16;
+    params.output_color = 1;  // sRGB primaries
+    params.use_camera_wb = 1;
+    params.highlight = 1;  // white balance clips nothing
+    params.user_flip = 0;
+    require(file, processor.dcraw_process());
+    int code = LIBRAW_SUCCESS;
+    ProcessedImage image(processor.dcraw_make_mem_image(&code));
+    require(file, code);
+    if (image == nullptr || image->type != LIBRAW_IMAGE_BITMAP || image->bits != 16 ||
+        (image->colors != 3 && image->colors != 1) || image->width == 0 || image->height == 0)
+        refuse(file, "an unusual kind");
+    return image;
+}
+
 }  // namespace
 
 bool has_raw_extension(const std::filesystem::path& file) {
@@ -110,34 +142,13 @@ Photo read_raw(const std::filesystem::path& file) {
     const auto processor = std::make_unique<LibRaw>();
     libraw_data_t& data = processor->imgdata;
     open(file, bytes, *processor);
-    const double pixels = static_cast<double>(data.sizes.width) * data.sizes.height;
-    if (!(pixels >= 1) || pixels > k_max_photo_pixels) {
-        throw InputError(
-            file, fmt::format("has {} x {} pixels; up to {:.0f} million are read", data.sizes.width,
-                              data.sizes.height, k_max_photo_pixels / 1e6));
-    }
+    require_size(file, data);
     require(file, processor->unpack());
     if (data.color.maximum == 0) refuse(file, "it states no white level");
     const cv::Mat mask = saturation_mask(data);
     const int flip = data.sizes.flip;
 
-    data.params.gamm[0] = data.params.gamm[1] = 1;
-    data.params.no_auto_bright = 1;
-    data.params.adjust_maximum_thr = 0;  // the white level is the file's, not the picture's
-    data.params.output_bps = 16;
-    data.params.output_color = 1;  // sRGB primaries
-    data.params.use_camera_wb = 1;
-    data.params.highlight = 1;  // white balance clips nothing
-    data.params.user_flip = 0;
-    require(file, processor->dcraw_process());
-    int code = LIBRAW_SUCCESS;
-    const std::unique_ptr<libraw_processed_image_t, FreeImage> image(
-        processor->dcraw_make_mem_image(&code));
-    require(file, code);
-    if (image == nullptr || image->type != LIBRAW_IMAGE_BITMAP || image->bits != 16 ||
-        (image->colors != 3 && image->colors != 1) || image->width == 0 || image->height == 0)
-        refuse(file, "an unusual kind");
-
+    const ProcessedImage image = developed(file, *processor);
     // LibRaw scales the white balance's largest multiplier to 1. Undo that, so that green's white
     // level is 1.
     const float most = *std::max_element(data.color.pre_mul, data.color.pre_mul + 3);
@@ -162,10 +173,7 @@ Photo read_raw(const std::filesystem::path& file) {
     photo.height = colour.rows;
     const auto* first = colour.ptr<float>();
     photo.rgb.assign(first, first + 3 * colour.total());
-    if (!over.empty()) {
-        photo.saturated.resize(over.total());
-        for (std::size_t i = 0; i < over.total(); ++i) photo.saturated[i] = over.data[i];
-    }
+    if (!over.empty()) photo.saturated.assign(over.data, over.data + over.total());
     photo.saturation = 1;
     photo.encoding = "linear raw";
     photo.shot = shot_data_of(bytes, data);

@@ -54,6 +54,78 @@ bool over(const Photo& photo, std::size_t i) {
                                              photo.rgb[3 * i + 2]}) >= 0.98 * photo.saturation;
 }
 
+// The corners of a chart, in order from its first patch; none: there is no chart.
+std::vector<cv::Point2f> corners_of_chart(const Photo& photo) {
+    // The finder needs an 8-bit picture of normal brightness.
+    const cv::Mat colour = colour_of(photo), y = luminance(colour);
+    const double white = quantile(y, {}, 0.99);
+    if (!(white > 0)) return {};
+    cv::Mat eight, bgr;
+    encoded(colour / white).convertTo(eight, CV_8U, 255);
+    cv::cvtColor(eight, bgr, cv::COLOR_RGB2BGR);
+    const auto finder = cv::mcc::CCheckerDetector::create();
+    try {
+        if (!finder->process(bgr, cv::mcc::MCC24, 1)) return {};
+        const cv::Ptr<cv::mcc::CChecker> chart = finder->getBestColorChecker();
+        return chart.empty() ? std::vector<cv::Point2f>{} : chart->getBox();
+    } catch (const cv::Exception&) {
+        return {};
+    }
+}
+
+// Medians of the patches' middles in linear light; none: a patch is outside the picture.
+std::vector<Rgb> patches_in(const Photo& photo, const std::vector<cv::Point2f>& box) {
+    // Patches of 1 with gaps of an eighth.
+    const std::vector<cv::Point2f> model{{0, 0}, {6, 0}, {6, 4}, {0, 4}};
+    const cv::Mat picture_from_chart = cv::getPerspectiveTransform(model, box);
+    std::vector<Rgb> measured;
+    for (int patch = 0; patch < 24; ++patch) {
+        std::array<std::vector<float>, 3> values;
+        for (int k = 0; k < 49; ++k) {
+            const std::vector<cv::Point2f> at{
+                {static_cast<float>(patch % 6 + 0.35 + 0.05 * (k % 7)),
+                 static_cast<float>(patch / 6 + 0.35 + 0.05 * (k / 7))}};
+            std::vector<cv::Point2f> place;
+            cv::perspectiveTransform(at, place, picture_from_chart);
+            const int px = cvRound(place[0].x), py = cvRound(place[0].y);
+            if (px < 0 || py < 0 || px >= photo.width || py >= photo.height) continue;
+            const std::size_t i = static_cast<std::size_t>(py) * photo.width + px;
+            for (std::size_t c = 0; c < 3; ++c) values[c].push_back(photo.rgb[3 * i + c]);
+        }
+        if (values[0].size() < 9) return {};
+        measured.push_back(
+            {upper_median(values[0]), upper_median(values[1]), upper_median(values[2])});
+    }
+    return measured;
+}
+
+// Takes the matrix from balanced patches, and their differences with and without it.
+void fit_matrix(const std::vector<Rgb>& measured, ChartBalance& result) {
+    Eigen::MatrixXd from(24, 3), to(24, 3);
+    for (int i = 0; i < 24; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const auto k = static_cast<std::size_t>(c), patch = static_cast<std::size_t>(i);
+            from(i, c) = measured[patch][k];
+            to(i, c) = chart_rgb(patch)[k];
+        }
+    }
+    const Eigen::MatrixXd solved = PivotedQr(from).solve(to);
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            result.matrix[static_cast<std::size_t>(3 * r + c)] = solved(c, r);
+    std::vector<Rgb> corrected;
+    for (const Rgb& rgb : measured) {
+        Rgb out{};
+        for (std::size_t r = 0; r < 3; ++r) {
+            for (std::size_t c = 0; c < 3; ++c) out[r] += result.matrix[3 * r + c] * rgb[c];
+            out[r] = std::max(out[r], 0.0);
+        }
+        corrected.push_back(out);
+    }
+    result.before = mean_difference(measured);
+    result.after = mean_difference(corrected);
+}
+
 }  // namespace
 
 GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
@@ -97,46 +169,10 @@ GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
 }
 
 std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
-    // The finder needs an 8-bit picture of normal brightness.
-    const cv::Mat colour = colour_of(photo), y = luminance(colour);
-    const double white = quantile(y, {}, 0.99);
-    if (!(white > 0)) return std::nullopt;
-    cv::Mat eight, bgr;
-    encoded(colour / white).convertTo(eight, CV_8U, 255);
-    cv::cvtColor(eight, bgr, cv::COLOR_RGB2BGR);
-    const auto finder = cv::mcc::CCheckerDetector::create();
-    cv::Ptr<cv::mcc::CChecker> chart;
-    try {
-        if (!finder->process(bgr, cv::mcc::MCC24, 1)) return std::nullopt;
-        chart = finder->getBestColorChecker();
-    } catch (const cv::Exception&) {
-        return std::nullopt;
-    }
-    if (chart.empty()) return std::nullopt;
-    const std::vector<cv::Point2f> box = chart->getBox();
+    const std::vector<cv::Point2f> box = corners_of_chart(photo);
     if (box.size() != 4) return std::nullopt;
-    // Medians of the patches' middles in linear light; the box's corners are in order from the
-    // first patch. Patches of 1 with gaps of an eighth.
-    const std::vector<cv::Point2f> model{{0, 0}, {6, 0}, {6, 4}, {0, 4}};
-    const cv::Mat picture_from_chart = cv::getPerspectiveTransform(model, box);
-    std::vector<Rgb> measured;
-    for (int patch = 0; patch < 24; ++patch) {
-        std::array<std::vector<float>, 3> values;
-        for (int k = 0; k < 49; ++k) {
-            const std::vector<cv::Point2f> at{
-                {static_cast<float>(patch % 6 + 0.35 + 0.05 * (k % 7)),
-                 static_cast<float>(patch / 6 + 0.35 + 0.05 * (k / 7))}};
-            std::vector<cv::Point2f> place;
-            cv::perspectiveTransform(at, place, picture_from_chart);
-            const int px = cvRound(place[0].x), py = cvRound(place[0].y);
-            if (px < 0 || py < 0 || px >= photo.width || py >= photo.height) continue;
-            const std::size_t i = static_cast<std::size_t>(py) * photo.width + px;
-            for (std::size_t c = 0; c < 3; ++c) values[c].push_back(photo.rgb[3 * i + c]);
-        }
-        if (values[0].size() < 9) return std::nullopt;
-        measured.push_back(
-            {upper_median(values[0]), upper_median(values[1]), upper_median(values[2])});
-    }
+    std::vector<Rgb> measured = patches_in(photo, box);
+    if (measured.empty()) return std::nullopt;
     ChartBalance result;
     // The middle greys also give the common exposure: white may clip, and black is mostly haze.
     double exposure = 0;
@@ -148,30 +184,9 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
     if (!(grey[0] > 0 && grey[1] > 0 && grey[2] > 0)) return std::nullopt;
     for (std::size_t c = 0; c < 3; ++c) result.gain[c] = grey[1] / grey[c];
     exposure /= grey[1];
-    Eigen::MatrixXd from(24, 3), to(24, 3);
-    for (int i = 0; i < 24; ++i) {
-        for (int c = 0; c < 3; ++c) {
-            const auto k = static_cast<std::size_t>(c), patch = static_cast<std::size_t>(i);
-            measured[patch][k] *= result.gain[k] * exposure;
-            from(i, c) = measured[patch][k];
-            to(i, c) = chart_rgb(patch)[k];
-        }
-    }
-    result.before = mean_difference(measured);
-    const Eigen::MatrixXd solved = PivotedQr(from).solve(to);
-    std::vector<Rgb> corrected;
-    for (const Rgb& rgb : measured) {
-        Rgb out{};
-        for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c)
-                out[static_cast<std::size_t>(r)] += solved(c, r) * rgb[static_cast<std::size_t>(c)];
-        for (double& v : out) v = std::max(v, 0.0);
-        corrected.push_back(out);
-    }
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            result.matrix[static_cast<std::size_t>(3 * r + c)] = solved(c, r);
-    result.after = mean_difference(corrected);
+    for (Rgb& patch : measured)
+        for (std::size_t c = 0; c < 3; ++c) patch[c] *= result.gain[c] * exposure;
+    fit_matrix(measured, result);
     // A chart of very different colours is a false detection.
     if (!(result.after < 15)) return std::nullopt;
     return result;
