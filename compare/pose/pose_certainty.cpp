@@ -42,6 +42,97 @@ double middle_of(std::vector<double> values) {
     return values.empty() ? 0 : upper_median(std::move(values));
 }
 
+/// Keeps the first reason why a pose may not be used.
+void refuse(std::string why, std::string remedy, FoundPose& pose) {
+    if (!pose.trouble.empty()) return;
+    pose.trouble = std::move(why);
+    pose.remedy = std::move(remedy);
+}
+
+// Views beyond the search range can only be symmetric ones. Small irregularities chose this one,
+// but the user asked for another.
+void check_start(const PoseTask& task, const char* or_mirrored, FoundPose& pose) {
+    if (pose.start_angle <= task.options.search) return;
+    const double off = degrees(pose.start_angle);
+    refuse(fmt::format("the likeliest view is {:.0f} degrees from the scene's camera, which may "
+                       "be off by {:.0f}",
+                       off, degrees(task.options.search)),
+           fmt::format("See the overlay: if that is how the stone was held, turn the scene's "
+                       "camera there, or search so far with --search-deg {:.0f}; else turn it "
+                       "to within 10 degrees of how it was held. Check that this is the stone{}",
+                       std::min(180.0, std::ceil(off) + 1), or_mirrored),
+           pose);
+}
+
+void check_outline(const PoseLimits& limits, double diameter, FoundPose& pose) {
+    const double most = std::max(1.0, limits.outline_residual * diameter);
+    if (pose.outline_px <= most) return;
+    refuse(fmt::format("the stone's outline lies {:.1f} pixels from the photograph's (at most "
+                       "{:.1f})",
+                       pose.outline_px, most),
+           "See the overlay: where the photograph's outline takes in a shadow or a holder, "
+           "paint the stone white in a mask and give it with --mask; else the model is of "
+           "another stone, or its widths are wrong",
+           pose);
+}
+
+void check_probability(const PoseLimits& limits, double rival, double rival_turn,
+                       const char* or_mirrored, FoundPose& pose) {
+    const double by_chance = std::min(1.0, std::exp(k_places_tried - evidence_of(pose)));
+    const double by_rival = rival < 700 ? 1 / (1 + std::exp(rival)) : 0;
+    pose.error_probability = std::min(1.0, by_chance + by_rival);
+    if (pose.error_probability <= limits.error_probability) return;
+    if (by_chance >= by_rival) {
+        refuse(
+            fmt::format("{} of {} edges of the crown are where this model has them, and by "
+                        "chance {:.0f} would be: that happens in {} of wrong views (at most {})",
+                        pose.evidence.met, pose.evidence.looked,
+                        pose.evidence.chance_share * pose.evidence.looked, percent(by_chance),
+                        percent(limits.error_probability)),
+            fmt::format("Check that this is the stone, from this side{}; then take it larger and "
+                        "sharper, in a light that shows the edges around the table, or tilted "
+                        "by 10 to 20 degrees; --doubt accepts more",
+                        or_mirrored),
+            pose);
+    } else {
+        refuse(
+            fmt::format("another view, {:.0f} degrees from this one, explains the photograph "
+                        "nearly as well: the chance that it is the right one is {} (at most {})",
+                        degrees(rival_turn), percent(by_rival), percent(limits.error_probability)),
+            fmt::format("Turn the scene's camera to within {:.0f} degrees of how the stone was "
+                        "held and search no farther (--search-deg {:.0f}), or photograph it "
+                        "tilted by 10 to 20 degrees; --doubt accepts more",
+                        std::max(2.0, degrees(rival_turn) / 3),
+                        std::max(2.0, degrees(rival_turn) / 2)),
+            pose);
+    }
+}
+
+void check_sigmas(const PoseLimits& limits, double diameter, FoundPose& pose) {
+    if (!(pose.sigmas.angle_99 <= limits.angle)) {
+        const double off = degrees(pose.sigmas.angle_99);
+        refuse(
+            fmt::format("the view may be off by {:.2f} degrees (at most {:.2f} are allowed)", off,
+                        degrees(limits.angle)),
+            fmt::format("{}ilt the stone by 10 to 20 degrees and take it larger; a model "
+                        "fitted to more readings helps too",
+                        off < k_farthest_deg
+                            ? fmt::format("Accept that with --within-deg {:.2g}, or t", 1.1 * off)
+                            : "T"),
+            pose);
+    }
+    const double shift_limit =
+        limits.shift_px > 0 ? limits.shift_px : std::max(1.0, k_place * diameter);
+    if (!(pose.sigmas.shift_99_px <= shift_limit)) {
+        refuse(fmt::format("the place may be off by {:.2f} pixels (at most {:.2f} are allowed)",
+                           pose.sigmas.shift_99_px, shift_limit),
+               fmt::format("Accept that with --within-px {:.2g}, or take the photograph sharper, "
+                           "before a plain background; a model fitted to more readings helps too",
+                           1.1 * pose.sigmas.shift_99_px),
+               pose);
+    }
+}
+
 }  // namespace
 
 void describe_sigmas(const PoseTask& task, const Candidate& won, FoundPose& pose) {
@@ -110,87 +201,20 @@ void assess(const PoseTask& task, const Candidate& won, double rival, double riv
             FoundPose& pose) {
     const PoseLimits& limits = task.options.limits;
     const double diameter = won.side->shape.diameter;
-    const auto refuse = [&](std::string why, std::string remedy) {
-        if (!pose.trouble.empty()) return;
-        pose.trouble = std::move(why);
-        pose.remedy = std::move(remedy);
-    };
-    if (shows_other_side(task, won.refined.solved.view)) {
-        refuse("the photograph shows the other side of the stone than the scene's camera",
-               "Put the scene's camera on the side that the photograph shows: turn the sign of its "
-               "position along the stone's axis");
-    }
-    // Views beyond the search range can only be symmetric ones. Small irregularities chose this
-    // one, but the user asked for another.
     const char* const or_mirrored =
         task.sides.size() > 1
             ? ""
             : ", and that the picture is not turned left to right (--mirrored tries both)";
-    if (pose.start_angle > task.options.search) {
-        const double off = degrees(pose.start_angle);
-        refuse(
-            fmt::format("the likeliest view is {:.0f} degrees from the scene's camera, which may "
-                        "be off by {:.0f}",
-                        off, degrees(task.options.search)),
-            fmt::format("See the overlay: if that is how the stone was held, turn the scene's "
-                        "camera there, or search so far with --search-deg {:.0f}; else turn it "
-                        "to within 10 degrees of how it was held. Check that this is the stone{}",
-                        std::min(180.0, std::ceil(off) + 1), or_mirrored));
+    if (shows_other_side(task, won.refined.solved.view)) {
+        refuse("the photograph shows the other side of the stone than the scene's camera",
+               "Put the scene's camera on the side that the photograph shows: turn the sign of its "
+               "position along the stone's axis",
+               pose);
     }
-    const double outline_limit = std::max(1.0, limits.outline_residual * diameter);
-    if (pose.outline_px > outline_limit) {
-        refuse(fmt::format("the stone's outline lies {:.1f} pixels from the photograph's (at most "
-                           "{:.1f})",
-                           pose.outline_px, outline_limit),
-               "See the overlay: where the photograph's outline takes in a shadow or a holder, "
-               "paint the stone white in a mask and give it with --mask; else the model is of "
-               "another stone, or its widths are wrong");
-    }
-    const double by_chance = std::min(1.0, std::exp(k_places_tried - evidence_of(pose)));
-    const double by_rival = rival < 700 ? 1 / (1 + std::exp(rival)) : 0;
-    pose.error_probability = std::min(1.0, by_chance + by_rival);
-    if (pose.error_probability > limits.error_probability && by_chance >= by_rival) {
-        refuse(
-            fmt::format("{} of {} edges of the crown are where this model has them, and by "
-                        "chance {:.0f} would be: that happens in {} of wrong views (at most {})",
-                        pose.evidence.met, pose.evidence.looked,
-                        pose.evidence.chance_share * pose.evidence.looked, percent(by_chance),
-                        percent(limits.error_probability)),
-            fmt::format("Check that this is the stone, from this side{}; then take it larger and "
-                        "sharper, in a light that shows the edges around the table, or tilted "
-                        "by 10 to 20 degrees; --doubt accepts more",
-                        or_mirrored));
-    } else if (pose.error_probability > limits.error_probability) {
-        refuse(
-            fmt::format("another view, {:.0f} degrees from this one, explains the photograph "
-                        "nearly as well: the chance that it is the right one is {} (at most {})",
-                        degrees(rival_turn), percent(by_rival), percent(limits.error_probability)),
-            fmt::format("Turn the scene's camera to within {:.0f} degrees of how the stone was "
-                        "held and search no farther (--search-deg {:.0f}), or photograph it "
-                        "tilted by 10 to 20 degrees; --doubt accepts more",
-                        std::max(2.0, degrees(rival_turn) / 3),
-                        std::max(2.0, degrees(rival_turn) / 2)));
-    }
-    if (!(pose.sigmas.angle_99 <= limits.angle)) {
-        const double off = degrees(pose.sigmas.angle_99);
-        refuse(
-            fmt::format("the view may be off by {:.2f} degrees (at most {:.2f} are allowed)", off,
-                        degrees(limits.angle)),
-            fmt::format("{}ilt the stone by 10 to 20 degrees and take it larger; a model "
-                        "fitted to more readings helps too",
-                        off < k_farthest_deg
-                            ? fmt::format("Accept that with --within-deg {:.2g}, or t", 1.1 * off)
-                            : "T"));
-    }
-    const double shift_limit =
-        limits.shift_px > 0 ? limits.shift_px : std::max(1.0, k_place * diameter);
-    if (!(pose.sigmas.shift_99_px <= shift_limit)) {
-        refuse(fmt::format("the place may be off by {:.2f} pixels (at most {:.2f} are allowed)",
-                           pose.sigmas.shift_99_px, shift_limit),
-               fmt::format("Accept that with --within-px {:.2g}, or take the photograph sharper, "
-                           "before a plain background; a model fitted to more readings helps too",
-                           1.1 * pose.sigmas.shift_99_px));
-    }
+    check_start(task, or_mirrored, pose);
+    check_outline(limits, diameter, pose);
+    check_probability(limits, rival, rival_turn, or_mirrored, pose);
+    check_sigmas(limits, diameter, pose);
 }
 
 }  // namespace culet

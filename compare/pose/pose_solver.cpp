@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numbers>
+#include <set>
 
 #include "compare/pose/changed_view.h"
 #include "stone/numbers/dense_algebra.h"
@@ -172,13 +172,81 @@ private:
     std::vector<double> sizes_;
 };
 
+/// Adds the residuals of the edges; returns the changes of those facets that are free.
+std::vector<double*> add_edges(const WireSolid& wire, const std::vector<MetEdge>& edges,
+                               const ChangedView& view, bool facets_free, double* change,
+                               std::vector<FacetChange>& facets, ceres::Problem& problem) {
+    std::set<int> used;
+    const auto block = [&](int facet) { return facets[static_cast<std::size_t>(facet)].data(); };
+    for (const MetEdge& met : edges) {
+        auto* loss = new ceres::CauchyLoss(k_loss);
+        if (!facets_free) {
+            problem.AddResidualBlock(new ViewResidual(view, met), loss, change);
+            continue;
+        }
+        const Edge& edge = wire.edges[static_cast<std::size_t>(met.point.edge)];
+        used.insert({edge.left, edge.right});
+        auto* cost =
+            new EdgeResidual(view, frame_of(wire, edge.left), frame_of(wire, edge.right), met);
+        problem.AddResidualBlock(cost, loss, change, block(edge.left), block(edge.right));
+    }
+    std::vector<double*> blocks;
+    for (const int facet : used) blocks.push_back(block(facet));
+    return blocks;
+}
+
+LensPrior lens_prior(const StoneView& start, double prior_focal_px, const PicturePoint& sight,
+                     const SolverSettings& settings) {
+    const bool perspective = start.nearness > 0 && prior_focal_px > 0;
+    LensPrior lens;
+    lens.focal_error = perspective && settings.focal_error > 0 ? settings.focal_error : k_held;
+    lens.sight_error =
+        perspective && settings.principal_point_error > 0 ? settings.principal_point_error : k_held;
+    if (lens.focal_error != k_held) lens.log_focal = std::log(start.focal_px() / prior_focal_px);
+    if (lens.sight_error != k_held)
+        lens.sight_off = {start.sight.x - sight.x, start.sight.y - sight.y};
+    return lens;
+}
+
+bool minimise(ceres::Problem& problem, bool facets_free) {
+    ceres::Solver::Options options;
+    // The Jacobian is sparse, because an edge has only two of the facets.
+    options.linear_solver_type = facets_free ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+    options.max_num_iterations = facets_free ? 12 : 20;
+    options.function_tolerance = 1e-7;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    return summary.IsSolutionUsable();
+}
+
+/// Sets the covariance, and the sizes of the facets' errors by their changes.
+void set_errors(ceres::Problem& problem, double* change, const std::vector<double*>& free_blocks,
+                const FacetPrior& prior, SolvedView& result) {
+    const Eigen::MatrixXd covariance = covariance_of(problem, change, free_blocks);
+    for (int i = 0; i < k_view_unknowns; ++i) {
+        for (int j = 0; j < k_view_unknowns; ++j) result.covariance.push_back(covariance(i, j));
+    }
+    Component tilt(prior.angle), lift(prior.lift);
+    for (std::size_t b = 0; b < free_blocks.size(); ++b) {
+        const Eigen::Index at = k_view_unknowns + 3 * static_cast<Eigen::Index>(b);
+        tilt.add(free_blocks[b][0], covariance(at, at));
+        tilt.add(free_blocks[b][1], covariance(at + 1, at + 1));
+        lift.add(free_blocks[b][2], covariance(at + 2, at + 2));
+    }
+    result.facet_error = std::numbers::sqrt2 * tilt.sigma();
+    result.facet_offset = lift.sigma();
+    result.tilts_found = tilt.count();
+}
+
 }  // namespace
 
 SolvedView solve_view(const WireSolid& wire, const StoneView& start,
                       const std::vector<MetEdge>& edges, double prior_focal_px,
                       const PicturePoint& sight, const SolverSettings& settings) {
     SolvedView result;
-    result.view = start;
     result.facets.assign(wire.solid.facets.size(), FacetChange{0, 0, 0});
     ViewChange change{};
     ViewAtChange view(start, change);
@@ -186,81 +254,26 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     at_once.evaluation_callback = &view;
     ceres::Problem problem(at_once);
     problem.AddParameterBlock(change.data(), k_view_unknowns);
-    std::map<int, int> used;  // facets, and their numbers of edges
-    for (const MetEdge& met : edges) {
-        if (!settings.facets_free) {
-            problem.AddResidualBlock(new ViewResidual(view.view(), met),
-                                     new ceres::CauchyLoss(k_loss), change.data());
-            continue;
-        }
-        const Edge& edge = wire.edges[static_cast<std::size_t>(met.point.edge)];
-        ++used[edge.left];
-        ++used[edge.right];
-        auto* cost = new EdgeResidual(view.view(), frame_of(wire, edge.left),
-                                      frame_of(wire, edge.right), met);
-        problem.AddResidualBlock(cost, new ceres::CauchyLoss(k_loss), change.data(),
-                                 result.facets[static_cast<std::size_t>(edge.left)].data(),
-                                 result.facets[static_cast<std::size_t>(edge.right)].data());
+    const std::vector<double*> free_blocks = add_edges(
+        wire, edges, view.view(), settings.facets_free, change.data(), result.facets, problem);
+    const FacetPrior facets{settings.facet_error / std::numbers::sqrt2, settings.facet_offset};
+    for (double* block : free_blocks) {
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<FacetPrior, 3, 3>(new FacetPrior(facets)), nullptr,
+            block);
     }
-    const double axis_error = settings.facet_error / std::numbers::sqrt2;
-    const double lift_error = settings.facet_offset;
-    std::vector<double*> free_blocks;
-    for (const auto& [facet, count] : used) {
-        double* block = result.facets[static_cast<std::size_t>(facet)].data();
-        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FacetPrior, 3, 3>(
-                                     new FacetPrior{axis_error, lift_error}),
-                                 nullptr, block);
-        free_blocks.push_back(block);
-    }
-    const bool perspective = start.nearness > 0 && prior_focal_px > 0;
-    LensPrior lens;
-    lens.focal_error = perspective && settings.focal_error > 0 ? settings.focal_error : k_held;
-    lens.sight_error =
-        perspective && settings.principal_point_error > 0 ? settings.principal_point_error : k_held;
-    if (perspective) lens.log_focal = std::log(start.focal_px() / prior_focal_px);
-    if (lens.focal_error == k_held) lens.log_focal = 0;
-    if (lens.sight_error != k_held)
-        lens.sight_off = {start.sight.x - sight.x, start.sight.y - sight.y};
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<LensPrior, 3, k_view_unknowns>(new LensPrior(lens)),
-        nullptr, change.data());
-
-    ceres::Solver::Options options;
-    // The Jacobian is sparse, because an edge has only two of the facets.
-    options.linear_solver_type =
-        settings.facets_free ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
-    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-    options.max_num_iterations = settings.facets_free ? 12 : 20;
-    options.function_tolerance = 1e-7;
-    options.num_threads = 1;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    result.converged = summary.IsSolutionUsable();
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LensPrior, 3, k_view_unknowns>(
+                                 new LensPrior(lens_prior(start, prior_focal_px, sight, settings))),
+                             nullptr, change.data());
+    result.converged = minimise(problem, settings.facets_free);
     ceres::Problem::EvaluateOptions raw;
     raw.apply_loss_function = false;
     raw.num_threads = 1;
     problem.GetResidualBlocks(&raw.residual_blocks);
     raw.residual_blocks.resize(edges.size());  // the edges' were added first
     problem.Evaluate(raw, nullptr, &result.residuals, nullptr, nullptr);
-    if (settings.with_covariance) {
-        const Eigen::MatrixXd covariance = covariance_of(problem, change.data(), free_blocks);
-        for (int i = 0; i < k_view_unknowns; ++i) {
-            for (int j = 0; j < k_view_unknowns; ++j) result.covariance.push_back(covariance(i, j));
-        }
-        Component tilt(axis_error), lift(lift_error);
-        for (std::size_t b = 0; b < free_blocks.size(); ++b) {
-            const Eigen::Index at = k_view_unknowns + 3 * static_cast<Eigen::Index>(b);
-            tilt.add(free_blocks[b][0], covariance(at, at));
-            tilt.add(free_blocks[b][1], covariance(at + 1, at + 1));
-            lift.add(free_blocks[b][2], covariance(at + 2, at + 2));
-        }
-        result.facet_error = std::numbers::sqrt2 * tilt.sigma();
-        result.facet_offset = lift.sigma();
-        result.tilts_found = tilt.count();
-    }
-    const StoneView before = result.view;
-    result.view = changed(before, change);
+    if (settings.with_covariance) set_errors(problem, change.data(), free_blocks, facets, result);
+    result.view = changed(start, change);
     return result;
 }
 
