@@ -22,6 +22,23 @@ Eigen::VectorXd shrinkage(const Eigen::VectorXd& sizes, double penalty) {
     return (squares / (squares + penalty)).matrix();
 }
 
+// By generalised cross-validation (Golub, Heath and Wahba 1979). `along`: `wanted` in the basis u.
+double best_penalty(const SingularValues& parts, const Eigen::VectorXd& along,
+                    const Eigen::VectorXd& wanted) {
+    double best = std::numeric_limits<double>::infinity(), penalty = k_most_penalty;
+    for (double tried = k_least_penalty; tried <= k_most_penalty; tried *= k_penalty_step) {
+        const Eigen::VectorXd kept = shrinkage(parts.values, tried);
+        const double off = (wanted - parts.u * kept.cwiseProduct(along)).squaredNorm();
+        // One more degree of freedom for the mean.
+        const double left = 1 - (kept.sum() + 1) / static_cast<double>(wanted.size());
+        if (left > 0 && off / (left * left) < best) {
+            best = off / (left * left);
+            penalty = tried;
+        }
+    }
+    return penalty;
+}
+
 }  // namespace
 
 ErrorRegression::ErrorRegression(std::vector<double> log_errors,
@@ -65,18 +82,7 @@ std::optional<ErrorRegression::Fit> ErrorRegression::fit(
     const SingularValues parts = singular_values(matrix);
     const Eigen::VectorXd& sizes = parts.values;
     const Eigen::VectorXd along = parts.u.transpose() * wanted;
-    double best = std::numeric_limits<double>::infinity(), penalty = k_most_penalty;
-    for (double tried = k_least_penalty; tried <= k_most_penalty; tried *= k_penalty_step) {
-        const Eigen::VectorXd kept = shrinkage(sizes, tried);
-        const double off = (wanted - parts.u * kept.cwiseProduct(along)).squaredNorm();
-        // One more degree of freedom for the mean.
-        const double left = 1 - (kept.sum() + 1) / n;
-        if (left > 0 && off / (left * left) < best) {
-            best = off / (left * left);
-            penalty = tried;
-        }
-    }
-    const Eigen::VectorXd kept = shrinkage(sizes, penalty);
+    const Eigen::VectorXd kept = shrinkage(sizes, best_penalty(parts, along, wanted));
     const Eigen::VectorXd turned =
         (kept.array() > 0)
             .select(kept.array() / sizes.array().max(std::numeric_limits<double>::min()), 0.0)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "compare/calibration/level_curve.h"
@@ -41,7 +40,7 @@ std::vector<double> facet_errors_deg() {
 
 FacetErrorScale::FacetErrorScale(const Calibration& calibration,
                                  const std::vector<std::string>& keys) {
-    std::map<double, std::vector<const CalibrationDraw*>> by_level;
+    DrawsByLevel by_level;
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.alternative == Alternative::facet_error)
             by_level[draw.facet_error_deg].push_back(&draw);
@@ -54,49 +53,10 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
 
     for (std::size_t k = 0; k < calibration.keys.size(); ++k) {
         if (std::find(keys.begin(), keys.end(), calibration.keys[k]) == keys.end()) continue;
-        Curve curve;
-        curve.key = k;
-        curve.kind = score_kind(calibration.keys[k]);
-        if (curve.kind == nullptr) continue;
-        bool everywhere = true;
-        std::vector<double> stabilised_scores;
-        for (const auto& [deg, draws] : by_level) {
-            std::vector<double> values, on_scale;
-            for (const CalibrationDraw* draw : draws) {
-                if (!draw->scores[k]) continue;
-                values.push_back(*draw->scores[k]);
-                on_scale.push_back(stabilised(values.back(), curve.kind->scale));
-            }
-            everywhere = everywhere && !values.empty();
-            const Moments plain = moments(values);
-            curve.mean.push_back(plain.mean);
-            curve.sd.push_back(plain.sd);
-            curve.draws.push_back(plain.count);
-            stabilised_scores.push_back(moments(on_scale).mean);
-        }
-        if (!everywhere) continue;
-        curve.stabilised_scores = falling(stabilised_scores);
-        if (!(curve.stabilised_scores.front() > curve.stabilised_scores.back())) continue;
-        const double sign = curve.kind->higher_is_better() ? 1 : -1;
-        std::vector<double> better = curve.mean;
-        for (double& v : better) v *= sign;
-        curve.fitted = falling(better);
-        for (double& v : curve.fitted) v *= sign;
-        // The scatter of this score's answers.
-        std::size_t level = 0;
-        for (const auto& [deg, draws] : by_level) {
-            double squares = 0, count = 0;
-            for (const CalibrationDraw* draw : draws) {
-                if (!draw->scores[k]) continue;
-                const double off = logarithm(curve, *draw->scores[k]) - levels_[level];
-                squares += off * off;
-                ++count;
-            }
-            curve.variance.push_back(count > 0 ? squares / count : 1);
-            ++level;
-        }
-        curve.variance = smoothed(curve.variance);
-        curves_.push_back(std::move(curve));
+        const ScoreKind* kind = score_kind(calibration.keys[k]);
+        if (kind == nullptr) continue;
+        std::optional<Curve> curve = curve_of(k, *kind, by_level);
+        if (curve) curves_.push_back(std::move(*curve));
     }
     if (curves_.empty()) return;
 
@@ -112,6 +72,49 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
     const JointDraws draws = joint_draws(calibration);
     joint_ = JointScores(draws);
     fit_regression(draws);
+}
+
+std::optional<FacetErrorScale::Curve> FacetErrorScale::curve_of(
+    std::size_t key, const ScoreKind& kind, const DrawsByLevel& by_level) const {
+    Curve curve;
+    curve.key = key;
+    curve.kind = &kind;
+    std::vector<double> stabilised_scores;
+    for (const auto& [deg, draws] : by_level) {
+        std::vector<double> values, on_scale;
+        for (const CalibrationDraw* draw : draws) {
+            if (!draw->scores[key]) continue;
+            values.push_back(*draw->scores[key]);
+            on_scale.push_back(stabilised(values.back(), kind.scale));
+        }
+        if (values.empty()) return std::nullopt;
+        const Moments plain = moments(values);
+        curve.mean.push_back(plain.mean);
+        curve.sd.push_back(plain.sd);
+        curve.draws.push_back(plain.count);
+        stabilised_scores.push_back(moments(on_scale).mean);
+    }
+    curve.stabilised_scores = falling(stabilised_scores);
+    if (!(curve.stabilised_scores.front() > curve.stabilised_scores.back())) return std::nullopt;
+    const double sign = kind.higher_is_better() ? 1 : -1;
+    std::vector<double> better = curve.mean;
+    for (double& v : better) v *= sign;
+    curve.fitted = falling(better);
+    for (double& v : curve.fitted) v *= sign;
+    // The scatter of this score's answers.
+    for (const auto& [deg, draws] : by_level) {
+        const double level = levels_[curve.variance.size()];
+        double squares = 0, count = 0;
+        for (const CalibrationDraw* draw : draws) {
+            if (!draw->scores[key]) continue;
+            const double off = logarithm(curve, *draw->scores[key]) - level;
+            squares += off * off;
+            ++count;
+        }
+        curve.variance.push_back(squares / count);
+    }
+    curve.variance = smoothed(curve.variance);
+    return curve;
 }
 
 void FacetErrorScale::fit_regression(const JointDraws& draws) {

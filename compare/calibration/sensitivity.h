@@ -1,6 +1,7 @@
 #pragma once
 // Finds the facet error that would lower the scores as much.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +75,10 @@ private:
         std::vector<double> stabilised_scores;  // fitted, on the scale of `stabilised`
         std::vector<double> variance;  // of the log of its own equivalent error, one for each level
     };
+    using DrawsByLevel = std::map<double, std::vector<const CalibrationDraw*>>;
+    /// Nothing for a score that a level lacks, or that facet errors do not lower.
+    std::optional<Curve> curve_of(std::size_t key, const ScoreKind& kind,
+                                  const DrawsByLevel& by_level) const;
     double logarithm(const Curve& curve, double score) const;
     double weight(const Curve& curve, double log_deg) const;
     std::vector<double> stabilised_scores(const std::vector<std::optional<double>>& scores) const;

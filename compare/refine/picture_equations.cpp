@@ -104,6 +104,38 @@ Eigen::MatrixXd span_of(Eigen::MatrixXd columns) {
     return parts.first(parts.rank());
 }
 
+// Effective number of independent samples, by the correlation of the residuals. `area`: that of
+// blurred white noise.
+double independent_samples(const Eigen::VectorXd& residual, const cv::Mat& mask,
+                           const cv::Mat& weights, double area) {
+    const double samples = double(residual.size()), squares = residual.squaredNorm();
+    if (!(squares > 0)) return samples / area;
+    return samples * squares / std::max(pair_sums(residual, mask, weights)(0, 0), squares);
+}
+
+// Takes a vector of this covariance to one of unit covariance.
+Eigen::MatrixXd whitening(const Eigen::MatrixXd& covariance) {
+    const SymmetricEigen parts = symmetric_eigen(covariance);
+    const Eigen::VectorXd floor =
+        Eigen::VectorXd::Constant(covariance.rows(), k_rounding * parts.values.maxCoeff());
+    return parts.values.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal() *
+           parts.vectors.transpose();
+}
+
+// The moves by the rows and the prior, and how many of them the rows determine.
+void solve(const Eigen::VectorXd& prior, DeterminedMoves& determined, Eigen::VectorXd& moves) {
+    const Eigen::MatrixXd information = transpose_times(determined.rows, determined.rows);
+    const PivotedCholesky both(information + Eigen::MatrixXd(prior.asDiagonal()));
+    moves = both.solve_one(determined.rows.transpose() * determined.values);
+    determined.parameters_determined = both.solve(information).trace();
+}
+
+Eigen::VectorXd huber_weights(const Eigen::VectorXd& off, double noise) {
+    return (k_huber * noise * off.cwiseAbs().cwiseMax(k_noise_floor).cwiseInverse().array())
+        .min(1.0)
+        .matrix();
+}
+
 // Keeps independent rows that add to the prior: directions that the picture hardly sees would add
 // only noise.
 void keep_informative(const Eigen::VectorXd& spread, DeterminedMoves& determined) {
@@ -151,43 +183,22 @@ DeterminedMoves solved_moves(const PictureEquations& e) {
             pair_sums(residual.asDiagonal() * changes, e.mask, weights) +
             pair_sums(nonlinearity.asDiagonal() * changes, e.mask, correlation) +
             k_noise_floor * k_noise_floor * area * normal;
-        const double squares = residual.squaredNorm();
-        determined.independent =
-            squares > 0 ? double(samples) * squares /
-                              std::max(pair_sums(residual, e.mask, weights)(0, 0), squares)
-                        : double(samples) / area;
-
-        const SymmetricEigen parts = symmetric_eigen(covariance);
-        const Eigen::VectorXd floor =
-            Eigen::VectorXd::Constant(covariance.rows(), k_rounding * parts.values.maxCoeff());
-        const Eigen::MatrixXd whiten =
-            parts.values.cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal() *
-            parts.vectors.transpose();
+        determined.independent = independent_samples(residual, e.mask, weights, area);
+        const Eigen::MatrixXd whiten = whitening(covariance);
         determined.rows = product(whiten, normal);
         determined.values = whiten * sums;
-        const auto solve = [&] {
-            const Eigen::MatrixXd information = transpose_times(determined.rows, determined.rows);
-            const PivotedCholesky both(information + Eigen::MatrixXd(prior.asDiagonal()));
-            moves = both.solve_one(determined.rows.transpose() * determined.values);
-            determined.parameters_determined = both.solve(information).trace();
-        };
-        solve();
+        solve(prior, determined, moves);
         // Corrects for the degrees of freedom that the moves have absorbed.
         const double taken =
             std::min(determined.parameters_determined / determined.independent, k_most_determined);
         determined.rows *= std::sqrt(1 - taken);
         determined.values *= std::sqrt(1 - taken);
-        solve();
+        solve(prior, determined, moves);
         // Outliers by the noise of a single sample.
         const Eigen::VectorXd off =
             (difference - changes * moves).cwiseQuotient(determined.weights.cwiseSqrt());
         determined.noise = std::max(typical(off), k_noise_floor);
-        if (round + 1 < k_rounds) {
-            determined.weights = (k_huber * determined.noise *
-                                  off.cwiseAbs().cwiseMax(k_noise_floor).cwiseInverse().array())
-                                     .min(1.0)
-                                     .matrix();
-        }
+        if (round + 1 < k_rounds) determined.weights = huber_weights(off, determined.noise);
     }
     keep_informative(e.spread, determined);
     return determined;

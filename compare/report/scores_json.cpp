@@ -33,6 +33,13 @@ OrderedJson registration_json(const Registration& r) {
     return json;
 }
 
+OrderedJson reflexes_json(const ReflexCount& reflexes) {
+    return {{"photo", reflexes.in_photo},       {"render", reflexes.in_render},
+            {"matched", reflexes.matched},      {"displacement", number(reflexes.displacement)},
+            {"coloured", reflexes.coloured},    {"same_hue", reflexes.same_hue},
+            {"sentence", sentence_of(reflexes)}};
+}
+
 OrderedJson null_json(const Comparison& comparison) {
     OrderedJson json;
     json["kind"] = "turned_render";
@@ -84,13 +91,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
         json["scores"][score.key] = number(score.value);
         if (!score.note.empty()) json["score_notes"][score.key] = score.note;
     }
-    json["reflexes"] = {{"photo", comparison.reflexes.in_photo},
-                        {"render", comparison.reflexes.in_render},
-                        {"matched", comparison.reflexes.matched},
-                        {"displacement", number(comparison.reflexes.displacement)},
-                        {"coloured", comparison.reflexes.coloured},
-                        {"same_hue", comparison.reflexes.same_hue},
-                        {"sentence", sentence_of(comparison.reflexes)}};
+    json["reflexes"] = reflexes_json(comparison.reflexes);
     json["light_return"] = {{"photo", number(comparison.photo_light)},
                             {"render", number(comparison.render_light)}};
     if (comparison.within)
@@ -99,9 +100,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
                                    {"pixels", comparison.within->pixels}};
     json["null"] = null_json(comparison);
     json["sensitivity"] = calibrated ? sensitivity_json(*calibrated) : OrderedJson::array();
-    if (calibrated) {
-        json["meaning"] = calibrated_verdict_json(*calibrated);
-    }
+    if (calibrated) json["meaning"] = calibrated_verdict_json(*calibrated);
     json["verdict_rule"] =
         calibrated
             ? std::string(k_calibrated_rule)

@@ -137,6 +137,32 @@ void add_null(const MeasuredPair& close, const cv::Mat& usable, const cv::Mat& o
         "mirrored, gain solved anew; draws under which the render stays much the same are left out";
 }
 
+void show_frame(const Frame& frame, double saturation, Comparison& result) {
+    result.registration = registration_of(frame);
+    if (!frame.photo.colour.empty()) {
+        result.pictures.photo = photo_of(frame.photo.colour);
+        result.pictures.photo_outline = map_of({}, frame.photo.silhouette.mask);
+        result.pictures.white = white_level(frame.photo.colour, {}, saturation);
+    }
+    if (!frame.render.empty()) {
+        result.pictures.render = photo_of(frame.render);
+        result.pictures.render_outline = map_of({}, frame.render_mask);
+    }
+}
+
+void show_maps(const MeasuredPair& close, const MatchedPictures& pictures,
+               ComparedPictures& shown) {
+    shown.white = pictures.white;
+    shown.render = photo_of(pictures.render);
+    shown.mask = map_of({}, pictures.mask);
+    shown.luminance_difference =
+        map_of(close.measures.shown.render_luma - close.measures.shown.photo_luma, close.part,
+               pictures.mask);
+    shown.colour_difference = map_of(close.measures.colour.map, close.part, pictures.mask);
+    shown.visible_difference = map_of(close.measures.visible.map, close.part, pictures.mask);
+    shown.similarity = map_of(close.measures.structure.map, close.part, pictures.mask);
+}
+
 }  // namespace
 
 std::string sentence_of(const ReflexCount& reflexes) {
@@ -172,16 +198,7 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     for (const std::string& note : render.notes) result.notes.push_back("render: " + note);
 
     const Frame& frame = pair.frame;
-    result.registration = registration_of(frame);
-    if (!frame.photo.colour.empty()) {
-        result.pictures.photo = photo_of(frame.photo.colour);
-        result.pictures.photo_outline = map_of({}, frame.photo.silhouette.mask);
-        result.pictures.white = white_level(frame.photo.colour, {}, photo.saturation);
-    }
-    if (!frame.render.empty()) {
-        result.pictures.render = photo_of(frame.render);
-        result.pictures.render_outline = map_of({}, frame.render_mask);
-    }
+    show_frame(frame, photo.saturation, result);
     if (!frame.match.usable) {
         result.reason = frame.match.trouble;
         return result;
@@ -218,14 +235,7 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     add_null(close, pair.usable(part).clone(), frame.render_mask(part).clone(), options, progress,
              result);
     judge_by_rotations(result);
-    result.pictures.white = pictures.white;
-    result.pictures.render = photo_of(pictures.render);
-    result.pictures.mask = map_of({}, pictures.mask);
-    result.pictures.luminance_difference =
-        map_of(measures.shown.render_luma - measures.shown.photo_luma, part, pictures.mask);
-    result.pictures.colour_difference = map_of(measures.colour.map, part, pictures.mask);
-    result.pictures.visible_difference = map_of(measures.visible.map, part, pictures.mask);
-    result.pictures.similarity = map_of(measures.structure.map, part, pictures.mask);
+    show_maps(close, pictures, result.pictures);
     return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "compare/study/study_words.h"
 #include "render/beams/frame_renderer.h"
@@ -155,6 +156,13 @@ private:
     std::vector<StudyCandidate> candidates_;
 };
 
+// The last value of a list for which `coarser` holds.
+template <class List, class Coarser>
+auto next_coarser(const List& list, Coarser coarser) {
+    const auto found = std::find_if(list.rbegin(), list.rend(), coarser);
+    return found == list.rend() ? std::nullopt : std::optional(*found);
+}
+
 }  // namespace
 
 RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
@@ -194,73 +202,46 @@ std::vector<StudyCandidate> study_design(const StudiedScene& studied) {
 std::vector<StudyCandidate> cheaper_neighbours(const StudiedScene& studied,
                                                const RenderSettings& settings,
                                                const RenderStats& drawn) {
+    const std::vector<Effects> on = effects_on(drawn);
     std::vector<StudyCandidate> found;
-    const auto add = [&](const RenderSettings& changed) {
+    const auto add = [&](auto change) {
+        RenderSettings changed = settings;
+        change(changed);
         found.push_back({"search", words_of(studied, changed), changed});
     };
-    const auto coarser = std::find_if(k_tolerances.rbegin(), k_tolerances.rend(), [&](double t) {
-        return t > settings.tolerance * (1 + 1e-9);
-    });
-    if (coarser != k_tolerances.rend()) {
-        RenderSettings changed = settings;
-        changed.tolerance = *coarser;
-        add(changed);
-    }
-    if (settings.cut_weight) {
-        RenderSettings changed = settings;
-        changed.cut_weight = 3 * *settings.cut_weight;
-        add(changed);
-    }
-    const auto sets = wavelength_sets(studied);
-    const auto fewer = std::find_if(sets.rbegin(), sets.rend(), [&](const auto& nm) {
-        return nm.size() < drawn.wavelengths_nm.size();
-    });
-    if (fewer != sets.rend()) {
-        RenderSettings changed = settings;
-        changed.wavelengths_nm = *fewer;
-        add(changed);
-    }
-    const auto shallower = std::find_if(k_depths.rbegin(), k_depths.rend(), [&](int depth) {
-        return depth < (settings.depth > 0 ? settings.depth : drawn.depth / 2);
-    });
-    if (shallower != k_depths.rend()) {
-        RenderSettings changed = settings;
-        changed.depth = *shallower;
-        add(changed);
-    }
-    for (const Effects effect : effects_on(drawn)) {
-        RenderSettings changed = settings;
-        if (settings.effects_auto) changed.effects.fill(true);
-        without(changed, effect);
-        add(changed);
+    if (const auto coarser = next_coarser(
+            k_tolerances, [&](double t) { return t > settings.tolerance * (1 + 1e-9); }))
+        add([&](RenderSettings& s) { s.tolerance = *coarser; });
+    if (settings.cut_weight) add([](RenderSettings& s) { s.cut_weight = 3 * *s.cut_weight; });
+    if (const auto fewer = next_coarser(wavelength_sets(studied), [&](const auto& nm) {
+            return nm.size() < drawn.wavelengths_nm.size();
+        }))
+        add([&](RenderSettings& s) { s.wavelengths_nm = *fewer; });
+    const int depth = settings.depth > 0 ? settings.depth : drawn.depth / 2;
+    if (const auto shallower = next_coarser(k_depths, [&](int d) { return d < depth; }))
+        add([&](RenderSettings& s) { s.depth = *shallower; });
+    for (const Effects effect : on) {
+        add([&](RenderSettings& s) {
+            if (s.effects_auto) s.effects.fill(true);
+            without(s, effect);
+        });
     }
     if (settings.engine == k_reference_engine) {
-        const auto less = std::find_if(k_samples.rbegin(), k_samples.rend(), [&](int samples) {
-            return samples < (settings.samples > 0 ? settings.samples : 16);
-        });
-        if (less != k_samples.rend()) {
-            RenderSettings changed = settings;
-            changed.samples = *less;
-            add(changed);
-        }
+        const int samples = settings.samples > 0 ? settings.samples : 16;
+        if (const auto less = next_coarser(k_samples, [&](int s) { return s < samples; }))
+            add([&](RenderSettings& s) { s.samples = *less; });
     }
     if (settings.engine == k_beam_engine) {
-        RenderSettings changed = settings;
-        changed.engine = k_preview_engine;
-        changed.samples = 0;
-        add(changed);
-        changed = settings;
-        changed.samples = settings.samples == 1 ? 0 : 1;
-        if (studied.scene.camera.aperture_radius == 0) add(changed);
+        add([](RenderSettings& s) {
+            s.engine = k_preview_engine;
+            s.samples = 0;
+        });
+        if (studied.scene.camera.aperture_radius == 0)
+            add([](RenderSettings& s) { s.samples = s.samples == 1 ? 0 : 1; });
     }
     if (drawn_by_beams(settings) && settings.crystal_beams != CrystalBeams::merged &&
-        std::any_of(drawn.effects.begin(), drawn.effects.end(), [](const EffectDecision& d) {
-            return d.effect == Effects::birefringence && d.on;
-        })) {
-        RenderSettings changed = settings;
-        changed.crystal_beams = CrystalBeams::merged;
-        add(changed);
-    }
+        std::find(on.begin(), on.end(), Effects::birefringence) != on.end())
+        add([](RenderSettings& s) { s.crystal_beams = CrystalBeams::merged; });
     return found;
 }
 

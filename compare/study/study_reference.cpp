@@ -85,6 +85,40 @@ Half half_of(const Scene& scene, double finest_tolerance, int side, int fewer,
     return half;
 }
 
+void take(Half& first, Half& second, StudyReference& reference) {
+    const PictureMetric metric(sum_of(0.5f, first.picture, 0.5f, second.picture));
+    if (metric.stone_pixels() == 0 || first.stats.rays == 0)
+        throw InputError("the camera does not see the stone: there is nothing to study");
+    reference.samples = first.rays + second.rays;
+    reference.control_samples = first.rough_rays + second.rough_rays;
+    reference.stats = std::move(first.stats);
+    // The mean differs from either half by half their difference.
+    reference.noise = metric.error_of(first.picture);
+    reference.picture = metric.truth();
+    reference.stone_pixels = metric.stone_pixels();
+    reference.mean_radiance = metric.mean_radiance();
+    reference.white = metric.white();
+}
+
+struct Spent {
+    double now = 0, round = 0, most = 0;  // seconds: so far, in the last round, and allowed
+};
+
+// The finest side that there is time for, and that the noise needs.
+std::size_t next_side(std::size_t at, const Spent& spent, double noise, double target) {
+    const double side = k_sides[at];
+    std::size_t next = at;
+    while (next + 1 < k_sides.size()) {
+        const double more = std::pow(k_sides[next + 1] / side, 2);
+        if (spent.now + spent.round * more > spent.most) break;
+        // Noise falls with the square root of the number of rays, or faster.
+        const double fewer = std::pow(k_sides[next] / side, 2);
+        if (next > at && noise <= target * std::sqrt(fewer)) break;
+        ++next;
+    }
+    return next;
+}
+
 }  // namespace
 
 Camera resized(const Camera& camera, int longer_side) {
@@ -148,38 +182,20 @@ StudyReference study_reference(const Scene& scene, double finest_tolerance, doub
             reference.ended = too_dear;
             break;
         }
-        const PictureMetric metric(sum_of(0.5f, first.picture, 0.5f, second.picture));
-        if (metric.stone_pixels() == 0 || first.stats.rays == 0)
-            throw InputError("the camera does not see the stone: there is nothing to study");
-        reference.samples = first.rays + second.rays;
-        reference.control_samples = first.rough_rays + second.rough_rays;
-        reference.stats = std::move(first.stats);
-        // The mean differs from either half by half their difference.
-        reference.noise = metric.error_of(first.picture);
-        reference.picture = metric.truth();
-        reference.stone_pixels = metric.stone_pixels();
-        reference.mean_radiance = metric.mean_radiance();
-        reference.white = metric.white();
+        take(first, second, reference);
         const double target = k_quiet * finest_tolerance;
         if (reference.noise.mean <= target) {
             reference.ended = "its noise is a tenth of the finest tolerance";
             break;
         }
         const double now = clock.spent() - begin, took = now - spent;
-        const std::size_t before = at;
-        while (at + 1 < k_sides.size()) {
-            const double more = std::pow(static_cast<double>(k_sides[at + 1]) / side, 2);
-            if (now + took * more > seconds) break;
-            // Noise falls with the square root of the number of rays, or faster.
-            const double fewer = std::pow(static_cast<double>(k_sides[at]) / side, 2);
-            if (at > before && reference.noise.mean <= target * std::sqrt(fewer)) break;
-            ++at;
-        }
-        if (at == before) {
+        const std::size_t next = next_side(at, {now, took, seconds}, reference.noise.mean, target);
+        if (next == at) {
             reference.ended =
                 at + 1 < k_sides.size() ? too_dear : "it has as many rays as a study takes";
             break;
         }
+        at = next;
     }
     reference.cpu_seconds = clock.spent() - begin;
     return reference;
