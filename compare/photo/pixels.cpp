@@ -54,14 +54,16 @@ std::string png_bytes(const cv::Mat& pixels) {
                       {rows.data, rows.total() * rows.elemSize()});
 }
 
-double between_pixels(const cv::Mat& plane, double x, double y) {
+double between_pixels(const cv::Mat& plane, double x, double y, cv::Point2d* slope) {
     x = std::clamp(x, 0.0, plane.cols - 1.001);
     y = std::clamp(y, 0.0, plane.rows - 1.001);
     const int column = static_cast<int>(x), row = static_cast<int>(y);
     const double u = x - column, v = y - row;
     const float *above = plane.ptr<float>(row) + column,
                 *below = plane.ptr<float>(row + 1) + column;
-    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
+    const double a = above[0], b = above[1], c = below[0], d = below[1];
+    if (slope) *slope = {(1 - v) * (b - a) + v * (d - c), (1 - u) * (c - a) + u * (d - b)};
+    return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
 }
 
 cv::Mat brightest_channel(const cv::Mat& colour) {

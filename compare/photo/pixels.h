@@ -4,6 +4,7 @@
 // pixel at (0, 0), x to the right, y down.
 
 #include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 
 #include "compare/photo/photo.h"
 
@@ -21,8 +22,9 @@ cv::Mat encoded(const cv::Mat& linear);
 /// PNG file bytes; CV_8U with 1 channel, or 3 in the order R, G, B.
 std::string png_bytes(const cv::Mat& pixels);
 
-/// Bilinear, of CV_32F (x to the right, y down); the border's value beyond it.
-double between_pixels(const cv::Mat& plane, double x, double y);
+/// Bilinear, of CV_32F (x to the right, y down); the border's value beyond it. `slope`: the
+/// surface's gradient.
+double between_pixels(const cv::Mat& plane, double x, double y, cv::Point2d* slope = nullptr);
 
 cv::Mat brightest_channel(const cv::Mat& colour);
 

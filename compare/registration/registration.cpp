@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "compare/photo/pixels.h"
 #include "compare/photo/resampling.h"
 #include "stone/numbers/quantile.h"
 
@@ -48,16 +49,10 @@ struct Sample {
 
 /// Value and gradient of the bilinear surface; outside the picture the distance to it is added.
 Sample sample(const cv::Mat& field, const cv::Point2d& p) {
-    const double x = std::clamp(p.x, 0.0, field.cols - 1.001);
-    const double y = std::clamp(p.y, 0.0, field.rows - 1.001);
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const double u = x - x0, v = y - y0;
-    const double a = field.at<float>(y0, x0), b = field.at<float>(y0, x0 + 1);
-    const double c = field.at<float>(y0 + 1, x0), d = field.at<float>(y0 + 1, x0 + 1);
     Sample result;
-    result.value = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
-    result.value += std::hypot(p.x - x, p.y - y);
-    result.slope = {(1 - v) * (b - a) + v * (d - c), (1 - u) * (c - a) + u * (d - b)};
+    result.value = between_pixels(field, p.x, p.y, &result.slope);
+    result.value += std::hypot(p.x - std::clamp(p.x, 0.0, field.cols - 1.001),
+                               p.y - std::clamp(p.y, 0.0, field.rows - 1.001));
     return result;
 }
 
