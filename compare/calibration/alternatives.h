@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "compare/calibration/calibration.h"
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 #include "render/scene/scene.h"
 
 namespace culet {

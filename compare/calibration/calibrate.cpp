@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "compare/calibration/alternatives.h"
-#include "compare/calibration/chance.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/photo/in_batches.h"
+#include "compare/scores/chance.h"
 #include "compare/scores/scored_pair.h"
 
 namespace culet {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 #include "stone/numbers/units.h"
 #include "stone/solid/checks.h"
 

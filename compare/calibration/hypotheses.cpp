@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 
 namespace culet {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "compare/calibration/chance.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/photo/pixels.h"
 #include "compare/pose/picture_noise.h"
+#include "compare/scores/chance.h"
 
 namespace culet {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "compare/calibration/chance.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/photo/pixels.h"
 #include "compare/photo/resampling.h"
+#include "compare/scores/chance.h"
 #include "render/colour/colour.h"
 #include "stone/text/errors.h"
 

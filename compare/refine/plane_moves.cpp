@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 
 namespace culet {
 

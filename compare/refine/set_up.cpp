@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 #include "render/scene/transform.h"
 #include "stone/numbers/units.h"
 

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <random>
 
 #include "compare/photo/resampling.h"
+#include "compare/scores/chance.h"
 
 namespace culet {
 
@@ -28,11 +28,6 @@ Roots roots_of(const cv::Matx22d& m) {
         result.inverse += (1 / value) * (axis * axis.t());
     }
     return result;
-}
-
-// 53 random bits in 0..1, the same with every standard library.
-double uniform(std::mt19937_64& random) {
-    return static_cast<double>(random() >> 11) * 0x1.0p-53;
 }
 
 // Correlation of the render with its rotated self, at thumbnail size.
@@ -73,10 +68,10 @@ std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::
     }
     small.photo = small.render;
 
-    std::mt19937_64 random(seed);
+    Chance chance(seed);
     for (int attempt = 0; attempt < 20 * count && static_cast<int>(draws.size()) < count;
          ++attempt) {
-        const double angle = 2 * std::numbers::pi * uniform(random);
+        const double angle = 2 * std::numbers::pi * chance.uniform();
         const double mirror = draws.size() % 2 == 0 ? 1 : -1;
         const double c = std::cos(angle), s = std::sin(angle);
         const cv::Matx22d rotation(c, -s * mirror, s, c * mirror);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "compare/calibration/chance.h"
 #include "compare/calibration/cropped_camera.h"
+#include "compare/scores/chance.h"
 #include "render/render.h"
 #include "render/scene/turned_lights.h"
 #include "stone/numbers/units.h"

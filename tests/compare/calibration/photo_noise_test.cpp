@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 #include "render/colour/colour.h"
 
 namespace culet {

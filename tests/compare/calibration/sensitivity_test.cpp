@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "compare/calibration/calibrated_verdict.h"
-#include "compare/calibration/chance.h"
 #include "compare/calibration/several.h"
+#include "compare/scores/chance.h"
 
 namespace culet {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "compare/calibration/chance.h"
 #include "compare/report/scores_json.h"
+#include "compare/scores/chance.h"
 #include "render/colour/colour.h"
 #include "tests/compare/synthetic_pictures.h"
 

@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/calibration/chance.h"
 #include "compare/refine/picture_misfit.h"
+#include "compare/scores/chance.h"
 
 namespace culet {
 namespace {

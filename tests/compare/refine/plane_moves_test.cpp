@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 #include "stone/cuts/cuts.h"
 
 namespace culet {

@@ -1,4 +1,4 @@
-#include "compare/calibration/chance.h"
+#include "compare/scores/chance.h"
 
 #include <cmath>
 #include <numbers>
