@@ -172,8 +172,8 @@ FitOptions with_free_corners(const Stone& stone, FitOptions options) {
 void prepare_for_outlines(const Stone& stone, FitOptions& options) {
     if (options.meets_named && options.meets != MeetTreatment::released) {
         throw InputError(
-            "outlines show where each plane lies, and meets as they are: beside [[silhouette]] "
-            "[fit] meets is \"released\", or is left out");
+            "outlines fix each plane, so meets cannot be forced: with [[silhouette]], make [fit] "
+            "meets \"released\" or leave it out");
     }
     options = with_free_corners(stone, options);
 }

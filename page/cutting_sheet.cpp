@@ -77,7 +77,7 @@ std::vector<std::string> word_notes(const CuttingSheet& sheet) {
         return any([&](const CuttingStep& step) { return step.depth.to == what; });
     };
     if (to(CutDepth::To::leave))
-        notes.emplace_back("\"leave 0.20 of A\": until a facet of A is so wide, at its widest.");
+        notes.emplace_back("\"leave 0.20 of A\": until a facet of A is 0.20 at its widest.");
     if (to(CutDepth::To::point) || to(CutDepth::To::distance))
         notes.emplace_back(
             "\"from the girdle\": along the axis from its edge; \"from the middle\": square to the "

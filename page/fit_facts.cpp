@@ -35,7 +35,7 @@ std::vector<FacetFacts> facet_facts(const std::vector<std::string>& facets,
         all.push_back(std::move(facts));
     }
     if (!any)
-        throw InputError("the fit report speaks of none of this stone's facets: is it of another?");
+        throw InputError("the fit report has none of this stone's facets: is it of another stone?");
     return all;
 }
 

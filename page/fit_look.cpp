@@ -87,8 +87,7 @@ std::string fit_look_section(const FitView& view) {
         add_items(heading, items);
     };
     add_items("Suspect readings", suspects_of_fit(fit));
-    add("Readings that cannot hold together: one is wrong, or its ± is too small",
-        disagreeing(fit));
+    add("Conflicting readings: one is wrong, or its ± is too small", disagreeing(fit));
     const bool suspected = !parts.empty();
     add("What stands out", tier_sentences(fit));
     add("Where mesh and readings disagree", denied(fit));

@@ -41,8 +41,8 @@ std::string fit_figures(const Json& fit, const std::string& unit) {
     row("status", status);
     row("how far off the readings are, in sigmas, squared and added up (χ²)",
         significant(number_at(fit, "chi2")));
-    row("as much is expected (degrees of freedom)", whole(number_at(fit, "dof")));
-    row("as much comes by chance", significant(number_at(fit, "chi2_limit")));
+    row("expected (degrees of freedom)", whole(number_at(fit, "dof")));
+    row("at most, by chance", significant(number_at(fit, "chi2_limit")));
     row("closed", yes_no("closed"));
     row("convex", yes_no("convex"));
     const auto planarity = number_at(fit, "planarity_max");

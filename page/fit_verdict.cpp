@@ -45,7 +45,7 @@ std::string remedy_for(const Json* proposal, const std::string& unit) {
 std::string suspect_words(const Json& reading, const Json* proposal, const std::string& unit) {
     std::string text = text_at(reading, "id") + ": " + reading_words(reading);
     const auto value = number_at(reading, "value");
-    if (!value) return text + " does not hold together with the others";
+    if (!value) return text + " conflicts with the others";
     text += " was read as " + as_read(value, unit);
     if (proposal != nullptr) {
         const auto estimate = number_at(*proposal, "estimate");
@@ -85,10 +85,9 @@ Verdict contradiction(const Json& fit) {
     Verdict verdict{"The readings contradict each other", "bad", "!", {}};
     if (suspects.empty()) {
         const auto apart = texts_at(fit, "disagreeing");
-        verdict.sentences = {
-            apart.empty()
-                ? as_sentence(text_at(fit, "message"))
-                : fmt::format("{} readings cannot hold together: see below.", apart.size())};
+        verdict.sentences = {apart.empty()
+                                 ? as_sentence(text_at(fit, "message"))
+                                 : fmt::format("{} readings conflict: see below.", apart.size())};
         return verdict;
     }
     verdict.word = suspects.size() == 1

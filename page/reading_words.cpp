@@ -67,7 +67,7 @@ std::string next_reading_words(const Json& help) {
     const double reduces = std::clamp(number_at(help, "reduces").value_or(0), 0.0, 1.0);
     if (text_at(help, "kind").empty() || (!closes && reduces < k_worth_it)) return {};
     const std::string gain =
-        closes ? "it would determine something that is undetermined"
+        closes ? "it would settle what no reading settles yet"
                : fmt::format("on the whole the facets would be known {:.0f} % better",
                              100 * (1 - std::sqrt(1 - reduces)));
     return as_sentence(order(help) + ": " + gain);

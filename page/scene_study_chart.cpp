@@ -81,7 +81,7 @@ std::string scene_study_table(const std::string& study_json) {
     for (const Json* row : front_of(study)) {
         if (text.empty()) {
             text = fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", "CPU/ms", "wall/ms",
-                               "error", "RMSE", "dE00", "FLIP", "setting on the front");
+                               "error", "RMSE", "dE00", "FLIP", "best setting");
         }
         text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", plain_signs(ms(*row)),
                             plain_signs(ms(*row, "wall_seconds")), plain_signs(error_of(*row)),

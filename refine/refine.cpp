@@ -187,17 +187,17 @@ void describe(const std::vector<PhotographCase>& cases, FitResult& result) {
 std::vector<std::string> photograph_words(const std::string& name,
                                           const PhotographFinding& finding) {
     std::vector<std::string> lines{
-        fmt::format("{}: differs from the stone's picture by {:.3f} (root mean square of the root "
-                    "of light), by {:.3f} before; it determines {:.0f} combinations of the planes",
+        fmt::format("{}: differs from the stone's picture by {:.3f} (rms, square root of light), "
+                    "by {:.3f} before; it determines {:.0f} combinations of the planes",
                     name, finding.rms, finding.rms_before, finding.parameters_determined)};
     for (const PhotographFinding::Place& place : finding.contradictions) {
-        lines.push_back(fmt::format(
-            "{}: at {:.0f}, {:.0f} (facet {}) {}, {:.0f} times what is usual: dust, an inclusion, "
-            "a light that the scene has not, or a facet that is farther off",
-            name, place.x, place.y, place.facet.empty() ? "none" : place.facet,
-            place.brighter ? "it shows a flash that the stone does not give"
-                           : "the stone gives a flash that it does not show",
-            place.deviations));
+        lines.push_back(
+            fmt::format("{}: at {:.0f}, {:.0f} (facet {}) {}, {:.0f} times the usual: dust, an "
+                        "inclusion, a light missing from the scene, or a facet far from its angle",
+                        name, place.x, place.y, place.facet.empty() ? "none" : place.facet,
+                        place.brighter ? "it shows a flash that the stone does not give"
+                                       : "the stone gives a flash that it does not show",
+                        place.deviations));
     }
     return lines;
 }

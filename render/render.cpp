@@ -173,7 +173,7 @@ RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
     result.stats.plan->seconds_planning = 0;
     result.stats.error_bound = plan.checked_bound;
     result.stats.notes.push_back(
-        "drawn as an earlier picture of the same stone and light; the error bound is of that one");
+        "drawn like an earlier picture of this stone and light, with the same error bound");
     return result;
 }
 

@@ -31,10 +31,10 @@ void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
             largest = std::max(largest, std::abs(glm::dot(axis, v)));
     }
     if (largest > k_largest_coordinate || (extent > 0 && extent < k_smallest_extent)) {
-        throw InputError(
-            file, fmt::format("has coordinates up to {:.2g} and is {:.2g} across: between {:g} and "
-                              "{:g} can be computed with; write it in another unit",
-                              largest, extent, k_smallest_extent, k_largest_coordinate));
+        throw InputError(file,
+                         fmt::format("has coordinates up to {:.2g} and is {:.2g} across: sizes "
+                                     "from {:g} to {:g} can be computed; write it in another unit",
+                                     largest, extent, k_smallest_extent, k_largest_coordinate));
     }
 }
 

@@ -118,7 +118,7 @@ std::vector<BatchJob> jobs_of_plan(const std::string& json, const fs::path& file
             job.stone = entry.at("stone").get<std::string>();
             if (job.name.empty() || job.name.find('/') != std::string::npos || job.name[0] == '.')
                 throw InputError(file,
-                                 "names a job that is not a folder's name: start the batch anew");
+                                 "names a job that cannot name a folder: start the batch anew");
             jobs.push_back(std::move(job));
         }
         return jobs;

@@ -205,8 +205,8 @@ void keep_plan(const std::string& plan, const BatchFolder& folder, bool resume) 
     if (there && read_text(file) == plan) return;
     if (there && !resume)
         throw InputError(file,
-                         "is of another batch or other settings: --resume does again what has "
-                         "changed, another -o keeps these results");
+                         "is of another batch or other settings: --resume redoes what has changed, "
+                         "another -o keeps these results");
     folder.write(k_plan_file, plan);
 }
 

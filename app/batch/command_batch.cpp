@@ -68,8 +68,7 @@ int tell(const MergedBatch& merged, const fs::path& folder, bool quiet) {
     const std::size_t told = std::min(merged.complaints.size(), k_most_listed);
     for (std::size_t i = 0; i < told; ++i) say("  " + merged.complaints[i], quiet);
     if (merged.complaints.size() > told)
-        say(fmt::format("  and {} more: the table has them", merged.complaints.size() - told),
-            quiet);
+        say(fmt::format("  and {} more, all in the table", merged.complaints.size() - told), quiet);
     print_lines((folder / "index.html").string());
     const std::string next = counts.missing > 0
                                  ? "culet batch JOBS -o {} --resume (what is missing)"
@@ -83,9 +82,7 @@ int run_batch(BatchCommand& command) {
         const bool other = !command.jobs.empty() || !command.out.empty() ||
                            !command.shard.empty() || command.resume;
         if (other)
-            throw InputError(
-                "--merge DIR stands alone: it makes the table of results that are "
-                "there");
+            throw InputError("give --merge DIR alone: it tabulates the results already there");
         return tell(merge_batch(command.merge), command.merge, command.common.quiet);
     }
     if (command.jobs.empty() || command.out.empty())
@@ -134,16 +131,16 @@ void add_command_batch(CLI::App& program, int& exit_code) {
         ->add_option("--shard", command->shard,
                      "one share of the jobs: K from 0 to N - 1; all shares write to one folder")
         ->type_name("K/N");
-    batch->add_flag("--resume", command->resume,
-                    "continue with results that are there: finished jobs whose files and settings "
-                    "have not changed are kept");
+    batch->add_flag(
+        "--resume", command->resume,
+        "continue a batch: finished jobs whose files and settings have not changed are kept");
     batch
         ->add_option("--merge", command->merge,
                      "table.csv, table.json and index.html of all results in the folder")
         ->type_name("DIR");
     batch
         ->add_option("--material", settings.material,
-                     "of all stones, instead of their own: a name or a file")
+                     "for all stones, not their own: a name or a file")
         ->type_name("NAME");
     batch->add_option("--index", settings.index, "refractive index, instead of the material's")
         ->type_name("N");
@@ -154,8 +151,7 @@ void add_command_batch(CLI::App& program, int& exit_code) {
                      "tilts of the grades, degrees: FROM:TO:STEP or a list (-30:30:10)")
         ->type_name("TILTS");
     batch
-        ->add_option("--draws", settings.draws,
-                     "stones drawn for the sigmas of a grade (0: no sigmas)")
+        ->add_option("--draws", settings.draws, "random stones for a grade's sigmas (0: no sigmas)")
         ->check(CLI::Range(0, 100000))
         ->type_name("N");
     batch->add_flag("--pages", settings.pages, "a page of every fit and every grade as well");

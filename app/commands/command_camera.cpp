@@ -42,7 +42,7 @@ int run_camera(const CameraArguments& a) {
     for (const std::string& note : found.notes) say("note: " + note, a.common.quiet);
     const Lens& lens = found.lens;
     say(fmt::format("focal length {:.1f} ± {:.1f} px, principal point {:.1f}, {:.1f} ± {:.1f} px, "
-                    "corners of the board {:.2f} px off over {} pictures (rms)",
+                    "the board's corners fit to {:.2f} px rms in {} pictures",
                     lens.focal_x, found.focal_sigma_px, lens.principal_x, lens.principal_y,
                     found.principal_sigma_px, lens.residual_px, lens.pictures),
         a.common.quiet);

@@ -142,10 +142,9 @@ void say_result(const CompareArguments& a, const Comparison& comparison, bool ca
         a.common.quiet);
     if (!comparison.pose_note.empty()) say("pose: " + comparison.pose_note, a.common.quiet);
     if (comparison.within)
-        say(fmt::format(
-                "{:.0f} % of the pixels are within one sigma of what the readings leave open, "
-                "{:.0f} % within two (68 and 95 of a stone that the readings allow)",
-                100 * comparison.within->within_one, 100 * comparison.within->within_two),
+        say(fmt::format("{:.0f} % of the pixels agree with the readings within one sigma, {:.0f} % "
+                        "within two (68 and 95 % if all else is right)",
+                        100 * comparison.within->within_one, 100 * comparison.within->within_two),
             a.common.quiet);
     if (!a.common.verbose) return;
     for (const Score& score : comparison.scores) {

@@ -62,7 +62,7 @@ void say_next(const ConvertOptions& options) {
     if (ending == "asc")
         next = fmt::format("culet info {} --cutting-sheet sheet.html (to cut it)", out);
     else if (!options.clearance.empty())
-        next = fmt::format("take the solid of {} away from the metal, in your CAD program", out);
+        next = fmt::format("subtract the solid of {} from the metal in your CAD program", out);
     else if (mesh_format(options.out))
         next = fmt::format("culet render {} --material NAME -o stone.png (a picture)", out);
     else if (ending == "pov")
@@ -270,7 +270,7 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         ->type_name("NAME");
     command
         ->add_option("--clearance", options->clearance,
-                     "grow a convex stone by so much on every side: what a seat for it takes away")
+                     "enlarge a convex stone by this length on every side, to cut its seat")
         ->type_name("0.05mm");
     add_common(*command, options->common, true);
     command->footer(

@@ -113,7 +113,7 @@ int run_cut(const std::string& name, const CutOptions& options) {
     require_writable(options.json);
     require_form(options.form);
     if (!options.form.readings.empty() && options.out.empty()) {
-        throw InputError("--readings is a form for a mesh: name that too, -o MESH");
+        throw InputError("--readings is a form for a mesh: give -o MESH too");
     }
     Solid solid = make_cut(name, options.values);
     if (cut_kind(name).convex) solid.design = std::make_shared<const Design>(drawn_design(solid));

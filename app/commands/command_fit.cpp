@@ -135,9 +135,8 @@ void add_command_fit(CLI::App& program, int& exit_code) {
         ->type_name("FITTED");
     fit->add_flag("--find-symmetry", command->find_symmetry,
                   "propose the stone's symmetry and tell how well the readings support it");
-    fit->add_flag(
-        "--allow-topology", command->allow_topology,
-        "let edges and facets that the readings deny change or go; each change is listed");
+    fit->add_flag("--allow-topology", command->allow_topology,
+                  "change or drop edges and facets that the readings deny; changes are listed");
     add_common(*fit, command->common, true);
     fit->footer(
         "Examples:\n"

@@ -86,7 +86,7 @@ int info(InfoOptions options) {
         options.form.readings.empty())
         options.describe.cutting_list = true;
     if (!options.sheet.report.empty() && options.sheet.out.empty())
-        throw InputError("--report is of a cutting sheet: give --cutting-sheet too");
+        throw InputError("--report goes with --cutting-sheet: give both");
     if (options.describe.cutting_list && !is_solid_file(options.describe.file)) {
         throw InputError(options.describe.file, "--cutting-list is of a mesh or a cut design");
     }

@@ -82,8 +82,8 @@ ProbeOptions probe_options(const LightArguments& a) {
     options.ball_radius = a.near.ball_radius;
     if (!options.near_lights.empty() && a.table.empty()) {
         throw InputError(
-            "near lights stand beside the environment: say with --table LIGHT.toml where the "
-            "scene's [light] table is to be written");
+            "near lights are not in the environment map: have them written as a [light] table with "
+            "--table LIGHT.toml");
     }
     return options;
 }
@@ -150,8 +150,8 @@ void say_light(const LightProbe& probe, bool quiet) {
             quiet);
     }
     for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
-        say(fmt::format("{}: {:.2f} degrees from the first camera; agrees with correlation {:.3f}, "
-                        "half of what both show within {:.2f} stops",
+        say(fmt::format("{}: {:.2f} degrees from the first camera; correlation {:.3f}; half of "
+                        "what both show agrees within {:.2f} stops",
                         probe.views[v + 1].name, degrees(probe.views[v + 1].turned),
                         probe.alignments[v].correlation, probe.alignments[v].residual),
             quiet);
@@ -261,7 +261,7 @@ void add_command_light(CLI::App& program, int& exit_code) {
         ->type_name("FILE");
     command
         ->add_option("--photographer", a->photographer_deg,
-                     "half angle around the camera that the other view replaces")
+                     "half angle around the camera, filled from the other view")
         ->type_name("DEGREES")
         ->capture_default_str();
     command

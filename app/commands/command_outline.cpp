@@ -95,8 +95,8 @@ Turntable ordered(const OutlineArguments& a, std::vector<BackLitOutline>& outlin
     const auto name = [&](std::size_t i) {
         return std::filesystem::path(a.photos[i]).filename().string();
     };
-    say(fmt::format("the pictures were taken in the order of their numbers, {} before {}: so "
-                    "outlines agree within {:.2f} px, as given within {:.2f} px",
+    say(fmt::format("pictures put in the order of their numbers, {} before {}: outlines then agree "
+                    "within {:.2f} px, as given within {:.2f} px",
                     name(order[1]), name(order[2]), other.residual_px, as_given.residual_px),
         a.common.quiet);
     outlines = std::move(by_number);
@@ -144,15 +144,15 @@ int run_outline(const OutlineArguments& a) {
     std::size_t points = 0;
     for (const BackLitOutline& outline : outlines) points += outline.points.size();
     if (!table.trouble.empty()) {
-        say(fmt::format("not to be used: {}. {}.", table.trouble, table.remedy), a.common.quiet);
+        say(fmt::format("do not use it: {}. {}.", table.trouble, table.remedy), a.common.quiet);
         return exit_untrusted;
     }
     say(fmt::format("{} outlines, {} points; the stone is {:.3f} to {:.3f} mm wide",
                     outlines.size(), points, scale * widths.least, scale * widths.largest),
         a.common.quiet);
     say(fmt::format("axis {:.2f} ± {:.2f} px from the middle, turned {:.3f} ± {:.3f} degrees in "
-                    "the picture, camera {:.3f} ± {:.3f} degrees above the table; outlines agree "
-                    "within {:.2f} px",
+                    "the picture, camera {:.3f} ± {:.3f} degrees above the turntable; outlines "
+                    "agree to {:.2f} px",
                     table.axis_px, table.sigma_axis_px, degrees(table.roll),
                     degrees(table.sigma_roll), degrees(table.elevation),
                     degrees(table.sigma_elevation), table.residual_px),

@@ -122,7 +122,7 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
                  {"matrix", chart->matrix},
                  {"deltaE00_before", chart->before},
                  {"deltaE00_after", chart->after}};
-        say(fmt::format("colour chart: {:.1f} to {:.1f} CIEDE2000 on average", chart->before,
+        say(fmt::format("colour chart: mean CIEDE2000 {:.1f}, now {:.1f}", chart->before,
                         chart->after),
             a.common.quiet);
     } else {
@@ -136,7 +136,7 @@ Json balance_white(const PhotoArguments& a, Bracket& merged) {
             a.common.quiet);
         if (card.unevenness > 0.1) {
             merged.notes.push_back(
-                fmt::format("the grey card varies by {:.0f} %: a shadow or a gloss lies on it",
+                fmt::format("the grey card varies by {:.0f} %: avoid shadow or glare on it",
                             100 * card.unevenness));
         }
     }
@@ -255,7 +255,7 @@ void add_command_photo(CLI::App& program, int& exit_code) {
         ->type_name("FILE");
     command->add_option("--camera", a->camera, "camera file: take out the lens's distortion")
         ->type_name("CAMERA.toml");
-    command->add_flag("--no-align", a->as_they_lie, "the shots lie on each other already");
+    command->add_flag("--no-align", a->as_they_lie, "the shots are aligned already");
     command->add_option("--json", a->json, "what was found, for programs; - is stdout")
         ->type_name("FILE");
     add_common(*command, a->common);

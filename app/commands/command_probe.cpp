@@ -61,7 +61,7 @@ int run_probe(const ProbeArguments& options) {
     }
     // The polarisation ellipse at the eye of unpolarised light along this path.
     fmt::print("{:>9}  {:<22} {:>9} {:>7} {:>7}  {}\n", "weight", "sees", "polarised", "azimuth",
-               "ellipt.", "facets, and the wave between them: o e, slow s fast f, c both, a air");
+               "ellipt.", "facets, wave between them: o, e; s slow, f fast; c both; a air");
     int shown = 0;
     for (const ProbedPath& path : result.paths) {
         if (shown++ == options.most) break;

@@ -96,9 +96,9 @@ int run_refine(const RefineArguments& a) {
         say(prefix + sentence, a.common.quiet);
         prefix.clear();
     }
-    say(fmt::format("inclinations are known to {:.2g} degrees (median sigma), by the readings "
-                    "alone to {:.2g}",
-                    usual_sigma_deg(result.after), usual_sigma_deg(result.before)),
+    say(fmt::format(
+            "inclinations: median sigma {:.2g} degrees, by the readings alone {:.2g} degrees",
+            usual_sigma_deg(result.after), usual_sigma_deg(result.before)),
         a.common.quiet);
     for (const FittedReading& reading : result.after.readings) {
         if (!reading.photograph) continue;

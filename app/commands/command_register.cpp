@@ -59,7 +59,7 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
             "fit it to more readings; culet compare refines the view by the picture itself",
             quiet);
     if (pose.mirrored)
-        say("the photograph is mirrored: turn it left to right before it is compared", quiet);
+        say("the photograph is mirrored: flip it left to right before comparing it", quiet);
     if (!pose.chirality_known)
         say("a stone of this symmetry equals its mirror image: taken as not mirrored", quiet);
     if (pose.look_alikes > 0)
@@ -115,17 +115,17 @@ void add_tolerances(CLI::App& command, RegisterArguments& a) {
         ->check(CLI::Range(0.0, 100.0));
     command
         .add_option("--within-deg", a.within_deg,
-                    "refuse a view that is not this sure (degrees, 99 %; default 10)")
+                    "refuse a view less sure than this (degrees, 99 %; default 10)")
         ->check(CLI::Range(0.001, 90.0));
     command
         .add_option("--within-px", a.within_px,
-                    "refuse a place that is not this sure (pixels, 99 %; default 3 % of "
-                    "the stone's diameter, but no less than 1)")
+                    "refuse a place less sure than this (pixels, 99 %; default 3 % of the stone's "
+                    "diameter, but no less than 1)")
         ->check(CLI::Range(0.001, 1e6));
     command
-        .add_option("--doubt", a.doubt_percent,
-                    "refuse a pose whose chance of being a wrong one is larger (percent; default "
-                    "0.1; 100 takes any)")
+        .add_option(
+            "--doubt", a.doubt_percent,
+            "refuse a pose more likely to be wrong than this (percent; default 0.1; 100 takes any)")
         ->check(CLI::Range(1e-6, 100.0));
 }
 
@@ -145,18 +145,16 @@ void add_command_register(CLI::App& program, int& exit_code) {
         ->type_name("POSED.toml");
     command
         ->add_option("--overlay", a.overlay,
-                     "the photograph with the stone's edges as the camera sees them; ten times as "
-                     "long as they are: the distances to the photograph's edges")
+                     "the photograph with the stone's edges as the camera sees them, and, ten "
+                     "times enlarged, the distances to the photograph's edges")
         ->type_name("PNG");
     command->add_option("--json", a.json, "the pose for programs; - is stdout")->type_name("FILE");
     command
         ->add_option("--mask", a.mask, "picture of the photograph's size, white where the stone is")
         ->type_name("FILE");
     add_tolerances(*command, a);
-    command->add_flag("--mirrored", a.mirrored,
-                      "the photograph may be turned left to right: try it both ways");
-    command
-        ->add_flag("--not-mirrored", a.not_mirrored, "it is not turned left to right: the default")
+    command->add_flag("--mirrored", a.mirrored, "the photograph may be mirrored: try it both ways");
+    command->add_flag("--not-mirrored", a.not_mirrored, "it is not mirrored (default)")
         ->excludes("--mirrored");
     add_common(*command, a.common, true);
     command->footer(

@@ -75,7 +75,7 @@ SettingOptions options_of(const SettingCommand& command, const StoneToSet& loade
     const double unit = mm_per(loaded.stone.unit);
     const auto length = [unit](const std::string& text, const std::string& name) {
         const double value = length_mm(text, name) / unit;
-        if (!(value > 0)) throw InputError(fmt::format("{} is a length over 0", name));
+        if (!(value > 0)) throw InputError(fmt::format("{} must be above 0", name));
         return value;
     };
     if (command.style == "bezel" || command.prongs == 0) options.style = SettingStyle::bezel;
@@ -119,8 +119,8 @@ void say_result(const SettingCommand& command, const StoneToSet& loaded, const S
     for (const std::string& note : loaded.notes)
         say(fmt::format("{}: {}", command.stone.string(), note), quiet);
     if (!loaded.has_size)
-        say(fmt::format("{} has no size: the metal is in proportion to it, as for a stone {:g} mm "
-                        "wide (culet convert --width 6.5mm gives it one)",
+        say(fmt::format("{} has no size: the metal is proportioned as for a width of {:g} mm "
+                        "(culet convert --width 6.5mm gives it a size)",
                         command.stone.filename().string(), k_usual_width_mm),
             quiet);
     const SettingOptions& made = setting.options;
@@ -136,7 +136,7 @@ void say_result(const SettingCommand& command, const StoneToSet& loaded, const S
                     setting.clearance, unit, setting.parts.size(), triangles),
         quiet || command.json == "-");
     say(command.scene.empty()
-            ? std::string("next: the same with --scene ring.toml, for a scene to be rendered")
+            ? std::string("next: add --scene ring.toml for a scene to render")
             : fmt::format("next: culet render {} -o ring.png", command.scene.string()),
         quiet);
 }

@@ -42,7 +42,7 @@ void refuse_outlines(const std::vector<Reading>& readings) {
     for (const Reading& reading : readings) {
         if (reading.kind != ReadingKind::silhouette) continue;
         throw InputError(reading.file, reading.line,
-                         "a study draws readings anew, which it cannot do with outlines: take the "
+                         "a study simulates readings, which it cannot do for outlines: take the "
                          "[[silhouette]] tables out; hold_out tells how well outlines fit");
     }
 }
@@ -164,12 +164,11 @@ void add_command_study(CLI::App& program, int& exit_code) {
             ->check(CLI::Range(1, 1000))
             ->type_name("N");
     command->draws_given =
-        study
-            ->add_option("--draws", command->draws, "stones: how often readings are drawn anew (8)")
+        study->add_option("--draws", command->draws, "stones: how often readings are simulated (8)")
             ->check(CLI::Range(1, 100000))
             ->type_name("N");
     command->only_given =
-        study->add_option("--only", command->only, "stones: one half, time or limit")
+        study->add_option("--only", command->only, "stones: only time or only limit")
             ->check(CLI::IsMember({"time", "limit"}))
             ->type_name("HALF");
     add_common(*study, command->common, true);

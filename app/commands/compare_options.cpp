@@ -33,15 +33,14 @@ void add_compare_options(CLI::App& command, CompareArguments& a) {
     command.add_flag("--calibrate", a.calibrate,
                      "say what the scores mean for this stone, pose and light (scenes only)");
     command
-        .add_option(
-            "--budget", a.budget,
-            "seconds of two processors for a photograph with its calibration, in counted work: as "
-            "fine and as many pictures are drawn as that allows (0: no limit)")
+        .add_option("--budget", a.budget,
+                    "time for a photograph with its calibration, seconds of two processors, by "
+                    "counted work: more time, finer answers (0: no limit)")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     command
         .add_option("--draws", a.draws,
-                    "of each facet error at most; each null has three times as many")
+                    "at most, for each facet error; for a wrong light or pose, 3x")
         ->check(CLI::Range(2, 1000))
         ->capture_default_str();
     command
@@ -55,8 +54,8 @@ void add_compare_options(CLI::App& command, CompareArguments& a) {
         ->type_name("MESH");
     command
         .add_option("--uncertainty", a.uncertainty,
-                    "report of the stone's fit: how much of the photograph is within what its "
-                    "readings leave open (scenes only; 100 stones are drawn)")
+                    "report of the stone's fit: how much of the photograph agrees with its "
+                    "readings' uncertainty (scenes only; 100 random stones)")
         ->type_name("FIT.json");
     command.add_flag("--keep-pose", a.keep_pose,
                      "the scene's camera stands where it says: no pose is looked for");

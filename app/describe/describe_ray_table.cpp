@@ -31,10 +31,9 @@ Description describe_ray_table(const DescribeOptions& options) {
                               : fmt::format("{} wavelengths, {} to {} nm", header.wavelengths,
                                             table.parts().wavelengths_nm.front(),
                                             table.parts().wavelengths_nm.back()));
-    about.lines.push_back(
-        fmt::format("{} rays meet a stone of {} facets, and leave it at {} places; remainder "
-                    "{:.2g}, cut {:.2g}",
-                    header.hits, header.facets, header.exits, header.remainder, header.cut));
+    about.lines.push_back(fmt::format(
+        "{} rays meet a stone of {} facets, and leave it at {} places; too deep {:.2g}, cut {:.2g}",
+        header.hits, header.facets, header.exits, header.remainder, header.cut));
     return about;
 }
 

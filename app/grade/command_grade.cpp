@@ -192,7 +192,7 @@ void add_command_grade(CLI::App& program, int& exit_code) {
         ->add_option("--report", command->report,
                      "report of the stone's fit: every figure with its sigma")
         ->type_name("FIT.json");
-    grade->add_option("--draws", command->draws, "stones drawn for the sigmas (30)")
+    grade->add_option("--draws", command->draws, "random stones for sigmas (30)")
         ->check(CLI::Range(2, 100000))
         ->type_name("N");
     grade->add_option("--size", command->size, "side of the page's pictures, pixels (320)")

@@ -176,7 +176,7 @@ int run_optimize(OptimizeCommand command) {
     command.choices.overrides = command.common.set;
     command.choices.quiet = command.common.quiet;
     if (command.gain > 0 && !command.recut)
-        throw InputError("--gain is of a stone that is cut anew: give --recut too");
+        throw InputError("--gain is for recutting a stone: give --recut too");
     GradeInput input = load_for_grade(command.file, command.choices, false).front();
     const OptimizeOptions options = options_of(command, input);
     require_writable(command.out);

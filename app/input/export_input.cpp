@@ -68,7 +68,7 @@ ExportInput read_for_export(const std::filesystem::path& file, const ExportChoic
                  choices.overrides);
     const FileKind kind = kind_of(file, choices.overrides);
     if (kind == FileKind::scene && choices.width_mm)
-        throw InputError(file, "is a scene, whose stone has its size: --width is for others");
+        throw InputError(file, "is a scene, which gives the stone's size: leave out --width");
     if (kind != FileKind::stone && kind != FileKind::scene && !choices.overrides.empty())
         throw InputError(file, "has no keys that --set could change");
     ExportInput input = kind == FileKind::stone   ? drawn_stone_file(file, choices)

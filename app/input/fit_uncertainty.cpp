@@ -55,8 +55,8 @@ std::vector<double> covariance_in(const ReportJson& report, const fs::path& file
         }
     }
     if (covariance.size() != size * size)
-        throw InputError(file, fmt::format("its facet_covariance has not {} rows of {} numbers, "
-                                           "three of every facet: write the report anew",
+        throw InputError(file, fmt::format("its facet_covariance must have {} rows of {} numbers, "
+                                           "three per facet: write the report anew",
                                            size, size));
     return covariance;
 }

@@ -49,7 +49,7 @@ int study_scene_file(const StudySceneOptions& options) {
         quiet);
     for (const std::string& note : study.notes) say(note, quiet);
     if (!study.left_out.empty()) {
-        say(fmt::format("{} settings were not drawn within {:g} s, or cannot be",
+        say(fmt::format("{} settings were impossible, or not drawn in {:g} s",
                         study.left_out.size(), options.budget),
             quiet);
     }

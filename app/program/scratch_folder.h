@@ -15,7 +15,7 @@ public:
     ScratchFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "culet-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr)
-            throw InputError(name, "cannot be made, for pictures on their way");
+            throw InputError(name, "cannot be made, for temporary pictures");
         path_ = name;
     }
     ~ScratchFolder() {

@@ -82,12 +82,12 @@ int explain_plan(const RenderOptions& options) {
     require_writable(options.stats);
     const Scene scene = scene_of(options);
     if (!engine_of(scene.settings).approaches_truth())
-        throw InputError(fmt::format("--explain tells what is planned, and engine {} never is",
-                                     scene.settings.engine));
+        throw InputError(
+            fmt::format("--explain shows the plan; engine {} has none", scene.settings.engine));
     if (scene.has_objects())
         throw InputError(
-            "--explain tells what is planned, and scenes with objects or several stones are not: "
-            "they are drawn with the settings as they are (docs/objects.md)");
+            "--explain shows the plan, and scenes with objects or several stones have none: they "
+            "are drawn with their own settings (docs/objects.md)");
     const ScenePlan plan = plan_to_explain(scene, progress_line("planning", options.common.quiet));
     if (options.stats != "-") print_lines(explain(plan));
     if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
@@ -171,7 +171,7 @@ void add_uncertainty(const RenderOptions& options, const Scene& scene,
                     found.correlated ? "" : ", facets taken as independent", options.out),
         quiet);
     if (found.left_out > 0)
-        say(fmt::format("{} draws gave no closed stone and are left out", found.left_out), quiet);
+        say(fmt::format("{} random stones do not close and are left out", found.left_out), quiet);
     if (uncertainty.unknown > 0)
         say(fmt::format("{} facets have no uncertainty in {} and count as known exactly",
                         uncertainty.unknown, options.uncertainty),

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 PictureOutput::PictureOutput(std::string out, bool spectral) : out_(std::move(out)) {
     if (out_ == "-") {
         if (isatty(STDOUT_FILENO) != 0)
-            throw InputError("a picture is nothing for a terminal: name a file, or send stdout on");
+            throw InputError("a terminal cannot show a picture: name a file, or redirect stdout");
         if (spectral) throw InputError("spectral planes need an .exr file");
         return;
     }

@@ -48,7 +48,7 @@ void add_settings(CLI::App& command, RenderOptions& options, CLI::Option* plan) 
         ->excludes(plan);
     command
         .add_option("--tolerance", options.tolerance,
-                    "of the picture's mean radiance; not given: what about 10 s allow")
+                    "as a fraction of the mean radiance (default: what 10 s allow)")
         ->excludes(plan);
     command
         .add_option("--check", options.check,
@@ -63,7 +63,7 @@ void add_uncertainty(CLI::App& command, RenderOptions& options, CLI::Option* fra
         command
             .add_option("--uncertainty", options.uncertainty,
                         "report of the stone's fit: the .exr gets the layers mean, sigma and "
-                        "bands, of stones drawn from what the readings leave open")
+                        "bands, of random stones within the readings' errors")
             ->type_name("FIT.json")
             ->excludes(frames);
     command.add_option("--draws", options.draws, "stones drawn from the uncertainty")
@@ -76,8 +76,8 @@ void add_uncertainty(CLI::App& command, RenderOptions& options, CLI::Option* fra
 void add_film(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--exposure", options.exposure,
-                    "for .png: a factor on linear light, or auto: to the stone (which jeweller, "
-                    "daylight, lightbox and darkfield are shown with; else 1)")
+                    "for .png: a factor on linear light, or auto: by the stone (default for "
+                    "jeweller, daylight, lightbox and darkfield; else 1)")
         ->type_name("auto|FACTOR");
     command
         .add_option("--tonemap", options.tonemap,

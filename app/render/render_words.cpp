@@ -15,8 +15,8 @@ void print_accuracy(const RenderStats& stats, Check check, bool time_limited, bo
     }
     if (std::isnan(stats.error_bound)) {
         if (!time_limited) return;  // a note says why
-        say(fmt::format("a rough picture of unknown error: one that is checked takes more than "
-                        "about {} s; --tolerance 0.2 draws it",
+        say(fmt::format("a rough picture of unknown error: a checked one takes more than about {} "
+                        "s (--tolerance 0.2 draws it)",
                         k_usual_seconds),
             quiet);
         return;
@@ -25,8 +25,7 @@ void print_accuracy(const RenderStats& stats, Check check, bool time_limited, bo
     const bool finest = stats.error_bound <= RenderSettings().tolerance;
     say(fmt::format("within {:.2g} of the mean radiance{}", stats.error_bound,
                     finest ? std::string()
-                           : fmt::format(", which about {} s allow: --tolerance {:g} for a finer "
-                                         "picture",
+                           : fmt::format(", as fine as about {} s allow; --tolerance {:g} is finer",
                                          k_usual_seconds, RenderSettings().tolerance)),
         quiet);
 }

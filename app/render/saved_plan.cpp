@@ -20,8 +20,8 @@ SavedPlan read_saved_plan(const std::filesystem::path& file) {
     if (!plan.is_object() || !plan.contains("settings") || !plan["settings"].is_object() ||
         !plan.contains("stone_and_light") || !plan["stone_and_light"].is_string())
         throw InputError(file,
-                         "has no plan: it is kept by `culet render SCENE -o IMAGE --stats FILE` "
-                         "where the scene leaves something to culet");
+                         "has no plan: `culet render SCENE -o IMAGE --stats FILE` writes one if "
+                         "the scene leaves settings open");
     SavedPlan saved;
     saved.file = file;
     // Read like a scene's own settings, with the same checks. JSON's values are valid TOML.

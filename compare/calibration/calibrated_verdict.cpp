@@ -127,15 +127,15 @@ void judge(CalibratedVerdict& verdict) {
     std::string against;
     verdict.verdict = Verdict::no_evidence;
     if (verdict.nulls.empty() || !error.deg) {
-        against = "too little was drawn to tell a match from chance (--budget allows more)";
+        against = "too few draws to tell a match from chance (raise --budget)";
     } else if (!beaten) {
-        against = "some wrong light or pose would do as well";
+        against = "a wrong light or pose fits as well";
     } else if (*error.deg <= k_match_deg) {
         verdict.verdict = Verdict::match;
     } else if (*error.deg <= k_partial_deg) {
         verdict.verdict = Verdict::partial;
     } else {
-        against = "a stone with facets far from these would do as well";
+        against = "a stone with quite other facets fits as well";
     }
     verdict.headline = headline_of(verdict, against);
 }
@@ -144,8 +144,8 @@ void judge(CalibratedVerdict& verdict) {
 
 const char* const k_calibrated_rule =
     "match: an equivalent facet error of 0.7 degrees at most, and for each null (a wrong light, a "
-    "wrong pose, both) either smaller than that of every draw, or p of 0.1 at most with zncc 2 "
-    "standard deviations above; partial: the same up to 1.4 degrees; else no_evidence.";
+    "wrong pose, both) either below that of every draw, or p at most 0.1 with zncc 2 standard "
+    "deviations above its mean; partial: the same up to 1.4 degrees; else no_evidence.";
 
 CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibration calibration,
                                      bool geometry_only) {

@@ -111,8 +111,8 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
         made.stone_px = pair.frame.render_diameter_px;
         if (!plan.tilts && photo.photometric)
             made.notes.push_back(
-                "the budget left no time for what each facet's tilt changes: that score is "
-                "missing (--budget gives more)");
+                "the budget left no time to try each facet's tilt: that score is missing (raise "
+                "--budget)");
         cache.keep(made, tilts.variance());
     }
     result.calibrated =

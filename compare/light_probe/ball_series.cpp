@@ -147,7 +147,7 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         for (const std::string& note : merged.notes)
             result.notes.push_back(fmt::format("{}: {}", name, note));
         if (!merged.photo.photometric) {
-            result.notes.push_back(fmt::format("{}: {}: the light is as right as that curve", name,
+            result.notes.push_back(fmt::format("{}: {}: the light depends on that curve", name,
                                                merged.photo.not_photometric));
         }
         result.views.push_back(view_of(std::move(merged.photo), name, series.lens));

@@ -21,8 +21,8 @@ void doubt_views(LightProbe& probe) {
         const ViewAlignment& a = probe.alignments[v];
         if (!a.ambiguous) continue;
         probe.doubt = fmt::format(
-            "{}: the views do not fit together in one way only (correlation {:.2f}, the next best "
-            "turn {:.2f}): {}, or check that they show one room",
+            "{}: the views fit together in more than one way (correlation {:.2f}, next best turn "
+            "{:.2f}): {}, or check that they show one room",
             probe.views[v + 1].name, a.correlation, a.rival,
             probe.views.size() == 2 ? "say how far the camera went with --turned DEGREES"
                                     : "leave it out");
@@ -96,7 +96,7 @@ void note_what_is_missing(LightProbe& probe) {
         }
         if (view.distance_from == "assumed") {
             probe.notes.push_back(fmt::format(
-                "{}: the camera is taken to be {:g} ball radii away: say better with --distance",
+                "{}: the camera is assumed {:g} ball radii away: give --distance if you know it",
                 view.name, view.distance));
         }
     }

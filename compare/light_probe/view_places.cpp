@@ -154,8 +154,8 @@ void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors
 void place_moved_balls(PlacedViews& views) {
     if (views.seen[0].ball.distance() > k_farthest_moved) {
         throw InputError(
-            "--moved: where the ball was moved to shows in its size, and needs the camera's "
-            "distance or focal length: give --camera LENS or --distance RADII");
+            "--moved: finding where the ball was moved to needs the camera's distance or focal "
+            "length: give --camera LENS or --distance RADII");
     }
     for (std::size_t v = 1; v < views.seen.size(); ++v) {
         const double focal_px =
@@ -168,9 +168,8 @@ void place_moved_balls(PlacedViews& views) {
         if (glm::length(views.places[v].centre) < 1) {
             throw InputError(
                 std::filesystem::path(views.cuts[v].name),
-                fmt::format("--moved: the ball lies {:.2f} radii from its first place; the "
-                            "parallax needs 1 at least, and a third of the light's distance is "
-                            "best",
+                fmt::format("--moved: the ball was moved by {:.2f} of its radii; it needs 1 at "
+                            "least, and a third of the light's distance is best",
                             glm::length(views.places[v].centre)));
         }
         views.places[v].turned_sigma = std::hypot(turned_by_outline(views.cuts[0].prior),

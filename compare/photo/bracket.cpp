@@ -150,7 +150,7 @@ private:
         }
         if (most > k_least_shift) {
             result_.notes.push_back(fmt::format(
-                "the camera or the scene moved by up to {:.1f} pixels between shots; put right",
+                "the camera or the scene moved by up to {:.1f} pixels between shots; corrected",
                 most));
         }
     }

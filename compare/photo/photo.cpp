@@ -100,8 +100,7 @@ Photo read_unmasked(const std::filesystem::path& file) {
     }
     photo.not_finite = not_finite;
     if (not_finite > 0) {
-        photo.notes.push_back(
-            fmt::format("{} samples were no finite numbers and count as 0", not_finite));
+        photo.notes.push_back(fmt::format("{} samples were not finite and count as 0", not_finite));
     }
     if (negative > 0)
         photo.notes.push_back(fmt::format("{} negative samples{} count as 0", negative,

@@ -58,8 +58,8 @@ void check_start(const PoseTask& task, const char* or_mirrored, FoundPose& pose)
                        "be off by {:.0f}",
                        off, degrees(task.options.search)),
            fmt::format("See the overlay: if that is how the stone was held, turn the scene's "
-                       "camera there, or search so far with --search-deg {:.0f}; else turn it "
-                       "to within 10 degrees of how it was held. Check that this is the stone{}",
+                       "camera there, or use --search-deg {:.0f}; else turn it to within 10 "
+                       "degrees of how it was held. Check that this is the stone{}",
                        std::min(180.0, std::ceil(off) + 1), or_mirrored),
            pose);
 }
@@ -84,8 +84,8 @@ void check_probability(const PoseLimits& limits, double rival, double rival_turn
     if (pose.error_probability <= limits.error_probability) return;
     if (by_chance >= by_rival) {
         refuse(
-            fmt::format("{} of {} edges of the crown are where this model has them, and by "
-                        "chance {:.0f} would be: that happens in {} of wrong views (at most {})",
+            fmt::format("{} of {} edges of the crown are where this model has them, {:.0f} by "
+                        "chance: as many as in {} of wrong views (at most {} is allowed)",
                         pose.evidence.met, pose.evidence.looked,
                         pose.evidence.chance_share * pose.evidence.looked, percent(by_chance),
                         percent(limits.error_probability)),
@@ -202,9 +202,8 @@ void assess(const PoseTask& task, const Candidate& won, double rival, double riv
     const PoseLimits& limits = task.options.limits;
     const double diameter = won.side->shape.diameter;
     const char* const or_mirrored =
-        task.sides.size() > 1
-            ? ""
-            : ", and that the picture is not turned left to right (--mirrored tries both)";
+        task.sides.size() > 1 ? ""
+                              : ", and that the picture is not mirrored (--mirrored tries both)";
     if (shows_other_side(task, won.refined.solved.view)) {
         refuse("the photograph shows the other side of the stone than the scene's camera",
                "Put the scene's camera on the side that the photograph shows: turn the sign of its "

@@ -80,10 +80,9 @@ Registration registration_of(const Frame& frame) {
             "not seen in it, and was taken as 0");
     }
     if (frame.match.usable && r.iou < 0.99) {
-        r.warnings.push_back(
-            fmt::format("the outlines overlap by {:.3f} only: below 0.99 mend the "
-                        "pose before you read the scores",
-                        r.iou));
+        r.warnings.push_back(fmt::format(
+            "the outlines overlap by {:.3f} only: below 0.99, correct the pose before using scores",
+            r.iou));
     }
     return r;
 }

@@ -69,7 +69,7 @@ std::vector<StudyAdvice> advice_of(const SceneStudy& study) {
             if (advice.cheapest) {
                 advice.ratio = own.cpu.median / study.render(*advice.cheapest).cpu.median;
                 advice.words += fmt::format(
-                    "; automatic settings took {:.2f}x of that{} {:.2g}", *advice.ratio,
+                    "; automatic settings took {:.2f}x that{} {:.2g}", *advice.ratio,
                     advice.automatic_meets ? ", error" : " but missed it:", own.claimed_error);
             } else {
                 advice.words += fmt::format("; automatic settings took {:.3g} s, error {:.2g}",

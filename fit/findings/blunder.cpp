@@ -99,7 +99,7 @@ void flag_blunder(const Reading& wrong, double estimate, double sigma, FitResult
     *listed = left_out(wrong, proposal, "no stone could be found with it");
     const double unit = file_unit(wrong.kind);
     const std::string told = fmt::format(
-        "reading {} ({}{}: read {:g}, the others say {:.4g}{}) cannot belong to the others and is "
+        "reading {} ({}{}: read {:g}, the others say {:.4g}{}) disagrees with the others and is "
         "left out",
         wrong.id, name_of(wrong.kind), of_words(wrong.of), unit * wrong.value, unit * estimate,
         slip_words(proposal));

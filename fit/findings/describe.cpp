@@ -94,7 +94,7 @@ void describe_meets(const FitModel& model, const Shape& shape, const Covariance&
         meet.advice = fmt::format(
             "meet of {}: planes miss by {}: {}", name_list(meet.facets),
             length_words(meet.miss, meet.sigma, result.unit),
-            meet.contradicted ? "release it" : "within the readings this may be a common point");
+            meet.contradicted ? "release it" : "the readings allow a common point here");
     }
 }
 

@@ -274,7 +274,7 @@ void restore_doubted(const std::vector<Reading>& readings, std::vector<Doubt> do
         const Reading& r = readings[d.reading];
         proposals.push_back(ask_the_fit(r, result, d));
         by_place.emplace_back(d.reading,
-                              left_out(r, proposals.back(), "far off what its like say"));
+                              left_out(r, proposals.back(), "far from similar readings"));
         const std::string line = d.what + slip_words(proposals.back());
         if (std::find(words.begin(), words.end(), line) != words.end()) continue;
         words.push_back(line);
@@ -285,8 +285,7 @@ void restore_doubted(const std::vector<Reading>& readings, std::vector<Doubt> do
     for (auto& [at, fitted] : by_place) {
         result.readings.insert(result.readings.begin() + std::ptrdiff_t(at), std::move(fitted));
     }
-    accuse(proposals,
-           told + (words.size() == 1 ? "the fit does without it" : "the fit does without them"),
+    accuse(proposals, told + (words.size() == 1 ? "it was left out" : "they were left out"),
            result);
 }
 

@@ -48,8 +48,7 @@ std::string told_all(const Fit& fit, const std::vector<std::string>& ids) {
 std::string suspect_words(const Fit& fit) {
     if (fit.result.findings.suspects.empty()) {
         if (fit.result.findings.disagreeing.empty()) return {};
-        return "; readings that cannot hold together: " +
-               told_all(fit, fit.result.findings.disagreeing);
+        return "; conflicting readings: " + told_all(fit, fit.result.findings.disagreeing);
     }
     const Proposal& first = fit.result.findings.proposals.front();
     std::string text =
@@ -82,8 +81,8 @@ std::string in_the_way(const Solid& solid) {
     std::string text;
     if (!degenerate.facets.empty()) {
         text = fmt::format(
-            ": nothing is left of {}; read how large they are, leave them out of the mesh, or "
-            "allow the topology to change",
+            ": nothing is left of {}; read how large they are, leave them out of the mesh, or use "
+            "--allow-topology",
             name_list(degenerate.facets));
     }
     if (!degenerate.edges.empty()) {
@@ -100,7 +99,7 @@ MaybeVerdict denied_topology(const Fit& fit) {
     }
     for (const ShapeFinding& f : fit.result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::facet_vanishes) {
-            return no_stone(f.what + "; leave it out of the mesh, or allow the topology to change");
+            return no_stone(f.what + "; leave it out of the mesh, or use --allow-topology");
         }
     }
     if (fit.finished.worst_hard > k_hard_limit) {
@@ -109,9 +108,9 @@ MaybeVerdict denied_topology(const Fit& fit) {
     }
     if (!are_edges_denied(fit.result)) return {};
     return no_stone(fmt::format(
-        "by the readings these neighbours in the mesh do not touch: {} (with the edge "
-        "between them chi-square is larger by {:.1f}); draw the ends of the edge as "
-        "one corner, or allow the topology to change",
+        "by the readings these neighbours in the mesh do not touch: {} (with the edge between them "
+        "chi-square is larger by {:.1f}); draw the ends of the edge as one corner, or use "
+        "--allow-topology",
         name_list(fit.result.findings.vanishing_edges), fit.result.findings.vanishing_chi2));
 }
 
@@ -141,7 +140,7 @@ MaybeVerdict unsettled(const Fit& fit) {
     // Before convergence, because steps creep next to an edge without length.
     for (const ShapeFinding& f : fit.result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < fit.level) {
-            return Verdict{FitStatus::contradictory, f.what + "; allow the topology to change"};
+            return Verdict{FitStatus::contradictory, f.what + "; use --allow-topology"};
         }
     }
     if (fit.finished.converged) return {};
@@ -156,14 +155,14 @@ MaybeVerdict disagreement(const Fit& fit) {
     if (statistics.dof > 0 && statistics.chi2_p < fit.level) {
         return Verdict{
             FitStatus::contradictory,
-            fmt::format("the readings do not agree within their uncertainties (chi-square "
-                        "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
+            fmt::format("the readings do not agree within their uncertainties (chi-square {:.1f}; "
+                        "{:.1f} expected; above {:.1f} in {:g} of cases){}",
                         statistics.chi2, statistics.dof, statistics.chi2_limit, fit.level,
                         suspect_words(fit))};
     }
     if (fit.result.findings.suspects.empty()) return {};
     return Verdict{FitStatus::contradictory,
-                   "readings that cannot belong to the others" + suspect_words(fit)};
+                   "readings that disagree with the others" + suspect_words(fit)};
 }
 
 MaybeVerdict undetermined(const Fit& fit) {
@@ -236,7 +235,7 @@ void judge(const FitModel& model, const Finished& finished, const Diagnosis& dia
     }
     for (const std::string& one : result.log.notes) result.message += "; " + one;
     if (!diagnosis.analysed) {
-        result.message += "; the stone is too large for uncertainties and suspects: none are given";
+        result.message += "; too many facets for uncertainties and suspects: none are given";
     }
 }
 

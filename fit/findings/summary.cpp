@@ -169,9 +169,8 @@ std::string doubtful(const FitResult& result) {
 // Only if no single reading explains the contradiction.
 std::string disagreeing(const FitResult& result) {
     if (result.findings.disagreeing.empty() || !result.findings.suspects.empty()) return {};
-    return fmt::format(
-        "Readings that cannot hold together, though without any one of them the others can: {}.",
-        name_list(result.findings.disagreeing, k_named));
+    return fmt::format("Conflicting readings; without any one of them the others agree: {}.",
+                       name_list(result.findings.disagreeing, k_named));
 }
 
 std::string unchecked(const FitResult& result) {
@@ -208,7 +207,7 @@ std::string next_reading(const FitResult& result) {
     return fmt::format(
         "What would help most: {} ({}).", bench_words(best),
         best.closes
-            ? "it would determine something that is undetermined"
+            ? "it would settle what no reading settles yet"
             : fmt::format("it would reduce the uncertainty of all facets together by {:.0f} %",
                           100 * (1 - std::sqrt(1 - best.reduces))));
 }

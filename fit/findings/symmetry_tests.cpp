@@ -169,8 +169,8 @@ TierSymmetry test_tier(const FitModel& model, const FacetOrbit& orbit,
 std::string cannot_be_tested(const Shape& shape, const Covariance& all) {
     if (shape.normals.size() > k_most_facets) {
         return fmt::format(
-            "symmetry was not looked for: {} facets are more than the {} up to which it is tested, "
-            "so C1 says nothing of this stone",
+            "symmetry was not tested: this stone has {} facets, at most {} are tested; C1 says "
+            "nothing about it",
             shape.normals.size(), k_most_facets);
     }
     return all.usable() ? ""
@@ -211,7 +211,7 @@ void conclude(SymmetryReport& report) {
         report.message += fmt::format("; {} is denied (p {:.2g}), {}", form.group, form.p, spread);
     } else if (!form.determined) {
         report.message =
-            fmt::format("the readings leave {} open: they tell of {} of its {} conditions only",
+            fmt::format("the readings leave {} open: they test only {} of its {} conditions",
                         form.group, form.tested, form.conditions);
     } else {
         report.message =

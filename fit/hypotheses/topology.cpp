@@ -163,7 +163,7 @@ bool release_edge(TopologyStage& stage, const std::pair<int, int>& edge, int num
     stage.readings.push_back(released_meet(stage, there, number));
     stage.origin.push_back(-1);
     changes.push_back("edge " + sides.front() + "|" + sides.back() +
-                      " let go: the readings contradict each other with it");
+                      " dropped: with it the readings conflict");
     changes.insert(changes.end(), said.begin(), said.end());
     return true;
 }

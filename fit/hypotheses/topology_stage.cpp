@@ -91,7 +91,7 @@ bool change_solid(TopologyStage& stage, Solid solid, std::vector<std::string>& c
         if (find_facet(next.stone.solid, facet.name) < 0) gone.push_back(facet.name);
     }
     if (!gone.empty()) {
-        changes.push_back(fmt::format("facets gone, the readings leave no room for them: {}",
+        changes.push_back(fmt::format("facets removed, the readings leave them no room: {}",
                                       fmt::join(gone, ", ")));
     }
     if (!dropped.empty()) {

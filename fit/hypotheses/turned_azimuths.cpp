@@ -55,8 +55,8 @@ Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const 
         }
     }
     const std::string why = fmt::format(
-        "all azimuths read count from {:g} degrees beside the mesh, and the widths do not: the fit "
-        "took {:g} degrees off each of them",
+        "all azimuths read are {:g} degrees off the mesh, the widths are not: the fit subtracted "
+        "{:g} degrees from each of them",
         std::abs(mark_deg), mark_deg);
     again.log.notes.insert(again.log.notes.begin(), why);
     again.message = again.status == FitStatus::converged ? why : why + "; " + again.message;

@@ -24,9 +24,9 @@ std::string other_turn(const FitModel& model) {
         ++count;
     }
     return fmt::format(
-        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back (they "
-        "are {:.1f} degrees off it as drawn, root mean square, and {:.1f} turned back); check "
-        "where azimuths, those of widths too, are counted from",
+        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back (rms "
+        "difference {:.1f} degrees as drawn, {:.1f} turned back); check where azimuths, also those "
+        "of widths, are counted from",
         -turn, std::sqrt(as_drawn / count), std::sqrt(turned_back / count));
 }
 

@@ -144,7 +144,7 @@ void Binder::set_side(Reading& reading) const {
     if (side.empty() && !(reading.value > 90)) return;
     const bool from_up = reading.kind == ReadingKind::inclination && written_->datum.empty();
     if (!from_up) {
-        if (!side.empty()) fail("side belongs to inclinations that count from up");
+        if (!side.empty()) fail("side is for inclinations measured from up");
         return;
     }
     if (!side.empty() && side != "crown" && side != "pavilion") {
@@ -192,8 +192,8 @@ void Binder::refuse_value(const Reading& reading) const {
 // Suggests the slip that leads near the mesh's inclination.
 void Binder::refuse_inclination(double v) const {
     fail(
-        fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count from the "
-                    "horizontal too, or from up all the way (over 90)",
+        fmt::format("value {:g} is outside 0..90 degrees{}; measure pavilion facets from the "
+                    "horizontal too, or from up (over 90)",
                     v, meant_inclination(v)));
 }
 
@@ -220,7 +220,7 @@ Datum Binder::datum(ReadingKind kind) const {
         if (name == "girdle") return {Datum::Kind::girdle, -1};
     }
     if (kind == ReadingKind::azimuth && name == stone_.up_facet) {
-        fail("the facet that says what is up has no azimuth to count from");
+        fail("the facet that `up` names has no azimuth to count from");
     }
     return {Datum::Kind::facet, facet(name)};
 }

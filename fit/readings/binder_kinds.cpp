@@ -43,7 +43,7 @@ std::vector<Reading> Binder::of_one_facet(const Reading& base) const {
         refuse_side_of_mesh(base, f);
         if (base.kind != ReadingKind::azimuth) return;
         if (facet_name(f) == stone_.up_facet) {
-            fail("the facet that says what is up has no azimuth");
+            fail("the facet that `up` names has no azimuth");
         }
     };
     if (!spread) {

@@ -176,7 +176,7 @@ std::vector<Reading> Binder::of_diameter(const Reading& base) const {
     }
     note(
         fmt::format("`{}` counts as the mean width across opposite mains: {} widths of that value, "
-                    "together as sure as the one reading",
+                    "with the weight of one reading",
                     written_->kind, azimuths.size()));
     return readings;
 }
@@ -229,7 +229,7 @@ std::vector<Reading> Binder::of_table(const Reading& base) const {
     }
     note(
         fmt::format("`{}` counts as the mean from corner to opposite corner: {} table widths of "
-                    "that value, together as sure as the one reading",
+                    "that value, with the weight of one reading",
                     written_->kind, azimuths.size()));
     return readings;
 }

@@ -57,8 +57,8 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
         if (copied > 0) {
             const auto first = std::find(copies.begin(), copies.end(), true) - copies.begin();
             notes->push_back(fmt::format(
-                "{} row{} another to the last digit (the first is line {}), more often than what "
-                "is read anew does: they are copies, and count once",
+                "{} row{} another to the last digit (the first is line {}), too many for "
+                "independent readings: taken as copies, they count once",
                 copied, copied == 1 ? " repeats" : "s repeat", written[std::size_t(first)].line));
         }
         if (skipped > 0) {

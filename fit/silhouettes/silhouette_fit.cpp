@@ -99,8 +99,8 @@ Stone named_stone(const Stone& mesh, const FoundPlanes& found, const FrameMotion
     }
     if (stone.solid.facets.size() != planes.size()) {
         throw InputError(
-            "facets of the outlines come and go by rounding: the outlines are of no "
-            "stone with these facets");
+            "which facets the outlines show depends on rounding: no stone with these facets has "
+            "them");
     }
     if (!stone.up_facet.empty()) stone.up = up_of(stone);
     return stone;

@@ -151,7 +151,7 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
     }
     if (ideal.statistics.rank_defect > 0) {
         study.limit_message =
-            "the readings leave the stone open: there is no limit to hold the error against";
+            "the readings do not determine the stone: there is no limit to compare with";
         return;
     }
     const StudyTruth right = truth_of(stone, readings, ideal, true);

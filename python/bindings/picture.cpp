@@ -29,7 +29,7 @@ std::vector<float> floats_in(const py::dict& arrays, const char* key, const Shap
     const auto array = FloatArray::ensure(arrays[key]);
     if (!array) throw InputError(fmt::format("{} is not an array of numbers", key));
     if (Shape(array.shape(), array.shape() + array.ndim()) != shape)
-        throw InputError(fmt::format("{} has not the shape ({})", key, fmt::join(shape, ", ")));
+        throw InputError(fmt::format("{} must have shape ({})", key, fmt::join(shape, ", ")));
     return values_of(array);
 }
 

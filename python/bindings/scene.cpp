@@ -131,7 +131,7 @@ void bind_scene(py::module_& module) {
             "Width and height of its picture, pixels.")
         .def_property_readonly(
             "notes", [](const PythonScene& s) { return s.scene.notes; },
-            "What there was to say about its file.")
+            "Notes from reading its file.")
         .def("__repr__", [](const PythonScene& s) {
             return fmt::format("<culet.Scene {}: {} x {} pixels>",
                                s.file.empty() ? s.scene.stone.name : s.file, s.scene.camera.width,

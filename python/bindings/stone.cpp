@@ -175,7 +175,7 @@ void bind_description(py::class_<PythonStone>& stone) {
         .def_property_readonly(
             "has_uncertainty", [](const PythonStone& s) { return s.uncertainty.has_value(); },
             "True of a fitted stone, which knows how sure its facets are.")
-        .def_readonly("notes", &PythonStone::notes, "What there was to say about its file.")
+        .def_readonly("notes", &PythonStone::notes, "Notes from reading its file.")
         .def("__repr__", [](const PythonStone& s) {
             return fmt::format("<culet.Stone {}: {} facets, {}, {} readings>", s.stone.name,
                                s.stone.solid.facets.size(),

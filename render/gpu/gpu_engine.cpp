@@ -218,8 +218,8 @@ void fill_stats(const Drawing& drawing, RenderStats& stats) {
             "; the two waves merged: a GPU follows one way";
         stats.error_bound = std::numeric_limits<double>::quiet_NaN();
         stats.notes.emplace_back(
-            "a crystal's two waves go one way here (docs/gpu.md): how far that is from the truth "
-            "is not known; engine = \"reference\" follows both");
+            "a crystal's two waves share one path here (docs/gpu.md), with an error that is not "
+            "known; engine = \"reference\" follows both");
     }
     stats.notes.push_back("drawn by " + drawing.context.renderer());
 }

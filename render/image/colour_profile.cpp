@@ -69,7 +69,7 @@ ColourProfile::ColourProfile(const std::string& bytes, std::size_t channels)
                          if (transform != nullptr) cmsDeleteTransform(transform);
                      });
     if (transform_ == nullptr)
-        trouble_ = fmt::format("its ICC profile \"{}\" leads to no colours", name_);
+        trouble_ = fmt::format("its ICC profile \"{}\" gives no colours", name_);
 }
 
 bool ColourProfile::is_srgb() const {

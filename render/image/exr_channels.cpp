@@ -77,7 +77,7 @@ ExrColours colours_in(const Imf::ChannelList& channels, const std::filesystem::p
                                            list_of(names)));
     } else {
         throw InputError(file, fmt::format("is an EXR with colours in {} layers ({}): save the one "
-                                           "that is meant by itself, as R, G, B",
+                                           "you want by itself, as R, G, B",
                                            with_colours.size(), list_of(with_colours)));
     }
     return found;

@@ -93,10 +93,9 @@ void check_attributes(const std::string& bytes, const std::filesystem::path& fil
         ++parts;
     }
     if (parts != 1)
-        throw InputError(file,
-                         fmt::format("is an EXR of {} parts, of which none is preferred: save "
-                                     "the one that is meant by itself",
-                                     parts));
+        throw InputError(file, fmt::format("is an EXR of {} parts, of which none is preferred: "
+                                           "save the one you want by itself",
+                                           parts));
 }
 
 }  // namespace

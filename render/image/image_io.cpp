@@ -64,8 +64,8 @@ ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::pa
             throw InputError(file, kind);
         throw InputError(
             file,
-            fmt::format("is {} here: EXR, HDR, PFM, PNG, JPEG and TIFF are ({})",
-                        other.empty() ? "no picture that can be read"
+            fmt::format("is {}: EXR, HDR, PFM, PNG, JPEG and TIFF are ({})",
+                        other.empty() ? "not a picture that is read"
                                       : "a picture in the format " + other + ", which is not read",
                         other.empty() ? "raw files: convert them to 16-bit TIFF first"
                                       : "convert it to 16-bit TIFF or PNG"));

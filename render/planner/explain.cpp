@@ -42,7 +42,7 @@ const std::map<std::string, std::string> k_fidelities{
 
 std::string depth_of(const ScenePlan& plan, const RenderSettings& user, bool endless) {
     if (user.depth > 0) return fmt::format("{} faces", user.depth);
-    if (endless) return "no limit: small paths are left to chance";
+    if (endless) return "no limit: weak paths end at random";
     return fmt::format("paths above {:.2g} of the light", plan.settings.cut_weight.value_or(0));
 }
 
@@ -137,7 +137,7 @@ std::string explain(const ScenePlan& plan) {
             plan.bound + (plan.settings.engine == k_reference_engine ? plan.bound_of_sampling : 0),
             plan.bound_delta_e);
         if (plan.settings.engine != k_reference_engine)
-            text += "; to it comes what the beams are off by, measured on the finished picture";
+            text += "; plus the beams' own error, measured on the finished picture";
         text += fmt::format("\n{:<19}{:<5}{} of processor time; with everything on {}\n", "time",
                             "", in_seconds(plan.seconds), in_seconds(plan.seconds_everything));
     }

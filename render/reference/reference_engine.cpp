@@ -109,8 +109,8 @@ void fill_stats(const PixelSums& whole, const PreparedScene& prepared, RenderSta
     }
     if (whole.sampled > 0) {
         stats.notes.push_back(
-            fmt::format("the trees of {} of {} rays grew over {} splits: from there on one wave "
-                        "was followed, chosen by power",
+            fmt::format("{} of {} rays split more than {} times: after that one wave was followed, "
+                        "chosen by power",
                         whole.sampled, stats.rays, prepared.limits.most_splits));
     }
     stats.effects.assign(prepared.setup.effects.begin(), prepared.setup.effects.end());

@@ -39,7 +39,7 @@ void read_picture_size(const TomlTable& table, Camera& camera) {
         for (double at : *point) {
             if (!(std::abs(at) <= 100.0 * k_most_pixels_a_side))
                 table.fail("principal_point",
-                           fmt::format("principal_point lies {} pixels away", at));
+                           fmt::format("principal_point {} px is too far off", at));
         }
         camera.principal_point = {(*point)[0], (*point)[1]};
     }

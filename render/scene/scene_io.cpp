@@ -57,12 +57,12 @@ void detect_convexity(Stone& stone, std::vector<std::string>& notes) {
     if (apart <= k_largest_miss * diameter(stone.solid)) return;
     stone.convex = false;
     notes.push_back(fmt::format(
-        "{} is not convex{}: it is drawn as it is (convex = true draws what its planes bound)",
+        "{} is not convex{}: it is drawn as it is (convex = true draws its planes' body)",
         stone.name,
-        std::isfinite(apart) ? fmt::format(", its corners stand up to {:.2g} {} out of what its "
-                                           "planes bound",
-                                           apart, name_of(stone.unit))
-                             : ""));
+        std::isfinite(apart)
+            ? fmt::format(", corners up to {:.2g} {} outside the body of its planes", apart,
+                          name_of(stone.unit))
+            : ""));
 }
 
 // Reads a stone file (key `file_key`) or a mesh, and the keys beside it.

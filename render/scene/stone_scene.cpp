@@ -140,9 +140,7 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
         material = std::filesystem::absolute(material).string();
     if (kind == InputKind::scene) {
         if (choices.width_mm)
-            throw InputError(file,
-                             "is a scene, whose stone has its size: --width is for stones "
-                             "without a scene");
+            throw InputError(file, "is a scene, which gives the stone's size: leave out --width");
         TomlTable root = material.empty() ? read_toml(file, keys)
                                           : read_toml_with(file, {{"material", material}}, keys);
         return scene_of(root, nullptr, light_of(choices));

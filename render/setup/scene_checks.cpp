@@ -124,7 +124,7 @@ std::vector<std::string> notes_on_drawing(const Scene& scene) {
     const double apart = distance_from_planes_body(solid);
     if (!bent && apart <= k_largest_miss * diameter(solid)) return {};
     return {fmt::format(
-        "{}: {}: what the planes bound is drawn, up to {:.2g} {} from the mesh", scene.stone.name,
+        "{}: {}: its planes' body is drawn, up to {:.2g} {} from the mesh", scene.stone.name,
         bent ? fmt::format("corners lie up to {:.2g} of the diameter off their facets' planes", off)
              : "the mesh is not convex and is to be drawn as convex",
         apart, name_of(scene.stone.unit))};

@@ -122,8 +122,8 @@ PictureUncertainty picture_uncertainty(const Scene& scene, const ScenePlan& plan
     result.draws = sums.count();
     if (result.draws < 2)
         throw InputError(
-            fmt::format("{} of {} stones drawn from the uncertainty are closed: the "
-                        "fit does not determine the stone, take more readings",
+            fmt::format("only {} of {} random stones are closed: the fit does not determine the "
+                        "stone, take more readings",
                         result.draws, draws));
     for (std::size_t p = 0; p < pixels; ++p) {
         for (std::size_t c = 0; c < 3; ++c) {

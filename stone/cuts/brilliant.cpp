@@ -72,10 +72,10 @@ void add_scallops(Builder& b, GirdleStretch& stretch, const std::vector<Vec2>& a
         stretch.low.insert(stretch.low.end() - 1, b.corner(at, z_low));
     }
     if (!(thinnest > 1e-3 * thickness)) {
-        throw InputError(fmt::format(
-            "a round girdle {:.3g} mm thick at the mains closes between them: make it thicker than "
-            "{:.3g} mm, or leave it one facet under each half",
-            thickness, thickness - thinnest));
+        throw InputError(
+            fmt::format("a round girdle {:.3g} mm thick at the mains vanishes between: make it "
+                        "thicker than {:.3g} mm, or leave it one facet under each half",
+                        thickness, thickness - thinnest));
     }
 }
 

@@ -122,9 +122,9 @@ private:
             }
         }
         if (cut > 0) {
-            result_.notes.push_back(fmt::format(
-                "{} of {} facets are not plane to {:g} mm: written as triangles of their names",
-                cut, solid_.facets.size(), k_most_uncertainty_mm));
+            result_.notes.push_back(
+                fmt::format("{} of {} facets are not planar to {:g} mm: written as named triangles",
+                            cut, solid_.facets.size(), k_most_uncertainty_mm));
         }
         // Round up to a power of ten.
         result_.uncertainty_mm = k_least_uncertainty_mm;

@@ -123,10 +123,10 @@ private:
         design.gear = number(values, 0, "the count of the gear's teeth");
         if (!(std::abs(design.gear) >= 1 && std::abs(design.gear) <= 1e6) ||
             design.gear != std::floor(design.gear)) {
-            throw InputError(file_, lines_.line(),
-                             fmt::format("a gear of {} teeth cannot be: write a whole number, such "
-                                         "as 96",
-                                         design.gear));
+            throw InputError(
+                file_, lines_.line(),
+                fmt::format("a gear cannot have {} teeth: write a whole number, such as 96",
+                            design.gear));
         }
         design.gear_offset =
             values.size() > 1 ? number(values, 1, "the gear's offset in teeth") : 0;
@@ -150,10 +150,11 @@ private:
                              fmt::format("an angle of {} degrees is outside -90..90", angle));
         }
         if (distance < 0 && angle != 0) {
-            throw InputError(file_, lines_.line(),
-                             fmt::format("a distance of {} cannot be: the pavilion is told by a "
-                                         "negative angle, and distances by their size",
-                                         distance));
+            throw InputError(
+                file_, lines_.line(),
+                fmt::format(
+                    "a distance cannot be {}: give its size, and for the pavilion a negative angle",
+                    distance));
         }
         tier_ = {std::abs(angle), std::signbit(angle) || (angle == 0 && std::signbit(distance)),
                  std::abs(distance), 0};

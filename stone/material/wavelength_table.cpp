@@ -186,8 +186,8 @@ private:
                              fmt::format("wavelengths from {} {}: write them in nm (visible light "
                                          "is 380 to 780)",
                                          range,
-                                         found == nullptr ? "are visible light in no unit of length"
-                                                          : "may be Angstrom or numbers of waves"));
+                                         found == nullptr ? "are not visible light in any unit"
+                                                          : "may be Angstrom or wave numbers"));
         }
         if (found->nm != 1) {
             notes.push_back(fmt::format("{}: wavelengths from {} are taken as {}",

@@ -262,7 +262,7 @@ private:
         const double room = static_cast<double>(bytes_.size() - position_);
         if (!(count >= 0) || count > room || count != std::floor(count)) {
             throw InputError(
-                file_, fmt::format("element {}: a list of {} entries cannot be", current_, count));
+                file_, fmt::format("element {}: a list cannot have {} entries", current_, count));
         }
         return static_cast<std::int64_t>(count);
     }

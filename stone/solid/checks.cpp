@@ -109,7 +109,7 @@ private:
         for (const int vertex : pinched_vertices(solid_, edges)) {
             whole = false;
             add(FaultKind::not_manifold,
-                fmt::format("the facets round vertex v{} form more than one fan", vertex));
+                fmt::format("parts of the surface touch only at vertex v{}", vertex));
         }
         check_pieces(pieces);
         return whole;

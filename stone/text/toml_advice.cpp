@@ -63,8 +63,8 @@ std::string number_advice(std::string_view text) {
     if (!number || number->rest.empty()) return {};
     const std::string_view rest = number->rest;
     if (rest == "%") {
-        return fmt::format("write {:g} where a fraction is asked, {} where per cent are",
-                           number->value / 100, number->digits);
+        return fmt::format("write {:g} for a fraction, {} for per cent", number->value / 100,
+                           number->digits);
     }
     const bool decimals = rest.size() > 1 && rest.front() == ',' &&
                           std::all_of(rest.begin() + 1, rest.end(), is_digit);

@@ -107,7 +107,7 @@ TEST_F(StudyCommand, OfASceneWritesTablesChartJsonPicturesAndPage) {
                    "--budget", "2", "--threads", "1", "-q"});
     EXPECT_LE(run.exit_code, 1) << run.err;
     EXPECT_EQ(run.err, "");
-    EXPECT_THAT(run.out, HasSubstr("setting on the front"));
+    EXPECT_THAT(run.out, HasSubstr("best setting"));
     EXPECT_THAT(run.out, HasSubstr("automatic settings took"));
     const auto json = this->json("out/study.json");
     EXPECT_EQ(json["kind"], "scene");

@@ -66,7 +66,7 @@ Panorama panorama_of(const std::string& name, std::string_view bytes) {
     if (by > 1) {
         read.picture = reduced(read.picture, by);
         panorama.notes.push_back(
-            fmt::format("brought to {} x {} pixels", read.picture.width, read.picture.height));
+            fmt::format("scaled to {} x {} pixels", read.picture.width, read.picture.height));
     }
     panorama.width = read.picture.width;
     panorama.height = read.picture.height;

@@ -31,7 +31,7 @@ class LightPath {
     this.chosen = 0;
     this.list = element("div", {class: "paths"});
     this.empty = element("p", {class: "note"},
-      "Click a flash on the stone (or choose a facet with N and press Enter): here stands which facets made it, and which light it shows.");
+      "Click a flash on the stone (or choose a facet with N and press Enter): this shows which facets made it, and which light it is.");
     this.node = group("Light path", null, this.empty, this.list);
   }
 
@@ -62,7 +62,7 @@ class LightPath {
     this.empty.hidden = paths.length > 0;
     if (!paths.length) {
       this.clear();
-      page.say("No light path here: the stone is beside this point.");
+      page.say("No light path here: this point is not on the stone.");
       page.overlay.draw();
       return;
     }
