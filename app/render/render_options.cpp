@@ -77,7 +77,7 @@ void add_film(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--exposure", options.exposure,
                     "for .png: a factor on linear light, or auto: by the stone (default for "
-                    "jeweller, daylight, lightbox and darkfield; else 1)")
+                    "jeweller, photograph, daylight, lightbox and darkfield; else 1)")
         ->type_name("auto|FACTOR");
     command
         .add_option("--tonemap", options.tonemap,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include "stone/numbers/units.h"
@@ -22,6 +24,29 @@ DiscLight band(const Vec3& axis, double from_deg, double to_deg, LightColour col
 Lights reflector(const Vec3& axis, double hole_deg) {
     Lights lights;
     lights.sources.push_back(band(axis, hole_deg, k_scope_rim_deg, {Rgb{1.0, 0.25, 0.3}}));
+    return lights;
+}
+
+// A direction by azimuth and elevation, degrees.
+Vec3 towards(double azimuth, double elevation) {
+    const double a = radians(azimuth), e = radians(elevation);
+    return {std::cos(a) * std::cos(e), std::sin(a) * std::cos(e), std::sin(e)};
+}
+
+Lights photograph() {
+    Lights lights;
+    // The camera and the person behind it, the tent, the room at the horizon.
+    lights.sources.push_back(band(k_up, 0, 28, {0.008}));
+    lights.sources.push_back(band(k_up, 28, 75, {1.05}));
+    lights.sources.push_back(band(k_up, 75, 90, {0.3}));
+    // The table: darkest under the stone, which shades it.
+    lights.sources.push_back(band(-k_up, 0, 45, {0.03}));
+    lights.sources.push_back(band(-k_up, 45, 70, {0.05}));
+    lights.sources.push_back(band(-k_up, 70, 90, {0.2}));
+    lights.sources.push_back(band(towards(20, 42), 0, 13, {2.0}));
+    lights.sources.push_back(band(towards(150, 35), 0, 12, {2.0}));
+    lights.sources.push_back(band(towards(250, 30), 0, 14, {2.0}));
+    lights.sources.push_back(band(towards(330, 55), 0, 8, {2.0}));
     return lights;
 }
 
@@ -85,6 +110,9 @@ struct Made {
 const std::vector<Made>& all_made() {
     static const std::vector<Made> made{
         {{"jeweller", "a ring of light, two windows, a dim room", false, false}, jeweller},
+        {{"photograph", "a photographer's white tent, a dark camera, four soft lamps", false,
+          false},
+         photograph},
         {{"daylight", "an open sky, a hazy sun, dim ground", false, false}, daylight},
         {{"lightbox", "a white tent with two lamps and the lens's hole", false, false}, lightbox},
         {{"darkfield", "a ring of light from below the girdle, dark ground", false, false},

@@ -12,7 +12,7 @@ mkdir -p "$pictures"
 "$culet" cut oval -q -o "$stones/sapphire.obj"
 "$culet" cut step -q -o "$stones/tourmaline.obj"
 
-for light in jeweller daylight lightbox darkfield aset idealscope arrows hearts; do
+for light in jeweller photograph daylight lightbox darkfield aset idealscope arrows hearts; do
     while read -r stone material; do
         "$culet" render "$stones/$stone.obj" --material "$material" --light "$light" --width 6.5 \
             --size 180 --tolerance 0.05 -q -o "$pictures/$light-$stone.png"

@@ -3,6 +3,7 @@
 
 const k_light_names = {
   jeweller: "Jeweller\u2019s counter",
+  photograph: "Photograph",
   daylight: "Daylight",
   lightbox: "Light box",
   darkfield: "Dark field",
