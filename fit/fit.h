@@ -1,5 +1,5 @@
 #pragma once
-// Front door of the room: finds the stone that explains the measurements.
+// The room's main header: finds the stone that explains the measurements.
 //
 // The mesh gives the facets, the meets and a start; the readings move it. Facet planes and meets
 // are fitted together by least squares. Each reading is weighted by 1/sigma^2. Constraints are
@@ -27,7 +27,8 @@ FitInput fit_input(const Stone& drawn, const std::vector<WrittenReading>& writte
 
 /// Fits the stone to its readings. The result keeps the mesh's facet names and its pose, with one
 /// exception: an up direction within 20 degrees of a coordinate axis is turned exactly onto it.
-/// Throws InputError when the mesh is not a closed solid or lacks the facets of a relation.
+/// Throws InputError when the mesh is not a closed solid or lacks facets that a relation (symmetry,
+/// parallel facets) needs.
 FitResult fit_stone(const FitInput& input, const FitOptions& options = {},
                     const Progress& progress = {});
 

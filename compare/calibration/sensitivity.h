@@ -1,5 +1,5 @@
 #pragma once
-// Finds the facet error that would lower the scores as much.
+// Finds the facet error that would lower the scores as much as the photograph's are lowered.
 
 #include <map>
 #include <optional>
@@ -14,7 +14,8 @@ namespace culet {
 
 struct ScoreKind;
 
-/// Levels at which facet errors are drawn, degrees; beside 0, the ceiling.
+/// Facet errors that are simulated, degrees, besides 0, which gives the ceiling: the best scores
+/// possible.
 std::vector<double> facet_errors_deg();
 
 struct SensitivityCurve {

@@ -3,10 +3,10 @@
 // interface of compare/pose: plain data in and out.
 //
 // Uses only the outline and the visible facets' edges (mostly the crown's), never internal
-// reflexes, which are what a comparison is about. Most edges in a photograph of a gem are neither
-// (facets of the far side seen through the near ones), so an edge counts only along a whole
-// wireframe edge, and a pose only if its wireframe meets more edges than the same wireframe laid
-// elsewhere.
+// reflexes, which are what a comparison is about. Most edges in a photograph of a gem are neither:
+// they belong to facets of the far side, seen through the near ones. So a wireframe edge counts
+// only if the photograph has an edge along most of it, and a pose counts only if it meets more
+// edges than the same wireframe does at other places.
 //
 // Angles in radians, lengths in the stone's unit. Positions are pixels of the photograph with the
 // corner of the first pixel at (0, 0) (EyeRays), x to the right, y down.
@@ -45,8 +45,8 @@ struct PoseOptions {
     /// Standard uncertainty of the model's facet tilts (angle to the true facet), 0.2 degrees. It
     /// contributes to the pose's uncertainty.
     double facet_error = 0.0035;
-    /// Relative standard uncertainty of the start's focal length (perspective cameras): this prior
-    /// decides when a distant photograph cannot separate it from the distance.
+    /// Relative standard uncertainty of the start's focal length (perspective cameras): where a
+    /// distant photograph does not show perspective, this prior alone fixes it.
     double focal_error = 0.2;
     /// Standard uncertainty of the start's principal point, share of the picture's width; 0: fixed.
     double principal_point_error = 0;

@@ -35,8 +35,8 @@ struct Proposal {
     std::vector<std::string> alternatives;  ///< ids that would explain the misfit as well
 };
 
-/// The axis about which the facets of each tier are most alike, whatever facet angles are measured
-/// from.
+/// The axis about which the facets of each tier are most alike, independent of the facet from which
+/// angles are measured.
 struct OwnAxis {
     bool known = false;
     std::string basis;  ///< `tiers` or `girdle`; or why there is no axis
@@ -80,7 +80,7 @@ struct MeetFinding {
     double miss = 0;     ///< distance from the common point to the plane furthest from it
     double sigma = 0;    ///< its standard uncertainty; infinite if no reading determines it
     double chi2 = 0;     ///< fall of chi-square when the meet is released (exact meets: predicted)
-    int conditions = 0;  ///< planes beyond three
+    int conditions = 0;  ///< planes beyond the first three
     int tested = 0;      ///< how many of them the readings can test
     double p = 1;        ///< chance of this much if the planes do meet
     bool contradicted = false;
@@ -123,8 +123,8 @@ struct TierSymmetry {
     std::string tier;
     std::vector<std::string> facets;
     double deviation = 0;  ///< root mean square angle from the symmetric direction; radians
-    /// Standard deviation of the true directions about symmetry, without the readings' errors; its
-    /// standard uncertainty; its upper limit with 95 % confidence.
+    /// Standard deviation of the true directions from the symmetric ones, with the readings' errors
+    /// removed; its standard uncertainty; its upper limit with 95 % confidence.
     double sigma = 0, sigma_sigma = 0, at_most = 0;
     double p = 1;          ///< chance of such deviations if the tier is exactly symmetric
     std::string worst;     ///< the facet that deviates most

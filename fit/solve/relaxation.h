@@ -1,6 +1,7 @@
 #pragma once
-// The equations of a fit for the solver: incidences, hinges and readings, each as one row in the
-// parameters. Private to the room: shows Eigen.
+// The equations of a fit for the solver: incidences (a corner lies on a facet's plane), hinges (a
+// corner stays below a neighbour facet) and readings, each as one row in the parameters.
+// Private to the room: shows Eigen.
 
 #include <map>
 #include <memory>
@@ -15,7 +16,7 @@
 
 namespace culet {
 
-/// How far a stage softens its constraints. Half diameters and radians.
+/// How far a stage softens its constraints. Lengths in half diameters, angles in radians.
 struct PenaltyScale {
     double incidence = 0;        ///< of exact incidences and exact readings; 0: they are hard
     double readings = 0;         ///< added to each reading's uncertainty (in quadrature)
@@ -95,20 +96,21 @@ public:
         ActiveCorner corner{};                ///< of a held corner
         double chi2_weight = 0, scatter = 0;  ///< contribution to chi-square
     };
-    /// Returns incidences, readings (one of each orbit), held corners, shared contacts and hinges,
-    /// in this order, without hinges that are held already. The terms refer to this relaxation and
-    /// to `penalty`, which must outlive them.
+    /// Returns incidences, readings (one of those that symmetry makes equal), held corners,
+    /// shared contacts and hinges, in this order, without hinges that are held already. The terms
+    /// refer to this relaxation and to `penalty`, which must outlive them.
     std::vector<Term> terms(const PenaltyScale& penalty, const std::vector<ActiveCorner>& held = {},
                             const std::vector<ActiveCorner>& hinges = {}) const;
 
-    /// Linearises the terms at a shape. Hinges take part where they are positive, because zero rows
-    /// would fill the factors. A held corner has a row unless it lies below its level.
+    /// Linearises the terms at a shape. Hinges have a row only where they are violated, because
+    /// rows of zeros would only fill the matrix factors. A held corner has a row unless it
+    /// lies below its level.
     StepLinearisation linearisation(const Shape& shape, const PenaltyScale& penalty,
                                     const std::vector<ActiveCorner>& held = {}) const;
 
     /// Residuals of the equations to be corrected: hard ones, shared contacts, and readings with a
-    /// variance below `sharp`. They stand in the rows of a linearisation that holds these corners;
-    /// others are zero.
+    /// variance below `sharp`. They are indexed like the rows of a linearisation that holds these
+    /// corners; all other residuals are zero.
     struct Missed {
         Eigen::VectorXd residuals;
         double worst = 0;  ///< of the hard equations
@@ -132,9 +134,10 @@ public:
     /// Expected misfit of the true stone in such a stage: its merit without the priors.
     double expected_misfit(const PenaltyScale& penalty) const;
     Eigen::VectorXd metric() const;
-    /// The sign ambiguities of facets within this sine of upright: rows of `linearisation` that
-    /// could have another value, and how much larger that is. A facet leans one way however often
-    /// it was read, so readings of one facet that would turn to the same side are one ambiguity.
+    /// Facets so nearly upright (sine of the angle below `within`) that they may lean either way:
+    /// the rows of `linearisation` that would then change, and how much larger they would be. A
+    /// facet leans one way however often it was read, so readings of one facet that would turn to
+    /// the same side are one ambiguity.
     struct SignAmbiguity {
         struct Turn {
             int row = -1;

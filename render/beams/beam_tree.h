@@ -1,6 +1,7 @@
 #pragma once
 // The beams of a convex stone: regions of the picture whose rays meet the same facets in the same
-// order (Voelker & Hamann's beam tree, Guy & Soler's facet tree), unfolded (pencil.h).
+// order (Voelker & Hamann's beam tree, Guy & Soler's facet tree), unfolded: the stone is mirrored
+// instead of the ray (pencil.h).
 //
 // A beam's polygon is clipped by the facets that its rays meet next, found by walking over edges.
 // Each edge's line is computed once, from its lower to its higher corner, and used with either sign
@@ -25,8 +26,8 @@ struct BeamLimits {
     /// A beam whose map is off by more, in pixels, is halved (astigmatic refraction only).
     double map_error = 0.25;
     /// Beams of less weight x area, in square pixels, are not split either: the middle ray's facets
-    /// are used for all of their rays. Each pixel's own ray is still shaded, as a sun may fill only
-    /// some.
+    /// are used for all of their rays. Each pixel's own ray is still shaded, because a small light
+    /// may fill only some.
     double middle_ray_area = 0;
     /// Beyond this number, `cut_share` is raised until there are no more.
     long long most_beams = 1 << 23;

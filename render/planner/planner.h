@@ -2,8 +2,8 @@
 // From a scene and a tolerance to a picture with a known error. In this folder:
 //
 // - `planner`: decides which effects are needed, from what is known beforehand (`known_effects`),
-//   then by pilots with and without each effect (`effect_pilots`, `pilot_picture`). `explain`
-//   reports it.
+//   then by pilots (small trial pictures) with and without each effect (`effect_pilots`,
+//   `pilot_picture`). `explain` reports it.
 // - `refinement`: draws pictures from coarse to fine (`refinement_levels`) until a check passes.
 // - `error_estimate`: compares a picture with the reference (everything on) at pixels chosen by
 //   `check_pixels` and, for small bright lights, `light_edge_scan`.

@@ -141,8 +141,9 @@ struct RenderSettings {
     /// Limit of indirect radiance on diffuse and rough surfaces; nothing: none. It removes
     /// fireflies, and some light with them.
     std::optional<double> clamp_indirect;
-    /// Reference: each ray of a pixel carries every n-th of the wavelengths with their own paths,
-    /// in turns; n is at most `samples`. Nothing: 1, or with objects, four rays per wavelength.
+    /// Reference: each ray of a pixel carries only every n-th wavelength, starting at each in turn;
+    /// every wavelength has its own path; n is at most `samples`. Nothing: 1, or with objects,
+    /// four rays per wavelength.
     std::optional<int> wavelength_turns;
     /// Limit on the beams of one wavelength's tree (isotropic or merged), some 100 bytes each. More
     /// light is cut to keep it.
@@ -170,7 +171,7 @@ struct RenderSettings {
     int threads = 0;
     bool spectral = false;  ///< keep spectral planes
     /// Processor time for a planned picture, in the nanoseconds of work/price.h; it sets the
-    /// tolerance, to `tolerance` at the finest. 0: no limit.
+    /// tolerance, but never finer than `tolerance`. 0: no limit.
     double allowed_ns = 0;
     std::shared_ptr<WorkMeter> meter;  ///< counts the drawing's work; may be null
 };

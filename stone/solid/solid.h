@@ -71,6 +71,7 @@ Vec3 corner_mean(const Solid& solid, const Facet& facet);
 /// area.
 Plane plane_through(std::span<const Vec3> loop);
 
+/// Largest distance of a corner from its facet's plane.
 double planarity(const Solid& solid);
 
 /// Number of distinct edges, open ones included.
