@@ -95,12 +95,18 @@ protected:
 
     std::string log() const { return text("log"); }
 
+    // A stone whose readings are filled in, in place of a form that a command wrote.
+    void put_stone() const {
+        for (const char* name : {"hand.obj", "readings.csv", "stone.toml", "job.toml"})
+            fs::copy_file(k_source / "samples/dravite-step" / name, folder() / name,
+                          fs::copy_options::overwrite_existing);
+    }
+
     // The files that the pages' commands name, from the dravite sample and standard cuts.
     void SetUp() override {
         const fs::path sample = k_source / "samples/dravite-step";
         fs::create_directory_symlink(k_source / "samples", folder() / "samples");
-        for (const char* name : {"hand.obj", "readings.csv", "stone.toml", "job.toml"})
-            fs::copy(sample / name, folder() / name);
+        put_stone();
         for (const char* name : {"photo.png", "photo.tif", "simulated-photo.png"})
             fs::copy(sample / "simulated-photo.png", folder() / name);
         std::stringstream scene;
@@ -125,6 +131,7 @@ protected:
 
 TEST_P(DocsRun, CommandsDoWhatThePageSays) {
     for (const std::string& command : commands_of(k_source / GetParam())) {
+        put_stone();
         const int code = sh(made_small(command));
         EXPECT_TRUE(code == 0 || code == 1) << GetParam() << ": " << command << "\n" << log();
     }
