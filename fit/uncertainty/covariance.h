@@ -6,9 +6,9 @@
 // nothing sees are left out (inner constraints). Other directions that no reading determines are
 // `open`; they have length one in the mesh's metric, and the mesh's own uncertainty is reported
 // along them (20 % of its width).
-// The rule for open directions: let J'J v = lambda M v, and let s be the largest component of v, as
-// a share of the mesh's own uncertainty of that unknown. After the readings, the unknown is
-// uncertain by s / sqrt(lambda) of the mesh's uncertainty. If that is half or more (lambda < 4
+// The rule for unobservable directions: let J'J v = lambda M v, and let s be the largest component
+// of v, as a share of the mesh's own uncertainty of that unknown. After the readings, the unknown
+// is uncertain by s / sqrt(lambda) of the mesh's uncertainty. If that is half or more (lambda < 4
 // s^2), v is open. The largest component counts, and no mean over facets, because a modeller's
 // errors have much in common. In large stones all v with lambda < 4 are open, but no more of them
 // than there are unknowns that uncertain.
