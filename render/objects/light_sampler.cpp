@@ -152,6 +152,7 @@ void LightSampler::add_lights(const Lights& lights, const Vec3& about) {
     const auto near_power = [&](const Vec3& center, double area, double bright) {
         return bright * solid_angle(center - about, area);
     };
+    static_assert(std::variant_size_v<Light> == 5, "a new kind of light is sampled here, too");
     for (const Light& light : lights.sources) {
         const double bright = brightness(colour_of(light));
         if (const auto* sphere = std::get_if<SphereLight>(&light)) {

@@ -54,6 +54,7 @@ Rgb PlainLights::rgb_of(const LightColour& colour) const {
 void PlainLights::add(const Light& light, const Vec3& middle) {
     const Rgb radiance = rgb_of(colour_of(light));
     PlainLight plain;
+    static_assert(std::variant_size_v<Light> == 5, "a new kind of light is shaded here, too");
     // Irradiance of a surface that faces the light, over pi and radiance.
     double share = 0;
     if (const auto* sphere = std::get_if<SphereLight>(&light)) {
