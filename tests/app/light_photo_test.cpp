@@ -210,8 +210,8 @@ TEST_F(LightAndPhoto, BadBallsAreOneLine) {
     const std::string env = file("env.exr");
     expect_refused({"light", "-o", env}, "name the photographs");
     expect_refused({"light", file("missing.exr"), "-o", env}, "no such file");
-    write("text.jpg", "no picture");
-    expect_refused({"light", file("text.jpg"), "-o", env}, "no picture");
+    write("text.jpg", "not a picture");
+    expect_refused({"light", file("text.jpg"), "-o", env}, "not a picture");
     expect_refused({"light", empty, "-o", env}, "--ball X,Y,RADIUS");
     expect_refused({"light", good, "-o", env, "--ball", "170,70,60"}, "outside the picture");
     expect_refused({"light", good, "-o", env, "--ball", "1,2"}, "X,Y,RADIUS");

@@ -109,7 +109,7 @@ TEST_F(PhotoFiles, WhatIsNoPictureIsNamed) {
     write("empty.png", "");
     EXPECT_THAT(complaint("empty.png"), HasSubstr("empty"));
     write("text.png", "not a picture at all");
-    EXPECT_THAT(complaint("text.png"), HasSubstr("is no picture"));
+    EXPECT_THAT(complaint("text.png"), HasSubstr("is not a picture"));
     write("raw.cr2", std::string("II\x1a\0raw", 7));
     EXPECT_THAT(complaint("raw.cr2"), HasSubstr("raw files"));
 }

@@ -161,7 +161,7 @@ TEST_F(Words, AReadingMaySayItsSide) {
     };
     EXPECT_THAT(refused("inclination,P1,41,0.1,crown\n"), says("P1", "pavilion"));
     EXPECT_THAT(refused("inclination,P1,41,0.1,below\n"), HasSubstr("crown or pavilion"));
-    EXPECT_THAT(refused("azimuth,P1,41,0.1,crown\n"), HasSubstr("belongs to inclinations"));
+    EXPECT_THAT(refused("azimuth,P1,41,0.1,crown\n"), HasSubstr("is for inclinations"));
 }
 
 TEST_F(Words, OtherUnitsAreRefusedWithWhatToWrite) {

@@ -106,7 +106,7 @@ TEST(Unread, ThatAzimuthsCountFromElsewhereIsSaidOnce) {
     mesh.azimuth_from_mesh = true;
     const FitResult result = fit_mesh(mesh, readings).result;
     EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
-    EXPECT_THAT(result.message, HasSubstr("all azimuths read count from 90 degrees beside"));
+    EXPECT_THAT(result.message, HasSubstr("all azimuths read are 90 degrees off"));
     EXPECT_THAT(result.findings.suspects, IsEmpty());
     EXPECT_LT(result.statistics.chi2, result.statistics.chi2_limit);
     // Residuals refer to the azimuths as they were read.

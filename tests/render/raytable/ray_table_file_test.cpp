@@ -139,9 +139,9 @@ TEST_F(RayTableFile, TellsWhatIsCutOffOrTooLong) {
 }
 
 TEST_F(RayTableFile, TellsWhatIsNoTable) {
-    EXPECT_NE(refusal("\x89PNG\r\n\x1a\n and so on").find("no ray table"), std::string::npos);
-    EXPECT_NE(refusal("").find("no ray table"), std::string::npos);
-    EXPECT_NE(refusal(std::string(100000, '\0')).find("no ray table"), std::string::npos);
+    EXPECT_NE(refusal("\x89PNG\r\n\x1a\n and so on").find("not a ray table"), std::string::npos);
+    EXPECT_NE(refusal("").find("not a ray table"), std::string::npos);
+    EXPECT_NE(refusal(std::string(100000, '\0')).find("not a ray table"), std::string::npos);
     EXPECT_THROW((void)RayTable::open(folder_ / "none.rays"), InputError);
     EXPECT_THROW((void)RayTable::open(folder_.path()), InputError);
     const std::string newer =

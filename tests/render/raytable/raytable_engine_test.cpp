@@ -101,7 +101,7 @@ TEST_F(RayTableEngine, TakesTheWavelengthsOfATableWithDispersion) {
 
 TEST_F(RayTableEngine, LeavesADamagedTableAloneAndSaysSo) {
     std::ofstream(file_) << "not a table";
-    EXPECT_NE(refusal(scene()).find("no ray table"), std::string::npos);
+    EXPECT_NE(refusal(scene()).find("not a ray table"), std::string::npos);
     EXPECT_EQ(read_text(file_), "not a table");
     Scene nowhere = scene();
     nowhere.settings.ray_table = folder_ / "no-folder" / "stone.rays";
