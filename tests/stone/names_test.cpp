@@ -149,8 +149,7 @@ TEST(TomlAdvice, SaysWhatToWrite) {
     EXPECT_EQ(toml_advice("stone = ../a.toml"), "put quotes about a text: stone = \"../a.toml\"");
     EXPECT_EQ(toml_advice("value = 6.52mm"), "write 6.52 without \"mm\"");
     EXPECT_EQ(toml_advice("value = 6,52"), "write 6.52 with a point");
-    EXPECT_EQ(toml_advice("tolerance = 5%"),
-              "write 0.05 for a fraction, 5 for per cent");
+    EXPECT_EQ(toml_advice("tolerance = 5%"), "write 0.05 for a fraction, 5 for per cent");
     EXPECT_EQ(toml_advice("unit: mm"), "write unit = mm, with =");
     EXPECT_EQ(toml_advice("name = \"Dravite"), "a quote is not closed");
     EXPECT_EQ(toml_advice("value ="), "a value is missing behind value =");
