@@ -28,7 +28,7 @@ struct Small {
     std::vector<std::pair<std::string, std::string>> options;
 };
 const std::vector<Small> k_small = {
-    {"render", {{"--check", "none"}}},
+    {"render", {{"--size", "48"}, {"--check", "none"}}},
     {"grade", {{"--tilts", "0"}, {"--draws", "2"}, {"--size", "32"}}},
     {"batch", {{"--tilts", "0"}, {"--draws", "0"}}},
     {"optimize", {{"--evaluations", "12"}}},
