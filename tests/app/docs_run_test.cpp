@@ -31,7 +31,7 @@ const std::vector<Small> k_small = {
     {"render", {{"--size", "48"}, {"--check", "none"}}},
     {"grade", {{"--tilts", "0"}, {"--draws", "2"}, {"--size", "32"}}},
     {"batch", {{"--tilts", "0"}, {"--draws", "0"}}},
-    {"optimize", {{"--evaluations", "12"}}},
+    {"optimize", {{"--evaluations", "40"}}},
     {"compare", {{"--budget", "4"}}},
     {"study", {{"--budget", "2"}, {"--draws", "2"}}},
 };
