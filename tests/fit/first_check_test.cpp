@@ -276,7 +276,7 @@ TEST_F(FirstCheck, TwoSteepMainsAreToldInOneSentence) {
     EXPECT_THAT(tiers[0].odd[0].facets, testing::ElementsAre("C3", "C4"));
     // Weighted means: these values are 0.55 steeper, with sigma 0.1 sqrt(1/2 + 1/6).
     EXPECT_NEAR(degrees(tiers[0].odd[0].sigma), 0.0816, 1e-4);
-    EXPECT_THAT(tiers[0].what[0], says("C3", "C4", "0.6 degrees (+- 0.1)", "steeper"));
+    EXPECT_THAT(tiers[0].what[0], says("C3", "C4", "0.6 ± 0.1 degrees", "steeper"));
 }
 
 TEST_F(FirstCheck, MainsThatAreAlikeGiveNoSentence) {

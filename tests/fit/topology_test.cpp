@@ -169,7 +169,7 @@ TEST(Topology, AFacetWithoutRoomIsNamedAndGoesWhereThatIsAllowed) {
     EXPECT_EQ(changed.solid.facets.size(), 6u);
     EXPECT_THAT(find_faults(changed.solid), ::testing::IsEmpty());
     EXPECT_THAT(changed.log.changes,
-                ::testing::Contains("facets gone, the readings leave no room for them: bevel"));
+                ::testing::Contains("facets removed, the readings leave them no room: bevel"));
     EXPECT_THAT(changed.log.changes, ::testing::Contains(::testing::HasSubstr("no longer apply")));
     EXPECT_EQ(changed.readings.size(), readings.size());
     EXPECT_TRUE(std::isnan(changed.readings.back().fitted));

@@ -111,10 +111,10 @@ TEST(ForeignDesigns, CutDesignsKeepTheirFacetsOrAreRefused) {
         {cube_with("a 0 1 96 n T\na 30 9"), ":5: the tier at 30 degrees has no index"},
         {cube_with("a 0 1 96 n T\na -30 9 n P"), ":5: "},
         {cube_with("a 0 1 96 n T G polish\n12 24 36"), ":5: "},
-        {cube_with("a 0 1 96 n T\na 42 -0.6 96"), ":5: a distance of -0.6"},
+        {cube_with("a 0 1 96 n T\na 42 -0.6 96"), ":5: a distance cannot be -0.6"},
         {cube_with("a 0 1 96, n T"), ":4: "},
         {cube_with("a 0 1 96 n T", "GemCad 5.0\np CAM 1\n"), ":2: a preform"},
-        {cube_with("a 0 1 96 n T", "GemCad 5.0\ng 96.5 0.0\n"), ":2: a gear of 96.5"},
+        {cube_with("a 0 1 96 n T", "GemCad 5.0\ng 96.5 0.0\n"), ":2: a gear cannot have 96.5"},
         {"# GEMCAD design\ngear 96\np 35.26 00\n", ":2: "},
     };
     for (const auto& one : cases) {

@@ -44,9 +44,9 @@ TEST_F(WavelengthTables, WavelengthsThatMayMeanSomethingElseAreRefused) {
     const struct {
         const char *text, *says;
     } cases[] = {
-        {"wl,n\n5,1.80\n20,1.70\n", "380"},             // far infrared in um, or what?
-        {"wl,n\n5000,1.80\n25000,1.70\n", "waves"},     // Angstrom, or 1/cm
-        {"wl (nm),n\n0.4,1.80\n0.7,1.70\n", "header"},  // the header and the range disagree
+        {"wl,n\n5,1.80\n20,1.70\n", "380"},                 // far infrared in um, or what?
+        {"wl,n\n5000,1.80\n25000,1.70\n", "wave numbers"},  // Angstrom, or 1/cm
+        {"wl (nm),n\n0.4,1.80\n0.7,1.70\n", "header"},      // the header and the range disagree
         {"cm-1,a\n14000,1\n25000,2\n", "cm-1"},
         {"wl,n\n400,1.80\n400,1.70\n", "n.csv:3: "},
         {"wl,n,k\n400,1.80,0\n", "n.csv:2: "},
