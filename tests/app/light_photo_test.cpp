@@ -240,7 +240,7 @@ TEST_F(LightAndPhoto, ExposuresAreMergedAndBadOnesRefused) {
     const std::string out = file("none.exr");
     expect_refused({"photo", a, b, "-o", out}, "--exposure");
     expect_refused({"photo", a, b, "-o", out, "--exposure", "1/10,1/10"}, "same exposure");
-    expect_refused({"photo", a, "-o", out, "--exposure", "soon"}, "no exposure");
+    expect_refused({"photo", a, "-o", out, "--exposure", "soon"}, "not an exposure");
     expect_refused({"photo", a, "-o", out, "--grey", "500,0,20,20"}, "grey card");
     expect_refused({"photo", a, "-o", out, "--grey", "x"}, "X,Y,WIDTH,HEIGHT");
     expect_refused({"photo", a, "-o", out, "--chart"}, "no colour chart");
