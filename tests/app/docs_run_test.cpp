@@ -32,12 +32,11 @@ const std::vector<Small> k_small = {
     {"grade", {{"--tilts", "0"}, {"--draws", "2"}, {"--size", "32"}}},
     {"batch", {{"--tilts", "0"}, {"--draws", "0"}}},
     {"optimize", {{"--evaluations", "40"}}},
-    {"compare", {{"--budget", "4"}}},
     {"study", {{"--budget", "2"}, {"--draws", "2"}}},
 };
 
 // Other tests run these, on files that take minutes to make.
-const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline"};
+const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline", "culet compare"};
 
 // The commands of a page's code blocks, fenced or indented: lines that begin with culet, with their
 // continuations. A line with a word in brackets is a summary of options.
@@ -71,7 +70,7 @@ std::vector<std::string> commands_of(const fs::path& page) {
 std::string made_small(const std::string& command) {
     std::string text = command.substr(0, command.find('#'));
     // A test opens nothing; calibrations take minutes and have tests of their own.
-    text = std::regex_replace(text, std::regex(" --open| --calibrate"), "");
+    // A test opens nothing.
     for (const Small& small : k_small) {
         if (text.rfind("culet " + std::string(small.command), 0) != 0) continue;
         for (const auto& [option, value] : small.options) {
