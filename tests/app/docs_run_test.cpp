@@ -69,7 +69,6 @@ std::vector<std::string> commands_of(const fs::path& page) {
 
 std::string made_small(const std::string& command) {
     std::string text = command.substr(0, command.find('#'));
-    // A test opens nothing; calibrations take minutes and have tests of their own.
     // A test opens nothing.
     for (const Small& small : k_small) {
         if (text.rfind("culet " + std::string(small.command), 0) != 0) continue;
