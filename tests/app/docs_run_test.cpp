@@ -70,6 +70,7 @@ std::vector<std::string> commands_of(const fs::path& page) {
 std::string made_small(const std::string& command) {
     std::string text = command.substr(0, command.find('#'));
     // A test opens nothing.
+    text = std::regex_replace(text, std::regex(" --open"), "");
     for (const Small& small : k_small) {
         if (text.rfind("culet " + std::string(small.command), 0) != 0) continue;
         for (const auto& [option, value] : small.options) {
