@@ -208,7 +208,8 @@ TEST(Study, OfReadingsThatLeaveTheStoneOpenHasNoLimit) {
     const Study study = study_fit(c.stone, c.readings, options);
     EXPECT_EQ(study.status, FitStatus::undetermined);
     EXPECT_TRUE(study.limits.empty());
-    EXPECT_NE(study.limit_message.find("do not determine"), std::string::npos) << study.limit_message;
+    EXPECT_NE(study.limit_message.find("do not determine"), std::string::npos)
+        << study.limit_message;
     EXPECT_FALSE(study.usable());
 }
 
