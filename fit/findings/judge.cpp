@@ -183,7 +183,7 @@ MaybeVerdict undetermined(const Fit& fit) {
 // Outlines and relations have no value that somebody may have copied.
 bool has_measured_value(const FitModel& model) {
     return std::any_of(model.readings().begin(), model.readings().end(),
-                       [](const Reading& r) { return !r.exact && !is_relation(r.kind); });
+                       [](const Reading& r) { return r.is_measured(); });
 }
 
 // The lower tail of chi-square. Not with a prior, where readings count with more than their sigmas

@@ -71,12 +71,11 @@ void count_beside_prior(const Shape& shape, const Solid& solid, double meet_miss
                         std::vector<Reading>& readings) {
     std::map<std::pair<std::string, long>, int> count;
     const auto row_of = [](const Reading& r) { return std::pair(r.file.string(), r.line); };
-    const auto counts = [](const Reading& r) { return !r.exact && !is_relation(r.kind); };
     for (const Reading& r : readings) {
-        if (r.line > 0 && counts(r)) ++count[row_of(r)];
+        if (r.line > 0 && r.is_measured()) ++count[row_of(r)];
     }
     for (Reading& r : readings) {
-        if (!counts(r)) continue;
+        if (!r.is_measured()) continue;
         if (r.line > 0) r.sigma *= std::sqrt(double(count[row_of(r)]));
         if (r.kind == ReadingKind::volume || r.kind == ReadingKind::weight) continue;
         double miss = meet_miss;

@@ -125,6 +125,9 @@ struct Reading {
     std::shared_ptr<const OutlineObservations> outline_observations;
     /// Photograph: its plane observations (planes/plane_observations.h).
     std::shared_ptr<const PlaneObservations> photograph;
+
+    /// It has a value with an uncertainty.
+    bool is_measured() const { return !exact && !is_relation(kind); }
 };
 
 /// Finds every name on the solid and gives every reading an id. A pattern makes one reading a

@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "render/setup/probe_wavelengths.h"
+
 namespace culet {
-
-namespace {
-
-constexpr double k_first_nm = 410, k_last_nm = 690;
-
-}  // namespace
 
 std::vector<double> even_wavelengths(int count) {
     // Small sets sample the middle of the eye's responses rather than the ends of the spectrum.
@@ -16,10 +12,7 @@ std::vector<double> even_wavelengths(int count) {
     // step of the spectrum better than even spacing, and a lamp's spectrum about as well.
     if (count == 3) return {450, 550, 610};
     if (count == 5) return {440, 480, 540, 600, 650};
-    std::vector<double> nm;
-    for (int i = 0; i < count; ++i)
-        nm.push_back(k_first_nm + (k_last_nm - k_first_nm) * i / (count - 1));
-    return nm;
+    return even_nodes(count);
 }
 
 int turns_for(int rays, int wavelengths) {

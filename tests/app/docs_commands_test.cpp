@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "tests/app/program_test.h"
+#include "tests/app/written_lines.h"
 
 namespace culet {
 namespace {
@@ -26,17 +26,8 @@ struct WrittenCommand {
 // "culet fit stone.toml --report FIT.json" as its command and options, anywhere in a line. It ends
 // at a backtick, a comment, a pipe or the end of a line that "\" does not continue.
 std::vector<WrittenCommand> commands_in(const fs::path& file) {
-    std::ifstream in(file);
     std::vector<WrittenCommand> found;
-    std::string line;
-    int number = 0;
-    for (std::string part; std::getline(in, part);) {
-        ++number;
-        line += part;
-        if (!part.empty() && part.back() == '\\') {
-            line.back() = ' ';
-            continue;
-        }
+    for (const auto& [number, line] : test::written_lines(file)) {
         const std::regex call(R"re((?:^|[ `/])culet ([a-z]+)((?: [^`#|;&]*)?))re");
         for (std::sregex_iterator it(line.begin(), line.end(), call), end; it != end; ++it) {
             // In prose a verb follows the name of the program.
@@ -50,7 +41,6 @@ std::vector<WrittenCommand> commands_in(const fs::path& file) {
             }
             if (is_code && !written.options.empty()) found.push_back(written);
         }
-        line.clear();
     }
     return found;
 }

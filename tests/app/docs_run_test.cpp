@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/written_lines.h"
 #include "tests/folder_test.h"
 
 namespace culet {
@@ -41,23 +42,14 @@ const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline", "
 // The commands of a page's code blocks, fenced or indented: lines that begin with culet, with their
 // continuations. A line with a word in brackets is a summary of options.
 std::vector<std::string> commands_of(const fs::path& page) {
-    std::ifstream in(page);
     std::vector<std::string> found;
     const std::regex begins(R"re(^(?:    )?(?:build/)?(culet [a-z].*)$)re");
-    bool fenced = false, goes_on = false;
-    for (std::string line; std::getline(in, line);) {
+    bool fenced = false;
+    for (const auto& [number, line] : test::written_lines(page)) {
         if (line.rfind("```", 0) == 0) fenced = !fenced;
         std::smatch parts;
-        if (goes_on) {
-            found.back() += " " + line;
-        } else if ((fenced || line.rfind("    ", 0) == 0) &&
-                   std::regex_match(line, parts, begins)) {
-            found.push_back(parts[1].str());
-        } else {
-            continue;
-        }
-        goes_on = found.back().back() == '\\';
-        if (goes_on) found.back().pop_back();
+        const bool in_code = fenced || line.rfind("    ", 0) == 0;
+        if (in_code && std::regex_match(line, parts, begins)) found.push_back(parts[1].str());
     }
     std::erase_if(found, [](const std::string& command) {
         return command.find('[') != std::string::npos ||
