@@ -16,6 +16,7 @@
 #include "page/quantity.h"
 #include "render/grade/grade_figures.h"
 #include "stone/numbers/units.h"
+#include "stone/progress/check_stop.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
 
@@ -99,6 +100,9 @@ void write_page(const GradeCommand& command, const std::vector<Graded>& all) {
 }
 
 int run_grade(GradeCommand command) {
+    // Designs of many facets take a while to read.
+    const Progress goes_on = [](double) { return !interrupted(); };
+    const StopScope stops(goes_on);
     const GradeOptions options = options_of(command);
     command.choices.index = command.index;
     command.choices.report = command.report;

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "stone/progress/check_stop.h"
 #include "stone/solid/solid.h"
 #include "stone/text/errors.h"
 
@@ -296,6 +297,7 @@ HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes) {
         if (std::binary_search(result.repeated_planes.begin(), result.repeated_planes.end(), i)) {
             continue;
         }
+        check_stop();
         if (!clipper.clip(i)) {
             result.empty = true;
             return result;
