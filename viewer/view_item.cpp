@@ -92,9 +92,10 @@ std::string still_of(Scene scene, const std::string& refused) {
         result = draw_quickly(scene);
     }
     PngLook look = scene.film;
+    look.ground = 0;  // the page's own
     const LightPreset* const preset = find_light_preset(scene.light_preset);
     if (preset != nullptr && !preset->instrument)
-        look.exposure = exposure_for_stone(result.picture);
+        look.exposure = exposure_for_stone(result.picture, look.share_over_white);
     return png_uri(png_of(result.picture, look));
 }
 

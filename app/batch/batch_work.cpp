@@ -18,6 +18,7 @@
 #include "render/render.h"
 #include "render/scene/framing.h"
 #include "render/scene/light_presets.h"
+#include "render/scene/shown_picture.h"
 #include "render/scene/stone_scene.h"
 #include "stone/file_kind.h"
 #include "stone/stone_io.h"
@@ -95,16 +96,18 @@ RecordJson grade_row(const Graded& graded) {
     return row;
 }
 
-// A small picture: face up, in the usual light for pictures, clear, in one wavelength.
+// A small picture: in the usual light for pictures, clear, in one wavelength.
 void draw_small(const GradeInput& input, double index, const fs::path& file) {
     Scene scene;
     scene.stone = input.stone;
     scene.stone.material = Material();
     scene.stone.material.index[0].n = index;
-    scene.lights = *light_preset(k_usual_light);
-    scene.light_preset = k_usual_light;
+    const LightPreset& preset = *find_light_preset(k_usual_light);
+    scene.lights = *light_preset(preset.name);
+    scene.light_preset = preset.name;
+    scene.film = preset.film;
     scene.camera.width = scene.camera.height = k_picture_side;
-    frame_stone(scene.stone.solid, Facing::crown, scene.camera);
+    frame_stone(scene.stone.solid, preset.facing, scene.camera);
     RenderSettings& render_settings = scene.settings;
     render_settings.engine = k_beam_engine;
     render_settings.check = Check::none;
@@ -112,8 +115,8 @@ void draw_small(const GradeInput& input, double index, const fs::path& file) {
     render_settings.effects_auto = false;
     render_settings.effects.fill(false);
     const RenderResult drawn = render(scene);
-    PngLook look;
-    look.exposure = exposure_for_stone(drawn.picture);
+    PngLook look = look_of(scene, "");
+    look.exposure = exposure_for_stone(drawn.picture, look.share_over_white);
     write_picture(drawn.picture, file, look);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,32 @@ struct CutOptions {
     FormOptions form;
     std::map<std::string, double> values;
 };
+
+constexpr const char* k_segments = "girdle-segments";
+// 96 round a brilliant, so that its outline looks round.
+constexpr double k_round_girdle = 6;
+
+// The library's cuts have one girdle facet under each upper half. This command's have more, if the
+// girdle is thick enough for their scallops.
+std::map<std::string, double> with_round_girdle(const CutKind& kind,
+                                                std::map<std::string, double> values) {
+    const bool may = std::any_of(kind.parameters.begin(), kind.parameters.end(),
+                                 [](const CutParameter& p) { return p.name == k_segments; });
+    if (!may || values.contains(k_segments)) return values;
+    std::map<std::string, double> round = values;
+    round[k_segments] = k_round_girdle;
+    try {
+        make_cut(kind.name, round);
+    } catch (const InputError&) {
+        return values;
+    }
+    return round;
+}
+
+std::string default_words(const CutParameter& p) {
+    return p.name == k_segments ? fmt::format("{}, or 1 of a thin girdle", k_round_girdle)
+                                : fmt::format("{}", p.value);
+}
 
 double height_of(const Solid& solid, bool crown) {
     // Crown: from the highest girdle corner to the table. Pavilion: from the culet to the lowest
@@ -90,8 +117,9 @@ void list_cuts() {
     for (const CutKind& kind : cut_kinds()) {
         fmt::print("{}: {}\n", kind.name, kind.summary);
         for (const CutParameter& p : kind.parameters) {
-            fmt::print("  --{:<18} {:>7} {:<4} {} ({} to {})\n", p.name, p.value, p.unit, p.what,
-                       p.least, p.most);
+            fmt::print("  --{:<18} {:>7} {:<4} {} ({} to {})\n", p.name,
+                       p.name == k_segments ? k_round_girdle : p.value, p.unit, p.what, p.least,
+                       p.most);
         }
     }
 }
@@ -165,7 +193,8 @@ void add_parameter(CLI::App& cut, const CutParameter& p,
            [options, key = p.name, unit = p.unit](const std::string& text) {
                options->values[key] = number_in_unit(text, unit, "--" + key);
            },
-           fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit, p.value))
+           fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit,
+                       default_words(p)))
         ->transform(CLI::Validator(
             [unit = p.unit](std::string& value) {
                 value = without_unit(value, unit);
@@ -197,6 +226,7 @@ void add_cut(CLI::App& command, const CutKind& kind, int& exit_code) {
     cut->allow_extras();  // so that a misspelt parameter is reported with the nearest
     cut->callback([kind, cut, options, &exit_code] {
         if (const auto words = cut->remaining(); !words.empty()) refuse(kind, words);
+        options->values = with_round_girdle(kind, options->values);
         exit_code = run_cut(kind.name, *options);
     });
 }

@@ -19,6 +19,7 @@
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"
+#include "render/scene/shown_picture.h"
 #include "stone/stone_io.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
@@ -111,7 +112,7 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
             read_scene(job.scene, {}, job.stone.empty() ? nullptr : &input.file.stone);
         scene.settings.threads = common.threads;
         scene.settings.seed = common.seed;
-        if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_budget_ns;
+        if (!scene.names_tolerance) scene.settings.allowed_ns = k_run_budget_ns;
     }
     if (!job.photo.empty()) {
         input.photo = read_photo(job.photo, job.mask);
@@ -164,11 +165,11 @@ JobResult make(const Job& job, JobInput& input, bool quiet) {
     return made;
 }
 
-void put_pictures(const JobResult& made, const fs::path& folder) {
+void put_pictures(const Scene& scene, const JobResult& made, const fs::path& folder) {
     write_picture(made.rendered->picture, folder / "render.exr");
     // For viewing only: the linear values are in the EXR.
-    PngLook look;
-    look.exposure = exposure_for_stone(made.rendered->picture);
+    PngLook look = look_of(scene, "");
+    look.exposure = exposure_for_stone(made.rendered->picture, look.share_over_white);
     write_picture(made.rendered->picture, folder / "render.png", look);
     write_text(folder / "stats.json", stats_json(made.rendered->stats));
     if (made.started) write_picture(made.started->picture, folder / "start.png", look);
@@ -248,7 +249,7 @@ int run_job(const RunOptions& options) {
         write_solid(made.fit->solid, folder / "fitted.obj");
         write_text(folder / "fit.json", report.fit_json);
     }
-    if (made.rendered) put_pictures(made, folder);
+    if (made.rendered) put_pictures(input.scene, made, folder);
     if (made.comparison) write_text(folder / "scores.json", report.scores_json);
     write_report(report, folder / "report.html");
     print_lines((folder / "report.html").string());

@@ -28,7 +28,7 @@ Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePicture
     scene.lights = *light_preset(preset.name);
     scene.light_preset = preset.name;
     scene.camera.width = scene.camera.height = options.size;
-    frame_stone(stone.solid, preset.from_below ? Facing::pavilion : Facing::crown, scene.camera);
+    frame_stone(stone.solid, preset.facing, scene.camera);
     RenderSettings& settings = scene.settings;
     settings.engine = k_beam_engine;
     settings.check = Check::none;

@@ -41,7 +41,7 @@ void PictureOutput::look_as(const std::string& exposure, const std::string& tone
 }
 
 double PictureOutput::exposure_of(const Picture& picture) const {
-    return exposure_ ? *exposure_ : exposure_for_stone(picture);
+    return exposure_ ? *exposure_ : exposure_for_stone(picture, look_.share_over_white);
 }
 
 void PictureOutput::write(const Picture& picture,

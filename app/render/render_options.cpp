@@ -21,7 +21,7 @@ void add_stone_options(CLI::App& command, StoneScene& stone) {
         .add_option("--light", stone.light,
                     presets +
                         ", or the views polariscope, conoscope, dichroscope; a stone without "
-                        "a scene: jeweller")
+                        "a scene: photograph")
         ->type_name("PRESET");
     command
         .add_option("--width", stone.width_mm,
@@ -48,7 +48,7 @@ void add_settings(CLI::App& command, RenderOptions& options, CLI::Option* plan) 
         ->excludes(plan);
     command
         .add_option("--tolerance", options.tolerance,
-                    "as a fraction of the mean radiance (default: what 10 s allow)")
+                    "as a fraction of the mean radiance (default: what 3 s allow)")
         ->excludes(plan);
     command
         .add_option("--check", options.check,

@@ -8,7 +8,7 @@
 namespace culet {
 
 /// k_usual_budget_ns in words for people.
-constexpr int k_usual_seconds = 10;
+constexpr int k_usual_seconds = 3;
 
 /// Says how accurate the picture is, if that was left to culet.
 void print_accuracy(const RenderStats& stats, Check check, bool time_limited, bool quiet);

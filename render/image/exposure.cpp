@@ -10,8 +10,6 @@ namespace culet {
 
 namespace {
 
-// Part of the stone's pixels that may exceed white: glints, which photographers let burn out.
-constexpr double k_share_over_white = 0.02;
 // Smallest coverage of a pixel that counts as the stone.
 constexpr float k_covered = 0.5f;
 
@@ -28,7 +26,7 @@ std::uint32_t order_of(float number) {
 
 }  // namespace
 
-double exposure_for_stone(const Picture& picture) {
+double exposure_for_stone(const Picture& picture, double share_over_white) {
     // Count by the upper half of the bits, so that only one bucket must be sorted.
     std::vector<std::size_t> counts(k_buckets);
     std::size_t all = 0;
@@ -46,7 +44,7 @@ double exposure_for_stone(const Picture& picture) {
         ++all;
     });
     if (all == 0) return 1;
-    auto rank = static_cast<std::size_t>((1 - k_share_over_white) * static_cast<double>(all - 1));
+    auto rank = static_cast<std::size_t>((1 - share_over_white) * static_cast<double>(all - 1));
     std::uint32_t bucket = 0;
     while (rank >= counts[bucket]) rank -= counts[bucket++];
     std::vector<std::uint32_t> near;

@@ -32,6 +32,19 @@ double mapped(double v, ToneMap map) {
     return v;
 }
 
+// The ground behind the stone, in place of the light that comes from there.
+void draw_ground(const Picture& picture, const PngLook& look, std::vector<float>& rgb) {
+    const bool shaded = look.ground_lit.size() == picture.pixels();
+    for (std::size_t p = 0; p < picture.coverage.size(); ++p) {
+        const float seen = 1 - picture.coverage[p];
+        if (!(seen > 0)) continue;
+        const float light =
+            seen * static_cast<float>(look.ground) * (shaded ? look.ground_lit[p] : 1.0f);
+        for (std::size_t c = 3 * p; c < 3 * p + 3; ++c)
+            rgb[c] = light + (seen < 1 ? picture.rgb[c] : 0.0f);
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> tone_map_names() {
@@ -58,8 +71,9 @@ float tone_mapped(float light, ToneMap map) {
 }
 
 std::vector<float> as_shown(const Picture& picture, const PngLook& look) {
-    std::vector<float> rgb(picture.rgb.size());
-    std::transform(picture.rgb.begin(), picture.rgb.end(), rgb.begin(),
+    std::vector<float> rgb = picture.rgb;
+    if (look.ground > 0 && !look.alpha) draw_ground(picture, look, rgb);
+    std::transform(rgb.begin(), rgb.end(), rgb.begin(),
                    [&](float v) { return exposed(v, look.exposure); });
     const PictureSize size{picture.width, picture.height};
     if (look.glare > 0) add_glare(rgb, size, look.glare, look.degrees_per_pixel);

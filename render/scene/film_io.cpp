@@ -12,10 +12,10 @@ namespace {
 
 constexpr double k_strongest = 100, k_parallel_view_deg = 20;
 
-// Booleans count as 1 and 0.
-double strength_of(const TomlTable& table, const char* key) {
-    if (table.kind(key) == TomlTable::Kind::boolean) return *table.boolean(key) ? 1 : 0;
-    const double strength = table.number(key).value_or(0);
+// Booleans count as `usual` and 0.
+double strength_of(const TomlTable& table, const char* key, double preset, double usual = 1) {
+    if (table.kind(key) == TomlTable::Kind::boolean) return *table.boolean(key) ? usual : 0;
+    const double strength = table.number(key).value_or(preset);
     if (!(strength >= 0 && strength <= k_strongest))
         table.fail(key, fmt::format("{} is true, false or a strength, 0 to {}, found {}", key,
                                     k_strongest, strength));
@@ -24,12 +24,12 @@ double strength_of(const TomlTable& table, const char* key) {
 
 }  // namespace
 
-PngLook read_film(const TomlTable& table) {
-    table.refuse_unknown({"glare", "sparkle", "alpha", "tonemap"});
-    PngLook look;
-    look.glare = strength_of(table, "glare");
-    look.sparkle = strength_of(table, "sparkle");
-    look.alpha = table.boolean("alpha").value_or(false);
+PngLook read_film(const TomlTable& table, PngLook look) {
+    table.refuse_unknown({"glare", "sparkle", "alpha", "ground", "tonemap"});
+    look.glare = strength_of(table, "glare", look.glare);
+    look.sparkle = strength_of(table, "sparkle", look.sparkle);
+    look.ground = strength_of(table, "ground", look.ground, k_usual_ground);
+    look.alpha = table.boolean("alpha").value_or(look.alpha);
     if (const auto name = table.text("tonemap")) {
         const auto known = tone_map_named(*name);
         if (!known)

@@ -7,8 +7,8 @@
 
 namespace culet {
 
-/// Throws InputError with file and line.
-PngLook read_film(const TomlTable& table);
+/// Missing keys stay as in `look`. Throws InputError with file and line.
+PngLook read_film(const TomlTable& table, PngLook look);
 
 /// Degrees per pixel at the picture's middle, from the camera; a parallel view counts as 20 degrees
 /// high.

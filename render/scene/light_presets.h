@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/scene/framing.h"
 #include "render/scene/scene.h"
 
 namespace culet {
@@ -22,10 +23,11 @@ inline constexpr double k_darkfield_from_deg = 35, k_darkfield_to_deg = 75;
 struct LightPreset {
     const char* name;
     const char* summary;  ///< one line, for help and lists
-    /// The trade views the pavilion in this light: a scene without a camera is seen from below.
-    bool from_below;
+    /// How a scene without a camera is seen.
+    Facing facing;
     /// Its colours have a meaning: its pictures have exposure 1, others are exposed to the stone.
     bool instrument;
+    PngLook film = {};
 };
 
 /// In the order of help texts.
@@ -36,8 +38,9 @@ const LightPreset* find_light_preset(std::string_view name);
 /// The lights of a preset; nothing for an unknown name. docs/gallery.md has pictures. Angles count
 /// from straight up (+z) unless noted.
 /// jeweller: a ring of light 12-40 degrees round the viewer's head, two windows, a dim room.
-/// photograph: how dealers photograph stones: a dark camera (0-28 degrees), a white tent round it
-///   down to 15 degrees above the horizon, four soft lamps, and a table that the stone shades.
+/// photograph: how dealers photograph stones: a dark camera (0-28 degrees from the eye), a white
+/// tent
+///   round it, a window, and a table that the stone shades.
 /// daylight: an open sky that is brighter towards a hazy sun, the viewer's head, trees on the
 ///   horizon, dim ground.
 /// lightbox: a white tent: walls and a floor of paper, two lamps behind the walls, a black gap

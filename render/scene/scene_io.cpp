@@ -196,14 +196,14 @@ std::string read_lights(const TomlTable& root, std::string_view instead, bool ma
     return light->text("preset").value_or("");
 }
 
-void aim_camera(const TomlTable& root, const std::optional<TomlTable>& camera, bool from_below,
+void aim_camera(const TomlTable& root, const std::optional<TomlTable>& camera, Facing facing,
                 Scene& scene) {
     if (camera) scene.camera = read_camera(*camera);
     if (camera && names_a_view(*camera)) return;
     if (!scene.has_stone())
         root.fail("",
                   "the scene has no stone to look at: add a [camera] with position and look_at");
-    frame_stone(scene.stone.solid, from_below ? Facing::pavilion : Facing::crown, scene.camera);
+    frame_stone(scene.stone.solid, facing, scene.camera);
 }
 
 }  // namespace
@@ -251,10 +251,11 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
         read_lights(root, light_instead, view || shines(scene.objects), scene);
     const LightPreset* known = find_light_preset(preset);
     if (known != nullptr) scene.light_preset = known->name;
-    aim_camera(root, camera, known != nullptr && known->from_below, scene);
+    aim_camera(root, camera, known != nullptr ? known->facing : Facing::crown, scene);
     if (view) apply_view_preset(view->first, view->second, scene);
     if (const auto shading = root.table("shading")) scene.shading = read_shading(*shading);
-    if (const auto film = root.table("film")) scene.film = read_film(*film);
+    if (known != nullptr) scene.film = known->film;
+    if (const auto film = root.table("film")) scene.film = read_film(*film, scene.film);
     const auto settings = root.table("render");
     if (settings) scene.settings = read_settings(*settings);
     scene.names_tolerance = settings && settings->has("tolerance");

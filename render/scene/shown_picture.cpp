@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/scene/film_io.h"
+#include "render/scene/ground_shadow.h"
 #include "render/scene/light_presets.h"
 #include "stone/text/errors.h"
 
@@ -15,6 +16,8 @@ PngLook look_of(const Scene& scene, const std::string& tonemap) {
     PngLook look = scene.film;
     look.degrees_per_pixel = degrees_per_pixel(scene.camera);
     if (const auto map = tone_map_named(tonemap)) look.tone_map = *map;
+    if (look.ground > 0 && scene.has_stone() && !scene.has_objects())
+        look.ground_lit = ground_lit(scene.stone.solid, scene.camera);
     return look;
 }
 

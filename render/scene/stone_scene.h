@@ -12,7 +12,7 @@
 namespace culet {
 
 /// Preset used by default.
-constexpr const char* k_usual_light = "jeweller";
+constexpr const char* k_usual_light = "photograph";
 /// The smaller of the outline's extents along x and y.
 double outline_width(const Solid& solid);
 

@@ -117,11 +117,28 @@ TEST(ToneMaps, RiseFromBlackAndStayBelowWhite) {
     EXPECT_FALSE(tone_map_named("sepia").has_value());
 }
 
+// Expectation: the ground shows where the stone does not cover the pixel, by the part uncovered.
+TEST(Ground, LiesBehindTheStone) {
+    Picture picture;
+    picture.width = 3;
+    picture.height = 1;
+    picture.rgb.assign(9, 0.25f);
+    picture.coverage = {0, 0.5f, 1};
+    PngLook look;
+    look.ground = 0.8;
+    look.ground_lit = {0.5f, 1, 1};
+    EXPECT_FLOAT_EQ(as_shown(picture, look)[0], 0.4f) << "in the shadow";
+    EXPECT_FLOAT_EQ(as_shown(picture, look)[3], 0.65f) << "at the stone's edge";
+    EXPECT_FLOAT_EQ(as_shown(picture, look)[6], 0.25f) << "in the stone";
+    look.alpha = true;
+    EXPECT_FLOAT_EQ(as_shown(picture, look)[0], 0.25f) << "a transparent ground is none";
+}
+
 TEST(Film, IsReadFromASceneAndWrittenToItsPng) {
     const test::ScratchFolder folder;
     const auto film = [&](const std::string& text) {
         std::ofstream(folder / "film.toml") << "[film]\n" << text;
-        return read_film(*read_toml(folder / "film.toml").table("film"));
+        return read_film(*read_toml(folder / "film.toml").table("film"), {});
     };
     const PngLook look = film("glare = true\nsparkle = 0.5\nalpha = true\ntonemap = \"filmic\"\n");
     EXPECT_EQ(look.glare, 1);

@@ -62,7 +62,7 @@ std::vector<std::uint8_t> rendered(const Stone& stone, const std::string& scene_
     PngLook look = scene.film;
     const LightPreset* const preset = find_light_preset(scene.light_preset);
     if (preset != nullptr && !preset->instrument)
-        look.exposure = exposure_for_stone(result.picture);
+        look.exposure = exposure_for_stone(result.picture, look.share_over_white);
     return shown_bytes(result.picture, look, true);
 }
 

@@ -56,7 +56,7 @@ Json light_list() {
     for (const LightPreset& preset : light_presets()) {
         list.push_back({{"name", preset.name},
                         {"summary", preset.summary},
-                        {"from_below", preset.from_below},
+                        {"from_below", preset.facing == Facing::pavilion},
                         {"instrument", preset.instrument}});
     }
     return list;

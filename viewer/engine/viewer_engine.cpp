@@ -120,6 +120,7 @@ Json ViewerEngine::State::picture(const Json& arguments, bool shown_as_bytes) {
     Json answer{{"width", result.picture.width}, {"height", result.picture.height}};
     if (shown_as_bytes) {
         PngLook look = scene.film;
+        look.ground = 0;  // the page's own
         if (const auto map = tone_map_named(arguments.value("tonemap", ""))) look.tone_map = *map;
         const auto asked = arguments.find("exposure");
         const LightPreset* const preset = find_light_preset(scene.light_preset);
@@ -127,7 +128,7 @@ Json ViewerEngine::State::picture(const Json& arguments, bool shown_as_bytes) {
                                       ? preset != nullptr && !preset->instrument
                                       : asked->is_string();
         if (to_the_stone) {
-            look.exposure = exposure_for_stone(result.picture);
+            look.exposure = exposure_for_stone(result.picture, look.share_over_white);
         } else if (asked != arguments.end() && asked->is_number()) {
             look.exposure = asked->get<double>();
             if (!(look.exposure > 0 && std::isfinite(look.exposure)))
