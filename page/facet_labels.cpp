@@ -185,6 +185,7 @@ FacetLabels place_labels(const Solid& solid, const FacetView& view) {
     FacetLabels result;
     for (const SeenFacet& seen : view.facets) {
         const std::string text = shortened(solid.facets[static_cast<std::size_t>(seen.facet)].name);
+        if (text.empty()) continue;
         FacetLabel label = inside(seen, text);
         if (label.size < k_smallest) {
             label.has_leader = true;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "page/quantity.h"
+
 namespace culet {
 
 namespace {
@@ -100,11 +102,19 @@ std::optional<double> direction_sigma(const Json& facet) {
     return std::hypot(*tilt, level * number_at(facet, "sigma_azimuth").value_or(0));
 }
 
-const Json* facet_in(const Json& fit, const std::string& name) {
-    for (const Json& facet : array_at(fit, "facets")) {
-        if (text_at(facet, "name") == name) return &facet;
+const Json* named_in(const Json& list, const std::string& name) {
+    for (const Json& one : list) {
+        if (text_at(one, "name") == name) return &one;
     }
     return nullptr;
+}
+
+const Json* facet_in(const Json& fit, const std::string& name) {
+    return named_in(array_at(fit, "facets"), name);
+}
+
+std::string proportion_text(const Json& p) {
+    return quantity(number_at(p, "value"), number_at(p, "sigma"), text_at(p, "unit"));
 }
 
 }  // namespace culet

@@ -29,6 +29,11 @@ std::set<std::string> suspects_of(const nlohmann::json& fit);
 /// Uncertainty of the normal, degrees; level facets have no azimuth. Empty: unknown.
 std::optional<double> direction_sigma(const nlohmann::json& facet);
 
+/// The entry of this name in one of the report's lists.
+const nlohmann::json* named_in(const nlohmann::json& list, const std::string& name);
 const nlohmann::json* facet_in(const nlohmann::json& fit, const std::string& name);
+
+/// A proportion with its sigma and unit.
+std::string proportion_text(const nlohmann::json& proportion);
 
 }  // namespace culet

@@ -7,7 +7,6 @@
 #include "page/fit_fields.h"
 #include "page/fit_page.h"
 #include "page/parts.h"
-#include "page/quantity.h"
 #include "page/templates.h"
 
 namespace culet {
@@ -15,17 +14,6 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::json;
-
-const Json* named(const Json& proportions, const std::string& name) {
-    for (const Json& p : proportions) {
-        if (text_at(p, "name") == name) return &p;
-    }
-    return nullptr;
-}
-
-std::string shown(const Json& p) {
-    return quantity(number_at(p, "value"), number_at(p, "sigma"), text_at(p, "unit"));
-}
 
 View row(const std::string& name, const std::string& about, const std::vector<View>& values) {
     return {{"name", name}, {"about", about}, {"values", values}};
@@ -38,10 +26,10 @@ std::vector<View> calipers(const Json& proportions) {
     for (const auto& [name, words] : {std::pair{"caliper min", "least"},
                                       {"caliper max", "largest"},
                                       {"caliper mean", "mean"}}) {
-        const Json* p = named(proportions, name);
+        const Json* p = named_in(proportions, name);
         if (p == nullptr) continue;
-        values.push_back(
-            {{"further", !values.empty()}, {"value", std::string(words) + " " + shown(*p)}});
+        values.push_back({{"further", !values.empty()},
+                          {"value", std::string(words) + " " + proportion_text(*p)}});
     }
     return values;
 }
@@ -51,17 +39,17 @@ std::vector<View> calipers(const Json& proportions) {
 std::string fit_proportions_section(const FitView& view) {
     const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
     const Json& proportions = array_at(fit, "proportions");
-    const bool round = named(proportions, "diameter") != nullptr;
+    const bool round = named_in(proportions, "diameter") != nullptr;
     std::vector<std::string> first{"depth",       "total depth",    "table",
                                    "crown angle", "pavilion angle", "weight"};
     first.insert(first.begin(), round ? "diameter" : "length");
     if (!round) first.insert(first.begin() + 1, "width");
     std::vector<View> rows, rest;
     for (const std::string& name : first) {
-        const Json* p = named(proportions, name);
+        const Json* p = named_in(proportions, name);
         if (p != nullptr) {
             rows.push_back(row(name, name == "diameter" ? "the mean of all directions" : "",
-                               {{{"further", false}, {"value", shown(*p)}}}));
+                               {{{"further", false}, {"value", proportion_text(*p)}}}));
         }
         if (name != (round ? "diameter" : "width")) continue;
         const std::vector<View> around = calipers(proportions);
@@ -70,7 +58,7 @@ std::string fit_proportions_section(const FitView& view) {
     for (const Json& p : proportions) {
         const std::string name = text_at(p, "name");
         if (name.starts_with("caliper ") || std::ranges::find(first, name) != first.end()) continue;
-        rest.push_back({{"name", name}, {"value", shown(p)}});
+        rest.push_back({{"name", name}, {"value", proportion_text(p)}});
     }
     if (rows.empty() && rest.empty()) return {};
     const std::string body =

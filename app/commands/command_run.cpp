@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/commands/compare_options.h"
+#include "app/commands/run_certificate.h"
 #include "app/program/file_kinds.h"
 #include "app/program/options.h"
 #include "app/program/report_viewer.h"
@@ -41,6 +42,7 @@ struct Job {
     fs::path stone, scene, photo, mask;  ///< empty: skip that step
     fs::path picture;                    ///< an existing render, instead of the scene
     bool simulated = false, start = false;
+    CertificateJob certificate;
 };
 
 void read_compare(const TomlTable& compare, Job& job) {
@@ -65,7 +67,7 @@ void read_compare(const TomlTable& compare, Job& job) {
 
 Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
     const TomlTable root = read_toml(file, overrides);
-    root.refuse_unknown({"name", "fit", "render", "compare"});
+    root.refuse_unknown({"name", "fit", "render", "compare", "certificate"});
     Job job;
     job.name = root.text("name").value_or(file.stem().string());
     if (const auto fit = root.table("fit")) {
@@ -79,6 +81,10 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
         job.scene = *render->path("scene");
     }
     if (const auto compare = root.table("compare")) read_compare(*compare, job);
+    if (const auto certificate = root.table("certificate")) {
+        if (job.stone.empty()) certificate->fail("", "a certificate needs [fit]: add it");
+        job.certificate = read_certificate(*certificate);
+    }
     if (job.stone.empty() && job.scene.empty() && job.picture.empty()) {
         root.fail("",
                   "a job needs a [fit] table with stone = \"stone.toml\", a [render] table with "
@@ -184,6 +190,7 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
     report.files = {{"job", options.job}};
     if (made.fit) {
         report.files.push_back({"stone", job.stone.string()});
+        report.certificate = "certificate.html";
         report.fit_json = fit_report(*made.fit);
         report.fitted = made.fit->solid;
         report.length_unit = name_of(input.file.stone.unit);
@@ -209,6 +216,18 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
         report.comparison = made.comparison;
     }
     return report;
+}
+
+void put_certificate(const Job& job, const JobInput& input, const JobResult& made,
+                     const std::string& fit_json, const fs::path& folder, bool quiet) {
+    CertificateJob certificate = job.certificate;
+    Certificate& page = certificate.certificate;
+    page.name = input.file.stone.name.empty() ? job.name : input.file.stone.name;
+    if (input.file.has_material) page.material = input.file.stone.material.name;
+    page.fit_json = fit_json;
+    page.stone = made.fit->solid;
+    if (made.rendered) page.picture_png = read_text(folder / "render.png");
+    write_certificate(std::move(certificate), folder, quiet);
 }
 
 // Shows the stone in the job's scene, or face up without one.
@@ -251,6 +270,7 @@ int run_job(const RunOptions& options) {
     }
     if (made.rendered) put_pictures(input.scene, made, folder);
     if (made.comparison) write_text(folder / "scores.json", report.scores_json);
+    if (made.fit) put_certificate(job, input, made, report.fit_json, folder, quiet);
     write_report(report, folder / "report.html");
     print_lines((folder / "report.html").string());
     say(fmt::format("next: open {} in a browser", (folder / "report.html").string()), quiet);

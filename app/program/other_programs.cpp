@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 extern char** environ;
 
@@ -21,7 +23,8 @@ bool has_program(const std::string& name) {
     return false;
 }
 
-int run_program(std::vector<std::string> words, const std::filesystem::path& messages) {
+int run_program(std::vector<std::string> words, const std::filesystem::path& messages,
+                std::chrono::seconds most_time) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -35,9 +38,15 @@ int run_program(std::vector<std::string> words, const std::filesystem::path& mes
     const int problem =
         posix_spawnp(&child, arguments[0], &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
+    if (problem != 0) return -1;
+    const auto until = std::chrono::steady_clock::now() + most_time;
     int status = 0;
-    if (problem != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
-    return WEXITSTATUS(status);
+    pid_t ended = 0;
+    while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        if (std::chrono::steady_clock::now() > until) kill(child, SIGKILL);
+    }
+    return ended == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace culet

@@ -46,6 +46,8 @@ struct Report {
     /// A viewer page with the stone, opened from the picture; empty: none.
     std::string viewer_html;
 
+    std::string certificate;  ///< a page beside this one; empty: none
+
     std::string stats_json;  ///< of the renderer: plan, error bounds, times
     std::string settings;    ///< the job or scene as text
 };

@@ -94,6 +94,7 @@ std::string headline_section(const Report& report, const FitView& fitted) {
          {"fit_html", fit_card(fitted)},
          {"tiles_html", (c != nullptr ? comparison_tiles(*c, report.calibrated) : std::string()) +
                             fit_tiles(fitted)},
+         {"certificate", report.certificate},
          {"uncalibrated", scored && !report.calibrated},
          {"calibrated", scored && report.calibrated.has_value()}});
 }

@@ -27,7 +27,7 @@ public:
     std::optional<double> number(std::string_view key) const;
     std::optional<std::int64_t> integer(std::string_view key) const;
     std::optional<bool> boolean(std::string_view key) const;
-    std::optional<std::string> text(std::string_view key) const;
+    std::optional<std::string> text(std::string_view key) const;   ///< or a date: 2026-01-31
     std::optional<glm::dvec3> vector(std::string_view key) const;  ///< three numbers
     std::optional<std::vector<double>> numbers(std::string_view key) const;
     std::optional<std::vector<std::string>> texts(std::string_view key) const;

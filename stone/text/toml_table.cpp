@@ -129,6 +129,9 @@ std::optional<bool> TomlTable::boolean(std::string_view key) const {
 std::optional<std::string> TomlTable::text(std::string_view key) const {
     const toml::node* node = as_table(node_).get(key);
     if (node == nullptr) return std::nullopt;
+    if (const auto* date = node->as_date())
+        return fmt::format("{:04}-{:02}-{:02}", date->get().year, date->get().month,
+                           date->get().day);
     if (!node->is_string()) {
         fail_at(file(), *node,
                 fmt::format("{} must be a text in quotes, found {}", key, describe(*node)));

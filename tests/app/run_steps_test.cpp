@@ -29,7 +29,8 @@ protected:
 
     static inline const std::string k_sample =
         std::string(CULET_SOURCE_DIR) + "/samples/dravite-step";
-    const std::string fit_ = "[fit]\nstone = \"" + k_sample + "/stone.toml\"\n";
+    const std::string fit_ =
+        "[fit]\nstone = \"" + k_sample + "/stone.toml\"\n[certificate]\npdf = false\n";
     const std::string render_ = "[render]\nscene = \"scene.toml\"\n";
     const std::string compare_ =
         "[compare]\nphoto = \"" + k_sample + "/simulated-photo.png\"\nsimulated = true\n";

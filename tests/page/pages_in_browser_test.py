@@ -45,17 +45,33 @@ class PagesInBrowserTest(unittest.TestCase):
 
     def test_paper_says_when_it_was_printed(self):
         for page in self.pages:
+            # A certificate bears its own date.
+            if page.name.startswith("certificate"):
+                continue
             with self.subTest(page=page.name):
                 self.browser.open(page)
                 self.browser.run("dispatchEvent(new Event('beforeprint'))")
                 said = self.browser.run("return document.querySelector('.printed').textContent")
                 self.assertIn(str(self.browser.run("return new Date().getFullYear()")), said)
 
-    def test_the_cutting_sheet_of_a_brilliant_is_one_page(self):
-        # A cutter takes one sheet to the machine. Every page of a PDF is an object of type Page.
-        self.browser.open(self.folder / "cutting-sheet-on-paper.html")
-        pdf = base64.b64decode(self.browser.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
-        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", pdf)), 1)
+    def test_cutting_sheets_and_certificates_are_one_sheet_of_paper(self):
+        # Every page of a PDF is an object of type Page. Points: 595 x 842 is A4, 612 x 792 letter.
+        for name, width in [("cutting-sheet-on-paper", 595), ("certificate", 595), ("certificate-letter", 612)]:
+            with self.subTest(page=name):
+                self.browser.open(self.folder / (name + ".html"))
+                pdf = base64.b64decode(self.browser.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
+                self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", pdf)), 1)
+                box = re.search(rb"/MediaBox\s*\[0 0 ([\d.]+)", pdf)
+                self.assertAlmostEqual(float(box[1]), width, delta=1)
+
+    def test_nothing_of_a_certificate_is_cut_off(self):
+        self.browser.open(self.folder / "certificate.html")
+        self.browser.resize(720, 1000)
+        self.browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        whole, shown = self.browser.run("const s = document.querySelector('.sheet'); return [s.scrollHeight, s.clientHeight]")
+        self.browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.browser.resize(390, 844)
+        self.assertEqual(whole, shown)
 
 
 if __name__ == "__main__":
