@@ -90,6 +90,25 @@ class LivePageTest(PageActions, unittest.TestCase):
             self.assertGreater(lit, 0.02, name)
             self.assertLessEqual(off, 0.001, name)
 
+    def test_stopping_changes_neither_size_nor_brightness(self):
+        """A turn, then rest: the same exposure, the stone's light within 12 %, no frame below half of the resolution."""
+        self.open_page("brilliant.html")
+        for material in ["diamond", "sapphire_blue"]:
+            self.browser.run("culet_page.state.set({material: arguments[0]})", material)
+            self.browser.rest()
+            exposures, lights, least = self.browser.wait("""const p = culet_page, {drawn} = p, exposures = [p.loop.exposure]; let least = 1;
+                const light = () => { const {data} = p.picture.pictures.get('left'); let sum = 0;
+                  for (let i = 0; i < data.length; i += 4) sum += (data[i] / 255) ** 2.2 + 3 * (data[i + 1] / 255) ** 2.2; return sum / data.length; };
+                p.drawn = (quick, rough) => { if (quick) least = Math.min(least, p.picture.pictures.get('left').width / p.picture.size()[0]);
+                  exposures.push(p.loop.exposure); drawn.call(p, quick, rough); };
+                for (let i = 0; i < 12; ++i) { p.motion.turn_to(Turn.about([1, 0.3, 0], 0.04 * i)); await new Promise((r) => setTimeout(r, 60)); }
+                await p.loop.idle(); const fine = light(); await p.loop.draw(true); const lights = [light(), fine]; delete p.drawn;
+                return [exposures, lights, least];""")
+            self.assertGreater(len(exposures), 3, material)
+            self.assertEqual(len(set(exposures)), 1, material)
+            self.assertAlmostEqual(lights[0] / lights[1], 1, delta=0.12, msg=material)
+            self.assertGreater(least, 0.498, material)
+
     def test_every_control_changes_what_is_seen(self):
         self.open_page("fitted.html")
         self.check_controls(cut=None)

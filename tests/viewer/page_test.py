@@ -415,7 +415,7 @@ class PageTest(PageActions, unittest.TestCase):
 
     def test_page_without_an_engine_says_so(self):
         self.open(engine="")
-        self.assertIn("made without culet", self.browser.run("return document.getElementById('trouble').innerText"))
+        self.assertIn("had no engine", self.browser.run("return document.getElementById('trouble').innerText"))
 
     def test_saves_png_and_film(self):
         self.open()

@@ -19,7 +19,7 @@ class Command {
       settings,
       camera: this.page.drawing(stone, width, height).camera,
       size: [width, height],
-      exposure: this.page.exposure(),
+      exposure: this.page.exposure_factor(),
       tonemap: this.page.tonemap(),
       engine: rays ? "reference" : "beams",
       lights_turned: values.polariser === null ? this.page.lights_turn() : null,

@@ -13,6 +13,7 @@ class FinePicture {
   }
 
   stop() {
+    if (!this.busy) return;
     this.engine.stop("started again");
     this.key = "";
     this.busy = null;
@@ -36,18 +37,18 @@ class FinePicture {
 
   // Returns [side, picture] for each side, or nothing if the page has moved on. Cancels an earlier
   // drawing.
-  async draw(sides, width, height, exposure, engine) {
-    if (this.busy) this.stop();
+  async draw(sides, width, height, engine) {
+    this.stop();
     const mine = this.busy = {};
     try {
       await this.open();
-      return await this.draw_sides(sides, width, height, exposure, engine);
+      return await this.draw_sides(sides, width, height, engine);
     } finally {
       if (this.busy === mine) this.busy = null;
     }
   }
 
-  async draw_sides(sides, width, height, exposure, engine) {
+  async draw_sides(sides, width, height, engine) {
     const page = this.page, version = page.loop.version, drawn = [];
     const late = () => page.loop.version !== version;
     for (const [side, stone] of sides) {
@@ -60,10 +61,9 @@ class FinePicture {
         ...page.drawing(stone, width, height),
         engine,
         samples: page.drawn_by_rays ? 1 : null,
-        exposure,
+        exposure: page.exposure_factor(),
         tonemap: page.tonemap(),
       });
-      if (typeof picture.exposure === "number") exposure = picture.exposure;
       drawn.push([side, picture]);
     }
     return late() ? null : drawn;

@@ -5,7 +5,7 @@
 const k_quick_ms = 33;       // of a frame while the stone moves
 const k_ray_ms = 90;         // the same for a stone that is not convex
 const k_rest_ms = 140;       // without a move, before the whole picture is drawn
-const k_least_scale = 0.35;  // of the screen's resolution; coarser is unrecognisable
+const k_least_scale = 0.5;   // of the screen's resolution; coarser is a blur
 const k_least_ray_scale = 0.25;
 const k_fine_ms = 250;       // without a move, before the fine picture begins
 const k_quick_depth = 12;    // faces of a path: in a diamond the rest brings 1.5 % of its light
@@ -27,7 +27,8 @@ class FrameLoop {
     this.running = false;
     this.paused = false;     // while others (recording) need the engine
     this.set_key = "";       // what the engine was last told to draw
-    this.exposure = null;    // of the last whole picture
+    this.exposure = null;    // of all views of what is shown
+    this.exposed = "";       // what that was measured on
     this.milliseconds = {};  // the last time of each way of drawing
     this.idle_waiters = [];
   }
@@ -40,12 +41,17 @@ class FrameLoop {
   changed() {
     this.level = k_levels.quick;
     this.version = (this.version || 0) + 1;
+    this.page.fine.stop();  // it would take half of two cores from the quick frames
     if (this.wake) this.wake();
     if (!this.running && !this.paused) this.run();
   }
   // The engine was restarted and has lost its state.
   forget() { this.set_key = ""; }
-  moving() { return performance.now() - this.last_move < k_rest_ms; }
+  // A slow machine tells of the hand late: without the frames' time it would seem to rest.
+  moving() {
+    const rest = Math.max(k_rest_ms, 2 * (this.milliseconds.preview || 0));
+    return performance.now() - this.last_move < rest;
+  }
 
   // Resolves once the whole picture of the current request is on the page.
   idle() {
@@ -145,13 +151,12 @@ class FrameLoop {
     for (const [round, engine] of rounds.entries()) {
       let drawn;
       try {
-        drawn = await page.fine.draw(this.sides(), width, height, page.exposure(), engine);
+        drawn = await page.fine.draw(this.sides(), width, height, engine);
       } catch (error) {
         if (version === this.version) page.failed(error);
       }
       if (!drawn || version !== this.version || page.info !== info) return;
       for (const [side, picture] of drawn) page.picture.take(picture, side);
-      this.exposure = drawn[drawn.length - 1][1].exposure;
       this.milliseconds.beams = drawn.reduce((sum, [, picture]) => sum + picture.milliseconds, 0);
       page.show_picture();
       page.drawn(false, round + 1 < rounds.length);
@@ -169,12 +174,15 @@ class FrameLoop {
     // By rays a large picture takes seconds, and the hand would have to wait.
     const rays = page.drawn_by_rays, rest_scale = rays ? Math.min(1, 2.5 * this.scale) : 1;
     const [width, height] = page.picture.size(quick ? this.scale : rest_scale);
-    let spent = 0, shading = 0, exposure = this.exposure_for(quick);
+    let spent = 0, shading = 0, exposure = null;
     for (const [side, stone] of sides) {
       const settings = this.settings(stone);
       await page.engine.in_turn(() => page.info === info && this.prepare(stone, settings));
       if (page.info !== info) return;  // another stone was opened meanwhile
       if (page.refused) return page.show_refused();
+      // Two stones side by side get the same exposure.
+      if (side === "left") exposure = await this.expose(stone, settings);
+      if (!exposure || page.info !== info) return;
       if (side === "left" && page.gpu.wanted()) {
         await page.gpu.draw(settings, width, height, quick, exposure);
         if (page.info !== info) return;
@@ -190,21 +198,34 @@ class FrameLoop {
       spent += drawn.milliseconds;
       shading += drawn.milliseconds - (drawn.build_ms || 0);
       page.picture.take(drawn, side);
-      // Two stones side by side get the same exposure.
-      if (side === "left" && typeof drawn.exposure === "number") exposure = drawn.exposure;
     }
     if (sides.length === 1) page.picture.pictures.delete("right");
-    if (!quick && typeof exposure === "number") this.exposure = exposure;
     this.milliseconds[quick ? "preview" : "whole"] = spent;
     if (quick) this.adapt(spent, shading);
     page.show_picture();
     page.drawn(quick, !quick);
   }
 
-  // Constant while something moves: changing brightness is unpleasant.
-  exposure_for(quick) {
-    const exposure = this.page.exposure();
-    return exposure === "auto" && quick && this.exposure ? this.exposure : exposure;
+  // The exposure of every picture. It is measured on a small one of the first view: turning the
+  // stone then changes its brightness as before the eye, and stopping changes nothing.
+  async expose(stone, settings) {
+    const page = this.page, own = page.exposure();
+    if (own !== "auto") return own;
+    const exposed = JSON.stringify([page.engine_stone(stone), settings, page.scene_version]);
+    if (exposed === this.exposed) return this.exposure;
+    const [width, height] = page.picture.size(), scale = Math.min(1, 200 / Math.max(width, height));
+    const drawn = await this.ask(stone, settings, "draw", {
+      ...page.drawing(stone, Math.ceil(width * scale), Math.ceil(height * scale),
+        {turn: page.home(), zoom: 1, pan: page.base.pan}),
+      turn: Turn.matrix(Turn.none),
+      engine: "preview",
+      quick: false,  // whatever was drawn before: a link shows the same
+      exposure: "auto",
+      tonemap: "none",
+    });
+    if (!drawn) return null;
+    this.exposed = exposed;
+    return this.exposure = drawn.exposure;
   }
 
   // For the time before the duration of a frame is known.

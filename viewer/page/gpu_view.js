@@ -90,28 +90,13 @@ class GpuView {
     this.drew = false;
     const page = this.page, version = page.loop.version;
     try {
-      if (exposure === "auto") exposure = await this.exposure_to_the_stone(settings, width, height);
-      if (exposure) await this.samples(settings, width, height, quick, exposure, version);
+      await this.samples(settings, width, height, quick, exposure, version);
     } catch (error) {
       if (error instanceof EngineError) throw error;
       if (this.gl.isContextLost()) return;
       this.own_refusal = error.message;
       this.hide();
     }
-  }
-
-  // Computed from a small picture by the engine.
-  async exposure_to_the_stone(settings, width, height) {
-    const page = this.page, scale = 200 / Math.max(200, width, height);
-    const stone = page.shown_index();
-    const drawn = await page.loop.ask(stone, settings, "draw", {
-      ...page.drawing(stone, Math.ceil(width * scale), Math.ceil(height * scale)),
-      engine: "preview",
-      exposure: "auto",
-      tonemap: "none",
-    });
-    if (drawn) page.loop.exposure = drawn.exposure;
-    return drawn && drawn.exposure;
   }
 
   async samples(settings, width, height, quick, exposure, version) {

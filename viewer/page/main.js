@@ -88,6 +88,11 @@ class Page {
     const preset = this.light_preset();
     return preset && !preset.instrument ? "auto" : 1;
   }
+  // The same as a number: 1 until it has been measured.
+  exposure_factor() {
+    const exposure = this.exposure();
+    return exposure === "auto" ? this.loop.exposure || 1 : exposure;
+  }
   tonemap() {
     return this.state.get("tonemap") ?? (this.info.settings && this.info.settings.tonemap) ??
       "none";

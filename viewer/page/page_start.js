@@ -125,7 +125,7 @@ Object.assign(Page.prototype, {
 
   async open_item(index) {
     this.info = null;
-    if (this.fine.busy) this.fine.stop();
+    this.fine.stop();
     this.state.forget_stone();
     this.state.set({item: index});
     this.put_away_all();

@@ -16,7 +16,7 @@ class PanelPicture {
     this.page = page;
     const set = (changes) => page.state.set(changes);
     this.auto =
-      toggle("Exposed to the stone", (on) => set({exposure: on ? "auto" : page.loop.exposure || 1}),
+      toggle("Exposed to the stone", (on) => set({exposure: on ? "auto" : page.exposure_factor()}),
         {name: "exposure-auto", what: "one pixel in fifty burns out"});
     // In stops: each doubles the light.
     this.exposure = slider({
@@ -108,9 +108,8 @@ class PanelPicture {
   }
 
   update() {
-    const values = this.page.state.values, exposure = this.page.exposure();
-    this.auto.show(exposure === "auto");
-    const factor = typeof exposure === "number" ? exposure : this.page.loop.exposure || 1;
+    const values = this.page.state.values, factor = this.page.exposure_factor();
+    this.auto.show(this.page.exposure() === "auto");
     this.exposure.show(Math.min(5, Math.max(-5, Math.log2(factor))));
     this.tonemap.show(this.page.tonemap());
     this.wire.show(values.wire);

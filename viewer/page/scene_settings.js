@@ -97,8 +97,7 @@ function command_line(drawing) {
     "none"
   ];
   for (const setting of settings) words.push("--set", setting);
-  words.push(
-    "--exposure", typeof drawing.exposure === "number" ? toml_number(drawing.exposure) : "auto");
+  words.push("--exposure", toml_number(drawing.exposure));
   if (drawing.tonemap && drawing.tonemap !== "none") words.push("--tonemap", drawing.tonemap);
   return drawing.command + " " + words.map(quoted).join(" ");
 }

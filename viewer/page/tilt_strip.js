@@ -29,7 +29,7 @@ class TiltStrip {
     this.strip.hidden = !values.tilts;
     if (!values.tilts || !page.ready() || page.refused) return;
     const stone = page.shown_index(), settings = page.loop.settings(stone);
-    const exposure = page.exposure() === "auto" ? page.loop.exposure || "auto" : page.exposure();
+    const exposure = page.exposure_factor();
     const key = JSON.stringify([
       stone, settings, values.light_turn, values.lights_with, exposure, page.tonemap(),
       page.scene_version

@@ -43,7 +43,7 @@ class Turntable {
 
   async frames(width, height, progress) {
     const page = this.page, frames = [], view = page.view(), stone = page.shown_index();
-    const exposure = page.exposure() === "auto" ? page.loop.exposure || "auto" : page.exposure();
+    const exposure = page.exposure_factor();
     for (let i = 0; i < k_film_frames && this.recording; ++i) {
       const turn =
         Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
