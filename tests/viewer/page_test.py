@@ -1,6 +1,7 @@
 """The viewer's page in Chromium with a stand-in for the engine. Each action, by hand and by
 keyboard alone, must change the picture or the overlay, and the console must stay empty."""
 import json
+import math
 import pathlib
 import re
 import sys
@@ -125,6 +126,50 @@ class PageTest(PageActions, unittest.TestCase):
         self.open()
         self.assertTrue(self.browser.run("return location.protocol") == "file:")
         self.assertLess(self.browser.run("return Number(document.getElementById('stage').dataset.firstPictureMs)"), 5000)
+
+    def test_stage_names_the_stone_and_the_tabs_are_one_row(self):
+        document = made_up_document(two=True)
+        document["items"][0]["name"] = "round-brilliant.obj"
+        document["items"][0]["stones"] = document["items"][0]["stones"][:1]
+        document["items"][0]["stones"][0]["material"]["density_g_cm3"] = 3.52
+        self.open(document)
+        stage = "return [document.getElementById('title').textContent, document.title, document.getElementById('subtitle').textContent]"
+        heading, title, facts = self.browser.run(stage)
+        self.assertEqual([heading, title], ["Round brilliant", "Round brilliant"])
+        # The pyramid's volume by hand: octagons of circumradius 3 and 1.5 are 2 sqrt 2 r r large.
+        area, small, low = 2 * 2**0.5 * 9, 2 * 2**0.5 * 2.25, 3 * math.tan(math.radians(40))
+        volume = area * 0.3 + area * low / 3 + (area + small + (area * small) ** 0.5) / 3
+        self.assertEqual(facts, f"diamond \u00b7 6.00 \u00d7 5.00 \u00d7 3.00 mm \u00b7 {volume * 3.52 / 200:.2f} ct \u00b7 table 55 %, depth 60 %")
+        self.browser.run("culet_page.state.set({material: 'sapphire_blue'})")
+        self.assertTrue(self.browser.run(stage)[2].startswith("Blue sapphire \u00b7 6.00"))
+        self.assertNotIn(" ct", self.browser.run(stage)[2])
+        self.open(made_up_document(two=True))
+        row = self.browser.run("""const list = document.getElementById('tabs'), tabs = [...list.children].filter((tab) => !tab.hidden);
+            return [tabs.length, new Set(tabs.map((tab) => tab.offsetTop)).size, list.scrollWidth - list.clientWidth]""")
+        self.assertEqual(row, [7, 1, 0])
+
+    def test_turns_slowly_until_touched(self):
+        media = lambda how: self.browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": how}]})
+        moves = "const turn = culet_page.view().turn; await new Promise((r) => setTimeout(r, 400)); return Turn.apart(turn, culet_page.view().turn) > 1e-4;"
+        try:
+            for how in ["no-preference", "reduce"]:
+                media(how)
+                path = pathlib.Path(self.folder) / "slow.html"
+                path.write_text(page_text(made_up_document()))
+                self.browser.open(path)
+                self.browser.wait("while (!culet_page.ready()) await new Promise((r) => setTimeout(r, 20));")
+                self.assertEqual(self.browser.wait(moves), how == "no-preference", how)
+                self.browser.run("document.getElementById('theme-button').dispatchEvent(new PointerEvent('pointerdown', {bubbles: true}))")
+                self.assertFalse(self.browser.wait(moves), how)
+        finally:
+            media("reduce")
+
+    def test_material_by_its_usual_name_best_first(self):
+        self.open()
+        listed = self.browser.run("culet_page.panels.material.list_those('blue'); return culet_page.panels.material.listed.map((m) => m.name)")
+        self.assertEqual(listed, ["sapphire_blue", "tanzanite"])
+        self.assertIn("drawn colourless", self.browser.run("return document.getElementById('material-tanzanite').textContent"))
+        self.assertNotIn("colourless", self.browser.run("return document.getElementById('material-sapphire_blue').textContent"))
 
     def test_point_under_the_pointer_stays_there(self):
         self.open()

@@ -109,6 +109,7 @@ function gpu({width, height, turn, samples}) {
   };
 }
 
+const dimensions = {length: 6, width: 5, depth: 3};
 const calls = {
   gpu,
   start: () => ({}),
@@ -117,11 +118,11 @@ const calls = {
     stones = document.items[item].stones.slice();
     shown = 0;
     return {
-      stones: stones.map(({ role, name, facets }) => ({ role, name, facets: facets.map((f) => f.name) })),
+      stones: stones.map(({ role, name, facets }) => ({ role, name, facets: facets.map((f) => f.name), dimensions })),
       materials: [
         { name: "diamond", optic: "isotropic", index: 2.417, summary: "colourless" },
-        { name: "sapphire_blue", optic: "uniaxial", index: 1.766, summary: "blue" },
-        { name: "tanzanite", optic: "biaxial", index: 1.692, summary: "violet" }],
+        { name: "tanzanite", optic: "biaxial", index: 1.692, summary: "violetish blue" },
+        { name: "sapphire_blue", title: "Blue sapphire", optic: "uniaxial", index: 1.766, summary: "blue", colour: "#224387" }],
       lights: [
         { name: "jeweller", summary: "a ring of light, two windows, a dim room", from_below: false, instrument: false },
         { name: "daylight", summary: "an open sky, a hazy sun, dim ground", from_below: false, instrument: false },
@@ -147,7 +148,7 @@ const calls = {
     for (const vertex of made.vertices) if (vertex[2] > 0.2) vertex[2] *= factor;
     const place = stones.findIndex((s) => s.role === "design");
     stones[place < 0 ? stones.length : place] = { ...made, role: "design", cut: { kind, values } };
-    return { stone: place < 0 ? stones.length - 1 : place, geometry: stones[place < 0 ? stones.length - 1 : place] };
+    return { stone: place < 0 ? stones.length - 1 : place, summary: { dimensions }, geometry: stones[place < 0 ? stones.length - 1 : place] };
   },
   panorama: ({ name }) => {
     if (!/\.(hdr|exr|jpe?g|png)$/i.test(name)) throw new Error(name + " is no panorama");

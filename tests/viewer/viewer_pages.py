@@ -88,7 +88,7 @@ class Browser:
         chrome.binary_location = "/usr/bin/chromium"
         for argument in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                          "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
-                         "--hide-scrollbars", "--force-device-scale-factor=1", f"--user-data-dir={self.folder}/profile", *options):
+                         "--hide-scrollbars", "--force-prefers-reduced-motion", "--force-device-scale-factor=1", f"--user-data-dir={self.folder}/profile", *options):
             chrome.add_argument(argument)
         chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=chrome)

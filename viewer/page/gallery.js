@@ -13,7 +13,7 @@ class Gallery {
       // Only pictures inside the page; anything else could be a foreign address.
       if (/^data:image\/(png|jpeg|webp);/.test(item.picture || ""))
         one.append(element("img", {src: item.picture, alt: "", loading: "lazy"}));
-      one.append(element("span", {}, item.name));
+      one.append(element("span", {}, stone_title(item.name)));
       return one;
     });
     this.list = element("div", {class: "thumbs"}, ...this.buttons);

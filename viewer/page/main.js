@@ -40,7 +40,7 @@ class Page {
     return Math.min(last, Math.max(0, values.stone ?? last));
   }
   shown_stone() { return this.stones[this.shown_index()]; }
-  shown_name() { return this.item().name || this.document.title; }
+  shown_name() { return stone_title(this.item().name || this.document.title); }
   own_material() {
     const material = this.document_stone().material;
     return (material && (material.id || material.name)) || "";
@@ -212,7 +212,6 @@ class Page {
   }
   // `rough`: a finer picture follows.
   drawn(quick, rough = false) {
-    by_id("refining").hidden = !rough;
     this.stage.dataset.drawn = quick ? "quick" : rough ? "whole" : "fine";
     if (this.says_refused) by_id("trouble").hidden = true;
     this.says_refused = false;

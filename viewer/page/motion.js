@@ -49,6 +49,25 @@ class Motion {
     this.page.state.set(changes);
   }
 
+  // On opening, a small circle in the light shows the stone's life, until something is touched.
+  turn_slowly() {
+    if (this.was_shown || less_motion()) return;
+    this.was_shown = true;
+    const from = this.page.view().turn, begin = performance.now();
+    const touches = ["pointerdown", "keydown", "wheel", "drop"];
+    const touched = () => {
+      for (const touch of touches) removeEventListener(touch, touched, true);
+      this.stop();
+    };
+    for (const touch of touches) addEventListener(touch, touched, true);
+    const step = () => {
+      const seconds = (performance.now() - begin) / 1000, around = seconds * 2 * Math.PI / 12;
+      const tilt = 0.22 * Math.min(1, seconds / 3);  // 13 degrees
+      this.turn_to(Turn.after(Turn.about([Math.cos(around), Math.sin(around), 0], tilt), from));
+      this.frame = requestAnimationFrame(step);
+    };
+    this.frame = requestAnimationFrame(step);
+  }
   stop() {
     cancelAnimationFrame(this.frame);
     this.frame = 0;

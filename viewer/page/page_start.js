@@ -103,12 +103,14 @@ Object.assign(Page.prototype, {
     const info =
       await this.engine.in_turn(() => this.engine.call("open", {document: this.document, item}));
     if (item !== this.state.get("item")) return;  // a newer one is on its way
-    this.stones = this.item().stones.map((stone) => new ShownStone(stone));
+    this.stones =
+      this.item().stones.map((stone, index) => new ShownStone(stone, info.stones[index]));
     this.designs.clear();
     this.cut_held = null;
     this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
     this.fit_stage();
     this.info = info;
+    this.show_facts();
     ++this.scene_version;
     this.build_panels();
     if (this.state.get("light") === "panorama") {
@@ -121,6 +123,7 @@ Object.assign(Page.prototype, {
     if (this.state.get("cut")) await this.make_cut().catch((error) => this.failed(error));
     this.overlay.draw();
     this.loop.moved();  // a quick picture first
+    if (!this.state.get("turn")) this.motion.turn_slowly();
   },
 
   async open_item(index) {
@@ -150,22 +153,25 @@ Object.assign(Page.prototype, {
     this.picture.canvas.hidden = true;
     still.hidden = !/^data:image\/(png|jpeg|webp);/.test(item.picture || "");
     if (!still.hidden) still.src = item.picture;
-    still.alt = item.name || this.document.title;
-    by_id("title").textContent = item.name || this.document.title;
-    by_id("subtitle").textContent = this.subtitle(item);
-    document.title = item.name || this.document.title;
+    document.title = still.alt = by_id("title").textContent = this.shown_name();
+    this.show_facts();
     by_id("hand").setAttribute("aria-label",
       document.title + ": arrow keys turn it, plus and minus zoom, question mark shows all keys");
     this.gallery.update();
   },
-  subtitle(item) {
-    const stone = item.stones[item.stones.length - 1] || {};
-    const material =
-      (stone.material && (stone.material.title || stone.material.name || stone.material.id)) || "";
-    const parts =
-      [material.replace(/_/g, " "), stone.facets ? stone.facets.length + " facets" : ""];
-    if (item.stones.length > 1) parts.push("fitted, beside the catalogue\u2019s");
-    return parts.filter(Boolean).join(" \u00b7 ");
+  // What a jeweller asks first. Only the file's own material has a density here.
+  show_facts() {
+    const stone = this.shown_stone(), chosen = this.ready() && this.state.get("material");
+    const own = (this.item().stones.length && this.document_stone().material) || {};
+    const material = chosen ? this.info.materials.find((m) => m.name === chosen) : own;
+    const name = (material && (material.title || material.name || material.id)) || "";
+    const parts = [name.replace(/_/g, " ")];
+    if (this.ready() && stone) {
+      parts.push(
+        stone.size(), stone.weight(chosen ? null : own.density_g_cm3), stone.proportions());
+    }
+    if (this.item().stones.length > 1) parts.push("fitted, beside the catalogue\u2019s");
+    by_id("subtitle").textContent = parts.filter(Boolean).join(" \u00b7 ");
   },
 
   build_panels() {
@@ -191,7 +197,7 @@ Object.assign(Page.prototype, {
       {name: "stone", label: "Stone", nodes: [material.node, cut.node]},
       {name: "polarisers", label: "Polarisers", nodes: [polarisers.node]},
       {name: "fit", label: "Measured", nodes: [this.fit.node]},
-      {name: "path", label: "Light path", nodes: [this.light_path.node]},
+      {name: "path", label: "Path", nodes: [this.light_path.node]},
       {name: "picture", label: "Picture", nodes: [picture.node]},
       {name: "save", label: "Save", nodes: [save.node]},
     ]);
@@ -220,6 +226,7 @@ Object.assign(Page.prototype, {
     if (changed.has("tilts")) this.tilts.update().catch((error) => this.failed(error));
     if (changed.has("compare")) this.picture.forget();
     this.overlay.draw();
+    if (changed.has("material") || changed.has("stone")) this.show_facts();
     if (drawn) this.loop.changed();
   },
 
@@ -244,15 +251,16 @@ Object.assign(Page.prototype, {
     if (values) {
       const args = {kind: stone.cut.kind, values: {...stone.cut.values, ...values}};
       const answer = await this.engine.in_turn(() => this.engine.call("cut", args));
-      this.stones[index] = new ShownStone(answer.geometry);
+      this.stones[index] = new ShownStone(answer.geometry, answer.summary);
       this.designs.set(index, answer.stone);
       this.cut_held = args;
       by_id("trouble").hidden = true;
     } else {
-      this.stones[index] = new ShownStone(stone);
+      this.stones[index] = new ShownStone(stone, this.info.stones[index]);
       this.designs.delete(index);
       this.cut_held = null;
     }
+    this.show_facts();
     ++this.scene_version;
     this.loop.forget();
     this.light_path.clear();

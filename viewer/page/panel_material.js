@@ -79,10 +79,15 @@ class PanelMaterial {
                        .replace(/_/g, " ");
         return wanted.every((word) => text.includes(word.replace(/_/g, " ")));
       });
-      // Names that match come before descriptions that match: Enter takes the first.
-      const called = (m) =>
-        wanted.length > 0 && [m.name, m.title || ""].some((n) => n.toLowerCase().startsWith(wanted[0]));
-      this.listed.sort((a, b) => called(b) - called(a));
+      // The best match first, which Enter takes: the name itself, a name that begins so, one that
+      // has all the words, a description.
+      const rank = (m) => {
+        const name = (m.title || m.name).toLowerCase().replace(/ \(.*/, ""), all = wanted.join(" ");
+        if (!all || name === all) return 0;
+        if (name.startsWith(all)) return 1;
+        return wanted.every((word) => name.includes(word)) ? 2 : 3;
+      };
+      this.listed.sort((a, b) => rank(a) - rank(b));
       const chosen = this.page.state.get("material") || "";
       this.list.replaceChildren(...this.listed.map(
         (m) => element("li", {
@@ -101,7 +106,10 @@ class PanelMaterial {
   about(material) {
       if (!material.name) return material.summary || "";
       const index = [].concat(material.index ?? []).map((n) => n.toFixed(3)).join(" / ");
-      return [index, material.optic, material.summary].filter(Boolean).join(", ");
+      const colour = material.colour ? material.summary
+        : material.summary           ? `${material.summary}; drawn colourless: no spectrum measured`
+                                     : "colourless";
+      return [index, material.optic, colour].filter(Boolean).join(", ");
   }
   // The body colour, if it has one; the words beside it say the same.
   swatch(material) {

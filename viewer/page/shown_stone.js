@@ -1,10 +1,21 @@
 "use strict";
 // One stone of the document: its facets in space and in the picture, and its fit.
 
+const k_mm = {um: 1e-3, mm: 1, cm: 10, m: 1000};
+
+// A file's name as a stone's: "round-brilliant.obj" is "Round brilliant".
+function stone_title(name) {
+  const bare = name.replace(/\.(obj|asc|gem|gcs|stl|glb|toml)$/i, "");
+  if (!/^[a-z0-9]+([-_][a-z0-9]+)*$/.test(bare)) return bare;
+  return bare[0].toUpperCase() + bare.slice(1).replace(/[-_]/g, " ");
+}
+
 class ShownStone {
-  // `stone` is as in the document: role, name, unit, vertices, facets, up, fit, ...
-  constructor(stone) {
+  // `stone` is as in the document: role, name, unit, vertices, facets, up, fit, ...; `summary` is
+  // what the engine says of it.
+  constructor(stone, summary) {
     this.stone = stone;
+    this.dimensions = summary && summary.dimensions;
     this.up = stone.up || [0, 0, 1];
     this.facets = stone.facets.map((facet, index) => ({
       index,
@@ -49,6 +60,36 @@ class ShownStone {
         : cosine < -0.02 ? "pavilion"
                          : "girdle"
     };
+  }
+
+  // Length, width and depth; empty where the file has no unit.
+  size() {
+    const mm = k_mm[this.stone.unit];
+    if (!mm || !this.dimensions) return "";
+    const {length, width, depth} = this.dimensions;
+    return [length, width, depth].map((side) => (side * mm).toFixed(2)).join(" \u00d7 ") + " mm";
+  }
+  weight(density_g_cm3) {
+    const mm = k_mm[this.stone.unit];
+    if (!mm || !density_g_cm3) return "";
+    let volume = 0;
+    for (const {points: [first, ...rest]} of this.facets) {
+      for (let i = 1; i < rest.length; ++i)
+        volume += Turn.dot(first, Turn.cross(rest[i - 1], rest[i])) / 6;
+    }
+    return (volume * mm ** 3 * density_g_cm3 / 200).toFixed(2) + " ct";  // 0.2 g a carat
+  }
+  // Depth and table as shares of the width, for a stone that lies face up.
+  proportions() {
+    if (!this.dimensions || Turn.unit(this.up)[2] < 0.999) return "";
+    const {length, width, depth} = this.dimensions, across = length < width ? 0 : 1;
+    const least = Math.min(length, width), shares = [["depth", depth]];
+    const table = this.facets.find((facet) => this.angles_of(facet).side === "table");
+    if (table) {
+      const at = table.points.map((point) => point[across]);
+      shares.unshift(["table", Math.max(...at) - Math.min(...at)]);
+    }
+    return shares.map(([name, of]) => `${name} ${(100 * of / least).toFixed(0)} %`).join(", ");
   }
 
   // The facets that face the eye (with `all`, every facet), as polygons in pixels.
