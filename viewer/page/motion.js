@@ -49,9 +49,10 @@ class Motion {
     this.page.state.set(changes);
   }
 
-  // On opening, a small circle in the light shows the stone's life, until something is touched.
+  // On opening, a small circle in the light shows the stone's life, until something is touched. A
+  // stone that is drawn by rays would be coarse all that time.
   turn_slowly() {
-    if (this.was_shown || less_motion()) return;
+    if (this.was_shown || less_motion() || this.page.document_stone().convex === false) return;
     this.was_shown = true;
     const from = this.page.view().turn, begin = performance.now();
     const touches = ["pointerdown", "keydown", "wheel", "drop"];
