@@ -68,7 +68,9 @@ py::dict result_of(const RenderResult& result, const PythonScene& of, bool is_us
     std::vector<std::string> notes = of.scene.notes;
     notes.insert(notes.end(), result.stats.notes.begin(), result.stats.notes.end());
     answer["notes"] = notes;
-    answer["exposure"] = shown_exposure("", of.scene).value_or(exposure_for_stone(result.picture, of.scene.film.share_over_white));
+    answer["exposure"] =
+        shown_exposure("", of.scene)
+            .value_or(exposure_for_stone(result.picture, of.scene.film.share_over_white));
     return answer;
 }
 
