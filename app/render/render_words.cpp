@@ -15,18 +15,18 @@ void print_accuracy(const RenderStats& stats, Check check, bool time_limited, bo
     }
     if (std::isnan(stats.error_bound)) {
         if (!time_limited) return;  // a note says why
-        say(fmt::format("a rough picture of unknown error: a checked one takes more than about {} "
-                        "s (--tolerance 0.2 draws it)",
-                        k_usual_seconds),
+        say("a rough picture of unknown error: a checked one takes more than about 10 s "
+            "(--tolerance 0.2 draws it)",
             quiet);
         return;
     }
     if (!stats.allowed_tolerance) return;
     const bool finest = stats.error_bound <= RenderSettings().tolerance;
-    say(fmt::format("within {:.2g} of the mean radiance{}", stats.error_bound,
-                    finest ? std::string()
-                           : fmt::format(", as fine as about {} s allow; --tolerance {:g} is finer",
-                                         k_usual_seconds, RenderSettings().tolerance)),
+    say(fmt::format(
+            "within {:.2g} of the mean radiance{}", stats.error_bound,
+            finest ? std::string()
+                   : fmt::format(", as fine as the usual time allows; --tolerance {:g} is finer",
+                                 RenderSettings().tolerance)),
         quiet);
 }
 
