@@ -15,7 +15,7 @@ mkdir -p "$pictures"
 for light in jeweller photograph daylight lightbox darkfield aset idealscope arrows hearts; do
     while read -r stone material; do
         "$culet" render "$stones/$stone.obj" --material "$material" --light "$light" --width 6.5 \
-            --size 180 --tolerance 0.05 -q -o "$pictures/$light-$stone.png"
+            --size 180 -q -o "$pictures/$light-$stone.png"
         echo "$pictures/$light-$stone.png"
     done <<STONES
 diamond diamond
