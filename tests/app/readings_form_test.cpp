@@ -68,7 +68,7 @@ TEST_F(BenchForm, CutFillInFit) {
     const ProgramRun sheet = run_culet({"info", file("fitted.obj"), "--cutting-sheet", "-"});
     EXPECT_EQ(sheet.exit_code, 0) << sheet.err;
     for (const char* line :
-         {"57 \\+ 16 facets; 8-fold", " 1  L +pavilion", " 5  C +crown [^\n]+ 12 24 36"})
+         {"57 \\+ 96 facets; 8-fold", " 1  L +pavilion", " 5  C +crown [^\n]+ 12 24 36"})
         EXPECT_THAT(sheet.out, ::testing::ContainsRegex(line));
     EXPECT_TRUE(report.at("suspects").empty());
 }

@@ -38,8 +38,8 @@ TEST_F(RenderStone, MeshesDesignsAndStoneFilesNeedNoScene) {
         const ReadPicture read = read_picture(picture);
         EXPECT_EQ(read.picture.width, 48);
         EXPECT_EQ(read.picture.height, 48);
-        // Exposed: some of the stone is near white.
-        EXPECT_GT(*std::max_element(read.picture.rgb.begin(), read.picture.rgb.end()), 0.95f);
+        // Exposed: some of the stone is above 1, of which the film's curve makes 0.804.
+        EXPECT_GT(*std::max_element(read.picture.rgb.begin(), read.picture.rgb.end()), 0.81f);
     }
 }
 
