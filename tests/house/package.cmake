@@ -32,7 +32,7 @@ run(${culet} render stone.toml -o stone.png)
 if(PYTHON)
   run(${CMAKE_COMMAND} -E env PYTHONPATH=${FOLDER}/root/usr/lib/python3/dist-packages ${PYTHON} -c
     "import culet\nprint(culet.__file__, culet.__version__, len(culet.load('start.obj').facets))")
-  if(NOT out MATCHES "root/usr/.*${VERSION} 73")
+  if(NOT out MATCHES "root/usr/.*${VERSION} 153")
     message(FATAL_ERROR "the package's Python module says ${out}")
   endif()
 endif()
