@@ -52,12 +52,11 @@ Lights photograph() {
     return lights;
 }
 
-// The curve of a film, a lens's flare, and the ground that the stone lies on.
+// The curve of a film, and the ground that the stone lies on.
 PngLook photographer_s_film() {
     PngLook film;
     film.tone_map = ToneMap::filmic;
     film.share_over_white = 0.14;
-    film.glare = 0.1;
     film.ground = k_usual_ground;
     return film;
 }

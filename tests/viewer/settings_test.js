@@ -62,7 +62,7 @@ test("the command is quoted for a shell", () => {
   assert.strictEqual(line,
     "culet render 'my stone.obj' -o picture.png --size 640,480 --engine beams --check none --set 'light={preset=\"aset\"}'" +
       " --set 'camera.position=[0,0,40]' --set 'camera.look_at=[0,0,0]' --set 'camera.up=[0,1,0]' --set camera.orthographic_width=8" +
-      " --set 'light.rotate=[0,0,90]' --exposure 1 --tonemap filmic");
+      " --set 'light.rotate=[0,0,90]' --set film.ground=false --exposure 1 --tonemap filmic");
 });
 
 test("a link read again is the same state", () => {

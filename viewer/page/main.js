@@ -94,8 +94,9 @@ class Page {
     return exposure === "auto" ? this.loop.exposure || 1 : exposure;
   }
   tonemap() {
-    return this.state.get("tonemap") ?? (this.info.settings && this.info.settings.tonemap) ??
-      "none";
+    const preset = this.light_preset();  // an instrument's colours have a meaning
+    return this.state.get("tonemap") ?? (preset && preset.instrument ? "none"
+      : (this.info.settings && this.info.settings.tonemap) ?? "none");
   }
   settings(stone) {
     return [

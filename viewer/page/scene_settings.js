@@ -96,9 +96,10 @@ function command_line(drawing) {
     "-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine, "--check",
     "none"
   ];
+  settings.push("film.ground=false");  // the page has its own
   for (const setting of settings) words.push("--set", setting);
   words.push("--exposure", toml_number(drawing.exposure));
-  if (drawing.tonemap && drawing.tonemap !== "none") words.push("--tonemap", drawing.tonemap);
+  if (drawing.tonemap) words.push("--tonemap", drawing.tonemap);
   return drawing.command + " " + words.map(quoted).join(" ");
 }
 
