@@ -68,17 +68,17 @@ RenderResult draw_frames(const Frames& frames, const Scene& scene,
     RenderResult kept;
     ScenePlan plan;
     for (int frame = 0; frame < frames.count; ++frame) {
-        const PictureOutput output = output_of(frames, frame, exposure, scene);
+        const Scene now = frame == 0 ? scene : turned(scene, step * frame);
+        const PictureOutput output = output_of(frames, frame, exposure, now);
         RenderResult result;
         if (frame == 0) {
-            result = first(scene);
+            result = first(now);
             plan = plan_drawn(scene, result.stats);
             // A constant exposure, so that the turning stone does not make the light flicker.
             exposure = fmt::format("{}", output.exposure_of(result.picture));
         } else {
             const std::string what = fmt::format("frame {} of {}", frame + 1, frames.count);
-            result =
-                render_as_planned(turned(scene, step * frame), plan, progress_line(what, quiet));
+            result = render_as_planned(now, plan, progress_line(what, quiet));
         }
         output.write(result.picture, {{"culet:frame", std::to_string(frame + 1)}});
         if (frame == 0) {
