@@ -17,7 +17,6 @@
 
 #include "bench/bench_table.h"
 #include "render/colour/colour.h"
-#include "render/image/exposure.h"
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/shown_picture.h"
@@ -144,8 +143,7 @@ int show(const Shown& shown, const std::filesystem::path& folder, BenchTables& t
     const auto start = std::chrono::steady_clock::now();
     const RenderResult result = render(scene);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    PngLook look = look_of(scene, "");
-    look.exposure = exposure_for_stone(result.picture, look.share_over_white);
+    const PngLook look = look_for(scene, result.picture);
     if (!folder.empty())
         write_picture(result.picture, folder / (std::string(shown.name) + ".png"), look);
     const std::array<double, 5> found = statistics_of(result.picture, look);

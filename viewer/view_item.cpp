@@ -108,22 +108,13 @@ std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json
 // Of pages without a scene: lit as over a counter and seen face up, where a polariscope can follow.
 constexpr const char* k_page_light = "jeweller";
 
-StoneScene page_choices(const ViewSource& source) {
-    StoneScene choices = source.choices;
-    const bool is_given =
-        is_scene_file(source) ||
-        std::any_of(source.overrides.begin(), source.overrides.end(), [](const std::string& key) {
-            return key.starts_with("light") || key.starts_with("preset");
-        });
-    if (choices.light.empty() && !is_given) choices.light = k_page_light;
-    return choices;
-}
-
 Scene scene_of(const ViewSource& source) {
     if (!source.cut) {
         if (source.stone != nullptr && is_scene_file(source))
             return read_scene(source.file, source.overrides, source.stone);
-        Scene scene = read_any_scene(source.file, source.overrides, page_choices(source));
+        StoneScene choices = source.choices;
+        choices.usual_light = k_page_light;
+        Scene scene = read_any_scene(source.file, source.overrides, choices);
         if (source.stone != nullptr) scene.stone = *source.stone;
         return scene;
     }

@@ -13,7 +13,6 @@
 #include "fit/findings/summary.h"
 #include "fit/fit.h"
 #include "render/grade/grade_figures.h"
-#include "render/image/exposure.h"
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/framing.h"
@@ -115,9 +114,7 @@ void draw_small(const GradeInput& input, double index, const fs::path& file) {
     render_settings.effects_auto = false;
     render_settings.effects.fill(false);
     const RenderResult drawn = render(scene);
-    PngLook look = look_of(scene, "");
-    look.exposure = exposure_for_stone(drawn.picture, look.share_over_white);
-    write_picture(drawn.picture, file, look);
+    write_picture(drawn.picture, file, look_for(scene, drawn.picture));
 }
 
 struct JobInWork {

@@ -16,7 +16,6 @@
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
 #include "fit/fit.h"
-#include "render/image/exposure.h"
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"
@@ -174,8 +173,7 @@ JobResult make(const Job& job, JobInput& input, bool quiet) {
 void put_pictures(const Scene& scene, const JobResult& made, const fs::path& folder) {
     write_picture(made.rendered->picture, folder / "render.exr");
     // For viewing only: the linear values are in the EXR.
-    PngLook look = look_of(scene, "");
-    look.exposure = exposure_for_stone(made.rendered->picture, look.share_over_white);
+    const PngLook look = look_for(scene, made.rendered->picture);
     write_picture(made.rendered->picture, folder / "render.png", look);
     write_text(folder / "stats.json", stats_json(made.rendered->stats));
     if (made.started) write_picture(made.started->picture, folder / "start.png", look);

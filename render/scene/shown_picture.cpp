@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "render/image/exposure.h"
 #include "render/scene/film_io.h"
 #include "render/scene/ground_shadow.h"
 #include "render/scene/light_presets.h"
@@ -18,6 +19,12 @@ PngLook look_of(const Scene& scene, const std::string& tonemap) {
     if (const auto map = tone_map_named(tonemap)) look.tone_map = *map;
     if (look.ground > 0 && scene.has_stone() && !scene.has_objects())
         look.ground_lit = ground_lit(scene.stone.solid, scene.camera);
+    return look;
+}
+
+PngLook look_for(const Scene& scene, const Picture& picture) {
+    PngLook look = look_of(scene, "");
+    look.exposure = exposure_for_stone(picture, look.share_over_white);
     return look;
 }
 

@@ -13,6 +13,9 @@ namespace culet {
 /// one of `tone_map_names()`.
 PngLook look_of(const Scene& scene, const std::string& tonemap);
 
+/// The scene's own look, exposed to the stone in its picture.
+PngLook look_for(const Scene& scene, const Picture& picture);
+
 /// Factor on linear light; nothing: `exposure_for_stone` of the picture. `asked`: "auto" (to the
 /// stone), a factor above 0, or empty: to the stone for presets that are no instruments, else 1.
 /// Throws InputError.

@@ -114,7 +114,7 @@ std::string light_of(const StoneScene& choices) {
 Scene alone(const TomlTable& root, const Stone& stone, const StoneScene& choices,
             const std::vector<std::string>& notes) {
     std::string light = light_of(choices);
-    if (choices.light.empty() && !root.has("light")) light = k_usual_light;
+    if (choices.light.empty() && !root.has("light")) light = choices.usual_light;
     Scene scene = scene_of(root, &stone, light);
     scene.notes.insert(scene.notes.begin(), notes.begin(), notes.end());
     return scene;
