@@ -109,8 +109,9 @@ enum class CrystalBeams {
     split    ///< each has its own path, and their powers add
 };
 
-/// Default time budgets of `culet render`, about three seconds of two cores, and of the pictures
-/// that `culet run` compares, about ten; in the nanoseconds of work/price.h.
+/// Default time budgets: of `culet render`, about three seconds of two cores; of stones for which
+/// these are too few, and of the pictures of `culet run`, about ten. In the nanoseconds of
+/// work/price.h.
 constexpr double k_usual_budget_ns = 6e9, k_run_budget_ns = 2e10;
 
 /// How culet checks a picture's error.
