@@ -66,6 +66,17 @@ std::string scene_text(const ViewSource& source, const Scene& scene) {
     }
     if (scene.lights.environment)
         keys.push_back(fmt::format("light.environment=\"{}\"", k_map_name));
+    // The page's view starts there: another light of the page must not frame the stone anew.
+    const Camera& camera = scene.camera;
+    const auto place = [&keys](const char* key, const Vec3& v) {
+        keys.push_back(fmt::format("camera.{}=[{},{},{}]", key, v.x, v.y, v.z));
+    };
+    place("position", camera.position);
+    place("look_at", camera.look_at);
+    place("up", camera.up);
+    keys.push_back(camera.orthographic_width
+                       ? fmt::format("camera.orthographic_width={}", *camera.orthographic_width)
+                       : fmt::format("camera.fov={}", degrees(camera.fov)));
     return rewritten_text(of_scene ? read_text(source.file) : std::string(), source.file, keys,
                           {"stone", "mesh", "material", "unit", "convex", "name", "object"});
 }
@@ -105,34 +116,19 @@ std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json
     return facet_facts(names, fit_json);
 }
 
-// Of pages without a scene: lit as over a counter and seen face up, where a polariscope can follow.
-constexpr const char* k_page_light = "jeweller";
-
 Scene scene_of(const ViewSource& source) {
-    if (!source.cut) {
-        if (source.stone != nullptr && is_scene_file(source))
-            return read_scene(source.file, source.overrides, source.stone);
-        StoneScene choices = source.choices;
-        choices.usual_light = k_page_light;
-        Scene scene = read_any_scene(source.file, source.overrides, choices);
-        if (source.stone != nullptr) scene.stone = *source.stone;
-        return scene;
+    if (source.cut) {
+        Stone stone;
+        stone.name = source.cut->kind;
+        stone.solid = make_cut(source.cut->kind, source.cut->values);
+        stone.convex = cut_kind(source.cut->kind).convex;
+        return scene_around(stone, source.overrides, source.choices);
     }
-    Stone stone;
-    stone.name = source.cut->kind;
-    stone.solid = make_cut(source.cut->kind, source.cut->values);
-    stone.convex = cut_kind(source.cut->kind).convex;
-    stone.material = catalogue_material(source.choices.material);
-    std::vector<std::string> keys = source.overrides;
-    std::string light = source.choices.light;
-    if (is_view_preset(light)) {
-        keys.push_back("preset=\"" + light + "\"");
-        light.clear();
-    }
-    const TomlTable root = toml_of_text("", source.cut->kind, keys);
-    apply_stone_keys(root, stone);
-    if (light.empty() && !root.has("light") && !root.has("preset")) light = k_page_light;
-    return culet::scene_of(root, &stone, light);
+    if (source.stone != nullptr && is_scene_file(source))
+        return read_scene(source.file, source.overrides, source.stone);
+    Scene scene = read_any_scene(source.file, source.overrides, source.choices);
+    if (source.stone != nullptr) scene.stone = *source.stone;
+    return scene;
 }
 
 // Direction from the middle to a notch, seen from above: the mean of the edges at which the stone

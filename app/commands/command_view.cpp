@@ -151,7 +151,7 @@ void add_command_view(CLI::App& program, int& exit_code) {
         ->type_name("NAME");
     command
         ->add_option("--light", options->stone.light,
-                     "to begin with, as culet render has them; a stone without a scene: jeweller")
+                     "to begin with, as culet render has them; a stone without a scene: photograph")
         ->type_name("PRESET");
     command
         ->add_option("--width", options->stone.width_mm,

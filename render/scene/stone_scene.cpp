@@ -114,7 +114,8 @@ std::string light_of(const StoneScene& choices) {
 Scene alone(const TomlTable& root, const Stone& stone, const StoneScene& choices,
             const std::vector<std::string>& notes) {
     std::string light = light_of(choices);
-    if (choices.light.empty() && !root.has("light")) light = choices.usual_light;
+    // A view (preset = "polariscope") brings its own.
+    if (choices.light.empty() && !root.has("light") && !root.has("preset")) light = k_usual_light;
     Scene scene = scene_of(root, &stone, light);
     scene.notes.insert(scene.notes.begin(), notes.begin(), notes.end());
     return scene;
@@ -167,6 +168,7 @@ Scene scene_around(const Stone& stone, const std::vector<std::string>& overrides
     const TomlTable root = toml_beside(name, {}, keys_of(overrides, choices));
     Stone shown = stone;
     if (!choices.material.empty()) shown.material = material_called(choices.material);
+    apply_stone_keys(root, shown);
     std::vector<std::string> notes;
     set_size(name, has_size(stone.solid) ? InputKind::stone : InputKind::mesh, choices.width_mm,
              shown, notes);

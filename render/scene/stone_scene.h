@@ -21,9 +21,8 @@ bool has_size(const Solid& solid);
 
 struct StoneScene {
     std::string material;            ///< catalogue name or material file; empty: from the file
-    std::string light;               ///< preset or view; empty: from the file, else usual_light
+    std::string light;               ///< preset or view; empty: from the file, else k_usual_light
     std::optional<double> width_mm;  ///< smaller extent of the outline
-    std::string usual_light = k_usual_light;  ///< preset of a stone whose file names no light
 };
 
 /// Reads any file that shows a stone: a scene, a stone file, a mesh (.obj .off .ply .stl, in mm) or
@@ -33,7 +32,7 @@ struct StoneScene {
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices);
 
-/// The same for a stone in memory, whose own material is the default.
+/// The same for a stone in memory, whose own material is the default; `overrides` may say another.
 Scene scene_around(const Stone& stone, const std::vector<std::string>& overrides,
                    const StoneScene& choices = {});
 

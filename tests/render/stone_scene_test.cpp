@@ -2,6 +2,7 @@
 
 #include "render/scene/stone_scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,6 +130,19 @@ TEST_F(StoneSceneTest, AStoneAloneIsShownAsInAPhotograph) {
     EXPECT_EQ(plain.film.ground, 0);
     EXPECT_EQ(plain.film.share_over_white, scene.film.share_over_white) << "as the light has it";
     EXPECT_EQ(read_any_scene(stone, {}, of("diamond", "jeweller")).film.ground, 0);
+}
+
+// However it is named.
+TEST_F(StoneSceneTest, AViewOfAStoneAloneHasNoOtherLight) {
+    const std::string stone = mesh("stone.obj", make_cut("round-brilliant"));
+    for (const char* view : {"polariscope", "dichroscope"}) {
+        const Scene by_key = read_any_scene(stone, {fmt::format("preset=\"{}\"", view)},
+                                            of("sapphire_blue")),
+                    by_choice = read_any_scene(stone, {}, of("sapphire_blue", view));
+        EXPECT_EQ(by_key.lights.sources.size(), 1u) << view;
+        EXPECT_EQ(by_key.camera.orthographic_width, by_choice.camera.orthographic_width) << view;
+        EXPECT_EQ(by_key.camera.position, by_choice.camera.position) << view;
+    }
 }
 
 // Expectation: the part of a cosine-weighted hemisphere that the half spaces of a convex stone

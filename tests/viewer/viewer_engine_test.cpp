@@ -22,6 +22,7 @@
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
 #include "viewer/engine/viewer_document.h"
+#include "viewer/view_item.h"
 
 namespace culet {
 namespace {
@@ -67,9 +68,10 @@ std::vector<std::uint8_t> rendered(const Stone& stone, const std::string& scene_
 }
 
 struct Opened {
-    Opened(const Stone& stone, const std::string& scene) : engine("test") {
-        answer = Json::parse(engine.answer("open", "{}", document_json(document_of(stone, scene))));
+    explicit Opened(const ViewDocument& document) : engine("test") {
+        answer = Json::parse(engine.answer("open", "{}", document_json(document)));
     }
+    Opened(const Stone& stone, const std::string& scene) : Opened(document_of(stone, scene)) {}
     Json call(const char* name, const Json& arguments, const std::string& attached = {}) {
         return Json::parse(engine.answer(name, arguments.dump(), attached));
     }
@@ -153,6 +155,36 @@ TEST(ViewerEngine, LooksAsAScenesCameraDoes) {
     page.call("draw", other);
     page.call("draw", view);
     EXPECT_EQ(page.engine.pixels(), expected);
+}
+
+// A page begins where its light is seen best; a polariscope there is the command's all the same.
+TEST(ViewerEngine, APolariscopeIsTheSameWhateverTheLightBefore) {
+    const Stone stone = stone_of("round-brilliant", "zircon_high");
+    for (const char* light : {"", "jeweller"}) {
+        SCOPED_TRACE(light);
+        ViewSource source;
+        source.cut = CutChoice{"round-brilliant", {}};
+        source.choices.material = "zircon_high";
+        source.choices.light = light;
+        std::vector<std::string> notes;
+        ViewDocument document;
+        document.items.push_back(view_item(source, notes));
+        Opened page(document);
+        std::vector<std::string> keys{"light={preset=\"polariscope\",polarizer=20}",
+                                      "render.tolerance=0.2", "render.wavelengths=[450,540,610]"};
+        page.call("set", {{"settings", keys}});
+        const Json& camera = page.answer.at("camera");
+        Json view = of_size(90);
+        view["camera"] = camera;
+        page.call("draw", view);
+        keys.emplace_back("camera.size=[90,90]");
+        for (const char* key : {"position", "look_at", "up"})
+            keys.push_back(fmt::format("camera.{}={}", key, camera.at(key).dump()));
+        const bool is_far = camera.contains("width");
+        keys.push_back(fmt::format("camera.{}={}", is_far ? "orthographic_width" : "fov",
+                                   camera.at(is_far ? "width" : "fov_deg").dump()));
+        EXPECT_EQ(page.engine.pixels(), rendered(stone, "", keys));
+    }
 }
 
 // A quarter about z takes x to y: matrix rows and light.rotate agree.

@@ -62,11 +62,22 @@ class Page {
     return this.info.lights.find((l) => l.name === (light || this.own_light())) || null;
   }
 
+  // Chosen on the page; it looks as `culet render --light` has it, whatever the light before.
+  instrument() {
+    const preset = this.ready() && this.state.get("light") && this.light_preset();
+    return preset && preset.instrument ? preset : null;
+  }
+  // Instruments have no perspective.
+  get base() {
+    const {opened} = this, far = this.instrument() || this.state.get("polariser") !== null;
+    return {...opened, orthographic: opened.orthographic || Boolean(far)};
+  }
   // The view for which the light is made: from below for hearts.
   home() {
-    const preset = this.light_preset();
-    if (!preset || !preset.from_below || !this.state.get("light")) return this.base.home;
-    return named_view("pavilion", this.shown_stone().up, Turn.back(this.base.home, [0, 1, 0]));
+    const {home} = this.opened, instrument = this.instrument();
+    if (!instrument) return home;
+    return named_view(instrument.from_below ? "pavilion" : "table", this.shown_stone().up,
+      Turn.back(home, [0, 1, 0]));
   }
   view() {
     const {turn, zoom, pan} = this.state.values;
@@ -75,7 +86,7 @@ class Page {
   lights_turn(turn = this.view().turn) {
     const {light_turn, lights_with, polariser} = this.state.values;
     // A polariscope's light is always behind the stone.
-    if (polariser !== null) return Turn.after(Turn.inverse(turn), this.base.home);
+    if (polariser !== null) return Turn.after(Turn.inverse(turn), this.opened.home);
     if (lights_with === "stone") return light_turn;
     return Turn.after(Turn.after(Turn.inverse(turn), this.home()), light_turn);
   }
@@ -93,11 +104,7 @@ class Page {
     const exposure = this.exposure();
     return exposure === "auto" ? this.loop.exposure || 1 : exposure;
   }
-  tonemap() {
-    const preset = this.light_preset();  // an instrument's colours have a meaning
-    return this.state.get("tonemap") ?? (preset && preset.instrument ? "none"
-      : (this.info.settings && this.info.settings.tonemap) ?? "none");
-  }
+  tonemap() { return this.state.get("tonemap") ?? this.light_tonemap ?? "none"; }
   settings(stone) {
     return [
       ...settings_of(this.state.values, this.optic(stone), this.panorama_setting),
@@ -135,11 +142,11 @@ class Page {
   }
 
   choose_light(name) {
-    const before = this.ready() && this.home();
+    const before = this.home();
     this.state.set({light: name, polariser: null, analyser: null, retarder: null});
-    const preset = this.light_preset(), turned = Turn.apart(before, this.home()) > 1e-6;
+    const turned = Turn.apart(before, this.home()) > 1e-6;
     // Instruments are used looking straight on.
-    if (turned || (preset && preset.instrument)) this.motion.go_to(this.home());
+    if (turned || this.instrument()) this.motion.go_to(this.home());
   }
   turn_light_by_hand(on) {
     this.hand_turns_light = on;
@@ -192,6 +199,7 @@ class Page {
 
   took_settings(answer) {
     this.refused = answer.refused || "";
+    this.light_tonemap = answer.settings && answer.settings.tonemap;
     this.drawn_by_rays = answer.engine === "reference";
     if (this.drawn_by_rays) this.loop.start_coarsely();
     this.gpu.took_settings(answer);

@@ -107,7 +107,7 @@ Object.assign(Page.prototype, {
       this.item().stones.map((stone, index) => new ShownStone(stone, info.stones[index]));
     this.designs.clear();
     this.cut_held = null;
-    this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
+    this.opened = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
     this.fit_stage();
     this.info = info;
     this.show_facts();

@@ -43,7 +43,7 @@ Object.assign(Page.prototype, {
   // On a low stage the names and buttons over it would cover the stone.
   fit_stage() {
     const {height} = this.stage.getBoundingClientRect();
-    this.base.free_height = height < 520 ? Math.max(0.5, 1 - 84 / Math.max(1, height)) : 1;
+    this.opened.free_height = height < 520 ? Math.max(0.5, 1 - 84 / Math.max(1, height)) : 1;
   },
   wire_divider(divider) {
     const to = (percent) => this.state.set({divider: Math.min(100, Math.max(0, percent))});
