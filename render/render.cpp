@@ -185,13 +185,6 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
     if (planned && scene.settings.allowed_ns > 0) {
         require_renderable(scene);
         RenderResult result = draw_within_budget(scene, progress, drawn_as_planned, better);
-        // A stone for which three seconds were too few.
-        if (std::isnan(result.stats.error_bound) &&
-            scene.settings.allowed_ns == k_usual_budget_ns) {
-            Scene longer = scene;
-            longer.settings.allowed_ns = k_run_budget_ns;
-            result = draw_within_budget(longer, progress, drawn_as_planned, better);
-        }
         forget_meter(result.stats);
         return result;
     }

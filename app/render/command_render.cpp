@@ -111,7 +111,7 @@ public:
         const bool time_limited = scene_.settings.allowed_ns > 0;
         say(fmt::format("{} holds a first picture, after {:.1f} s; a better one {}", options_.out,
                         took.count(),
-                        time_limited ? fmt::format("takes about {} s at most", k_usual_seconds)
+                        time_limited ? fmt::format("usually takes about {} s", k_usual_seconds)
                                      : std::string("follows")),
             false);
     }

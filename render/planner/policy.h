@@ -111,6 +111,10 @@ inline constexpr double k_check_share = 1.5, k_last_check_share = 6;
 
 /// The first tolerance; work rises as tolerance to minus this power.
 inline constexpr double k_first_tolerance = 0.2, k_power_of_work = 1.5;
+/// The next picture is drawn only if its tolerance is finer by this factor.
+inline constexpr double k_worth_drawing = 1.25;
+/// If the usual time leaves a larger error by estimate, or no picture, the stone gets longer.
+inline constexpr double k_rough = 0.1;
 /// Share of the remaining work that the next picture may take by estimate.
 inline constexpr double k_share_of_rest = 0.8;
 /// With objects around the stone: pixels at which work is counted, and most rays per pixel.

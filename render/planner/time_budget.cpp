@@ -70,22 +70,36 @@ int samples_within(const Scene& scene, double allowed_ns, const Progress& progre
     return within;
 }
 
+// The tolerance that `left` allows, after a picture within `reached` took `took`; at least `least`.
+// Nothing if it would not be much finer.
+std::optional<double> finer_tolerance(double reached, double took, double left, double least) {
+    if (!(left > 0)) return std::nullopt;
+    const double affordable =
+        reached * std::pow(std::max(took, 1.0) / (k_share_of_rest * left), 1 / k_power_of_work);
+    const double tolerance = std::max(affordable, least);
+    if ((tolerance == least && reached > least) || reached / tolerance >= k_worth_drawing)
+        return tolerance;
+    return std::nullopt;
+}
+
 }  // namespace
 
 RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
                                 const DrawToTolerance& draw, const PictureSink& better) {
-    const double allowed = scene.settings.allowed_ns, finest = scene.settings.tolerance;
+    const double finest = scene.settings.tolerance;
+    double allowed = scene.settings.allowed_ns;
     const auto meter = std::make_shared<WorkMeter>();
-    meter->allow(allowed);
-    meter->expect(allowed);
     const Progress counted = counted_by(progress, meter);
     Scene attempt = scene;
     attempt.settings.meter = meter;
     attempt.settings.allowed_ns = 0;
     std::optional<RenderResult> best;
-    double tolerance = std::max(k_first_tolerance, finest), spent = 0;
-    for (bool more = true; more;) {
-        attempt.settings.tolerance = tolerance;
+    double spent = 0;
+    std::optional<double> next = std::max(k_first_tolerance, finest);
+    while (next) {
+        const double tolerance = attempt.settings.tolerance = *next;
+        meter->allow(allowed);
+        meter->expect(allowed);
         double bound = std::numeric_limits<double>::infinity();
         try {
             RenderResult result = draw(attempt, counted);
@@ -101,12 +115,19 @@ RenderResult draw_within_budget(const Scene& scene, const Progress& progress,
         if (meter->over()) meter->use_up();
         const double took = static_cast<double>(meter->spent()) - spent;
         spent += took;
-        const double left = allowed - spent, reached = std::max(bound, finest);
-        if (!(bound <= tolerance && left > 0)) break;
-        const double affordable =
-            reached * std::pow(std::max(took, 1.0) / (k_share_of_rest * left), 1 / k_power_of_work);
-        tolerance = std::max({reached / 2, affordable, finest});
-        more = (tolerance == finest && reached > finest) || reached / tolerance >= 1.25;
+        next.reset();
+        const bool usual = allowed == k_usual_budget_ns;
+        if (bound <= tolerance) {
+            const double reached = std::max(bound, finest);
+            next = finer_tolerance(reached, took, allowed - spent, std::max(reached / 2, finest));
+            if (usual && next.value_or(reached) > k_rough) {
+                allowed = k_run_budget_ns;
+                next = finer_tolerance(reached, took, allowed - spent, finest);
+            }
+        } else if (usual && !best) {
+            allowed = k_run_budget_ns;
+            next = tolerance;
+        }
     }
     if (!best) {
         // Not even a coarse picture fitted: draw the coarsest, with unknown error.
