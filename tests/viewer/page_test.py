@@ -1,5 +1,6 @@
 """The viewer's page in Chromium with a stand-in for the engine. Each action, by hand and by
 keyboard alone, must change the picture or the overlay, and the console must stay empty."""
+import base64
 import json
 import math
 import pathlib
@@ -469,24 +470,88 @@ class PageTest(PageActions, unittest.TestCase):
         self.open()
         self.click("[data-name=png]")
         self.assertTrue(self.downloaded(".png").startswith(b"\x89PNG"))
+        self.slide("seconds", 2)
         self.browser.wait("await culet_page.panels.save.film();")
-        self.assertTrue(self.downloaded(".webm").startswith(b"\x1a\x45\xdf\xa3"))  # EBML, the
-                                                                                   # container of
-                                                                                   # WebM
+        self.assertEqual(self.downloaded(".mp4")[4:8], b"ftyp")
 
-    def test_film_is_four_seconds_long(self):
+    def boxes(self, data, path):
+        """The contents of the box of an MP4 at a path of names."""
+        for name in path.split("/"):
+            at = 0
+            while data[at + 4:at + 8] != name.encode():
+                at += int.from_bytes(data[at:at + 4], "big")
+                self.assertLess(at, len(data), path)
+            data = data[at + 8:at + int.from_bytes(data[at:at + 4], "big")]
+        return data
+
+    def film(self, seconds):
+        """A film as bytes, and what the browser's own player says: duration, width, height, a pixel of the first frame as drawn, as played and of a later one."""
+        text, *played = self.browser.wait(f"""const {{add}} = FilmEncoder.prototype; let drawn;
+            FilmEncoder.prototype.add = function (frame, index) {{ drawn ??= frame; add.call(this, frame, index); }};
+            const film = await culet_page.panels.save.turntable.film({seconds}, () => {{}}); FilmEncoder.prototype.add = add;
+            culet_page.loop.paused = false; culet_page.loop.changed(); await culet_page.loop.idle();
+            const bytes = new Uint8Array(await film.arrayBuffer()), video = document.createElement('video');
+            let text = ''; for (const byte of bytes) text += String.fromCharCode(byte);
+            const on = (what) => new Promise((done, fail) => {{ video.addEventListener(what, done, {{once: true}}); video.addEventListener('error', () => fail(video.error.message), {{once: true}}); }});
+            const loaded = on('loadeddata'); video.muted = true; video.src = URL.createObjectURL(film); await loaded;
+            const c = document.createElement('canvas'), t = c.getContext('2d', {{willReadFrequently: true}}); c.width = video.videoWidth; c.height = video.videoHeight;
+            const at = async (time) => {{ const sought = on('seeked'); video.currentTime = time; await sought; t.drawImage(video, 0, 0); return [...t.getImageData(c.width / 2 + 0.22 * c.height, c.height / 2, 1, 1).data].slice(0, 3); }};
+            t.putImageData(drawn, 0, 0); const still = [...t.getImageData(c.width / 2 + 0.22 * c.height, c.height / 2, 1, 1).data].slice(0, 3);
+            return [btoa(text), video.duration, c.width, c.height, still, await at(0.02), await at(0.2 * video.duration)];""")
+        return base64.b64decode(text), played
+
+    def test_film_is_as_long_as_asked(self):
+        """25 frames a second, by the file's own boxes (ISO/IEC 14496-12) and by the browser's player."""
+        number = lambda data, at: int.from_bytes(data[at:at + 4], "big")
+        for seconds, codec in [(2, "avc1"), (3, "vp09")]:
+            self.open()
+            self.browser.run("""culet_page.state.set({lights_with: 'stone'}); const asked = VideoEncoder.isConfigSupported;
+                VideoEncoder.isConfigSupported = (config) => config.codec.startsWith(arguments[0]) ? asked.call(VideoEncoder, config) : Promise.resolve({supported: false});""", codec)
+            film, (length, width, height, still, first, later) = self.film(seconds)
+            movie, track = self.boxes(film, "moov/mvhd"), self.boxes(film, "moov/trak/mdia/mdhd")
+            self.assertEqual([number(box, 16) / number(box, 12) for box in (movie, track)], [seconds, seconds], codec)
+            table = "moov/trak/mdia/minf/stbl/"
+            self.assertEqual(self.boxes(film, table + "stsd")[12:16], codec.encode())
+            times, sizes = self.boxes(film, table + "stts"), self.boxes(film, table + "stsz")
+            self.assertEqual([number(times, 4), number(times, 8), number(sizes, 8)], [1, 25 * seconds, 25 * seconds], codec)
+            self.assertEqual(number(times, 12) * 25, number(track, 12), codec)
+            place, payload = number(self.boxes(film, table + "stco"), 8), self.boxes(film, "mdat")
+            self.assertEqual(place, film.index(b"mdat") + 4, codec)
+            self.assertEqual(sum(number(sizes, 12 + 4 * i) for i in range(25 * seconds)), len(payload), codec)
+            self.assertEqual(length, seconds, codec)
+            self.assertEqual([width % 2, height % 2], [0, 0], codec)
+            # The codec keeps the colours.
+            for a, b in zip(still, first): self.assertAlmostEqual(a, b, delta=6, msg=f"{codec} {still} {first}")
+            self.assertGreater(max(abs(a - b) for a, b in zip(first, later)), 12, f"{codec} turns: {first} {later}")
+
+    def test_film_without_an_encoder_is_played_to_the_recorder(self):
         """Measured by the page's own clock, so that a loaded machine passes."""
         self.open()
-        milliseconds, frames = self.browser.wait("""const {setTimeout: timeout} = window, {now} = performance, {stop} = MediaRecorder.prototype;
-            let clock = 0, begin = null, end = null, frames = 0;
+        milliseconds, frames, kind = self.browser.wait("""const {setTimeout: timeout} = window, {now} = performance, {stop} = MediaRecorder.prototype;
+            window.VideoEncoder = undefined; let clock = 0, begin = null, end = null, frames = 0;
             performance.now = () => clock;
             window.setTimeout = (what, ms) => { clock += ms; return timeout(what, 0); };
             MediaRecorder.prototype.stop = function () { end = clock; stop.call(this); };
-            await culet_page.panels.save.turntable.film((done) => { if (done > 0.7) { ++frames; begin ??= clock; } });
-            performance.now = now; window.setTimeout = timeout; MediaRecorder.prototype.stop = stop; culet_page.loop.paused = false;
-            return [end - begin, frames];""")
-        self.assertAlmostEqual(milliseconds, 4000)
-        self.assertEqual(frames, 100)  # 25 per second
+            const {putImageData} = CanvasRenderingContext2D.prototype, shown = new Set();
+            CanvasRenderingContext2D.prototype.putImageData = function (frame, ...at) { if (!shown.has(frame)) { shown.add(frame); if (shown.size === 2) begin = clock; } return putImageData.call(this, frame, ...at); };
+            const film = await culet_page.panels.save.turntable.film(4, () => { ++frames; });
+            performance.now = now; window.setTimeout = timeout; MediaRecorder.prototype.stop = stop; CanvasRenderingContext2D.prototype.putImageData = putImageData; culet_page.loop.paused = false;
+            return [end - begin, frames, film.type];""")
+        self.assertAlmostEqual(milliseconds, 3960)  # from the second frame on
+        self.assertEqual([frames, kind], [100, "video/webm"])
+
+    def test_film_can_be_cancelled(self):
+        self.open()
+        self.browser.run("culet_page.panels.save.film()")
+        self.browser.wait("while (!culet_page.panels.save.left.textContent) await new Promise((r) => setTimeout(r, 5));")
+        self.assertRegex(self.browser.run("return culet_page.panels.save.left.textContent"), r"^About \d+ s left$")
+        self.assertEqual(self.browser.run("return culet_page.panels.save.record.textContent"), "Cancel")
+        self.click("[data-name=record]")
+        self.browser.wait("while (culet_page.loop.paused) await new Promise((r) => setTimeout(r, 20));")
+        self.assertEqual(self.browser.run("return [document.getElementById('say').textContent, culet_page.panels.save.left.hidden]"), ["The film is cancelled.", True])
+        before = self.seen()
+        self.drag(50, 20)
+        self.assertNotEqual(before, self.seen())
 
     def downloaded(self, ending):
         """The file with that extension, once the browser has written it."""

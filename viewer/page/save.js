@@ -10,14 +10,29 @@ function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
+const k_record = "Save a turn as a film";
+
 class PanelSave {
   constructor(page) {
     this.page = page;
     this.turntable = new Turntable(page);
     this.progress =
       element("progress", {max: 1, value: 0, hidden: true, "aria-label": "Recording"});
-    this.record =
-      button("Record a turn as WebM", () => this.film(), {class: "wide", "data-name": "record"});
+    this.left = element("p", {class: "note", hidden: true});
+    this.seconds = 4;
+    this.length = slider({
+      name: "seconds",
+      label: "Length",
+      least: 2,
+      most: 12,
+      step: 1,
+      unit: " s",
+      value: this.seconds,
+      onchange: (value) => {
+        this.seconds = value;
+      }
+    });
+    this.record = button(k_record, () => this.film(), {class: "wide", "data-name": "record"});
     this.command = element("textarea", {
       readonly: true,
       rows: 7,
@@ -29,8 +44,8 @@ class PanelSave {
     this.node = element("div", {},
       group("Picture", "At the resolution of this screen, without the lines drawn over it.",
         button("Save as PNG", () => this.save_png(), {class: "wide", "data-name": "png"})),
-      group("Film", "One turn about the stone\u2019s axis, four seconds long.", this.record,
-        this.progress),
+      group("Film", "One turn about the stone\u2019s axis.", this.length, this.record,
+        this.progress, this.left),
       group("Link",
         "Opens this page as it is now: view, light, material, everything but a panorama.",
         button("Copy the link", () => this.copy(this.link(), "The link is copied."),
@@ -79,26 +94,25 @@ class PanelSave {
       this.turntable.stop();
       return;
     }
-    const refusal = Turntable.refusal();
-    if (refusal) {
-      this.page.say(refusal);
-      return;
-    }
-    this.record.textContent = "Stop";
-    this.progress.hidden = false;
+    this.record.textContent = "Cancel";
+    this.progress.hidden = this.left.hidden = false;
+    const begin = performance.now();
+    const progress = (share) => {
+      const seconds = (performance.now() - begin) / 1000 * (1 - share) / share;
+      this.progress.value = share;
+      this.left.textContent = share < 1 ? `About ${Math.ceil(seconds)} s left` : "Writing the file";
+    };
     try {
-      const film = await this.turntable.film((share) => {
-        this.progress.value = share;
-      });
-      if (film) {
-        download(film, this.file_name(".webm"));
-        this.page.say("The film is saved.");
-      }
+      const film = await this.turntable.film(this.seconds, progress);
+      if (film) download(film, this.file_name(film.type === "video/mp4" ? ".mp4" : ".webm"));
+      this.page.say(film ? "The film is saved." : "The film is cancelled.");
     } catch (error) {
       this.page.failed(error);
     } finally {
-      this.record.textContent = "Record a turn as WebM";
-      this.progress.hidden = true;
+      this.record.textContent = k_record;
+      this.progress.hidden = this.left.hidden = true;
+      this.progress.value = 0;
+      this.left.textContent = "";
       this.page.loop.paused = false;
       this.page.loop.changed();
     }
