@@ -80,13 +80,17 @@ bool is_cut(const std::string& extension) {
     return extension == "asc" || extension == "gem";
 }
 
-SolidInput solid_in(const std::filesystem::path& file, const CutReading& how,
-                    Orientation standing) {
+// `held`: the file's bytes; null: read them.
+SolidInput solid_in(const std::filesystem::path& file, const std::string* held,
+                    const CutReading& how, Orientation standing) {
     SolidInput input;
     input.format = extension_of(file);
     if (is_cut(input.format)) {
-        ReadCut cut =
-            input.format == "asc" ? read_gemcad_asc(file, how) : read_gemcad_gem(file, how);
+        const bool asc = input.format == "asc";
+        ReadCut cut = held == nullptr
+                          ? (asc ? read_gemcad_asc(file, how) : read_gemcad_gem(file, how))
+                      : asc ? parse_gemcad_asc(*held, how, file)
+                            : parse_gemcad_gem(*held, how, file);
         input.solid = std::move(cut.solid);
         input.notes = std::move(cut.notes);
         input.details = std::move(cut.details);
@@ -96,14 +100,19 @@ SolidInput solid_in(const std::filesystem::path& file, const CutReading& how,
         require_sane_size(input.solid, file);
         return input;
     }
-    if (!mesh_format(file) && !is_gltf(file)) {
+    const auto format = mesh_format(file);
+    if (held != nullptr && !format)
+        throw InputError(file, "is not read here: .obj, .off, .ply, .stl, .asc and .gem are");
+    if (!format && !is_gltf(file)) {
         if (const std::string other = foreign_kind_of(file); !other.empty())
             throw InputError(file, other);
         throw InputError(file,
                          "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, "
                          ".stl, .gltf, .glb, .asc or .gem");
     }
-    ReadSolid mesh = is_gltf(file) ? solid_of_gltf(file) : read_mesh(file);
+    ReadSolid mesh = held != nullptr ? parse_mesh(*held, *format, file)
+                     : is_gltf(file) ? solid_of_gltf(file)
+                                     : read_mesh(file);
     input.solid = std::move(mesh.solid);
     input.notes = std::move(mesh.notes);
     input.changed = std::move(mesh.changed);
@@ -113,6 +122,11 @@ SolidInput solid_in(const std::filesystem::path& file, const CutReading& how,
     return input;
 }
 
+SolidFile solid_file(SolidInput input) {
+    return {std::move(input.solid), std::move(input.notes), std::move(input.details),
+            input.facets_are_whole, input.file_up,          std::move(input.changed)};
+}
+
 }  // namespace
 
 bool is_solid_file(const std::filesystem::path& file) {
@@ -120,7 +134,7 @@ bool is_solid_file(const std::filesystem::path& file) {
 }
 
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
-    SolidInput input = solid_in(file, how, Orientation::upright);
+    SolidInput input = solid_in(file, nullptr, how, Orientation::upright);
     if (std::string odd = doubtful_size(input.solid); !odd.empty() && !is_cut(input.format))
         input.notes.push_back(std::move(odd));
     return input;
@@ -133,9 +147,11 @@ void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes) {
 }
 
 SolidFile read_solid(const std::filesystem::path& file, Orientation standing) {
-    SolidInput input = solid_in(file, {}, standing);
-    return {std::move(input.solid), std::move(input.notes), std::move(input.details),
-            input.facets_are_whole, input.file_up,          std::move(input.changed)};
+    return solid_file(solid_in(file, nullptr, {}, standing));
+}
+
+SolidFile solid_of_bytes(const std::string& bytes, const std::filesystem::path& file) {
+    return solid_file(solid_in(file, &bytes, {}, Orientation::upright));
 }
 
 }  // namespace culet

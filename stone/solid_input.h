@@ -32,6 +32,9 @@ bool is_solid_file(const std::filesystem::path& file);
 /// and for a mesh less than 1e-50 across.
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
 
+/// As `read_solid` (stone.h), from memory; glTF is not read.
+SolidFile solid_of_bytes(const std::string& bytes, const std::filesystem::path& file);
+
 /// Removes the doubts about the mesh's size (`doubtful_size`) from `notes`. For when the width is
 /// given separately.
 void withdraw_size_doubt(const Solid& solid, std::vector<std::string>& notes);

@@ -8,6 +8,7 @@
 
 #include "page/html.h"
 #include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 
 namespace culet {
 
@@ -34,7 +35,7 @@ fs::path engine_file() {
 // Without a name and a time, so that the same engine gives the same bytes.
 std::string gzipped(const std::string& bytes) {
     z_stream stream{};
-    constexpr int k_level = 6, k_gzip = 16, k_memory = 8;
+    constexpr int k_level = 9, k_gzip = 16, k_memory = 8;
     check(deflateInit2(&stream, k_level, Z_DEFLATED, MAX_WBITS + k_gzip, k_memory,
                        Z_DEFAULT_STRATEGY) == Z_OK,
           "zlib compresses");

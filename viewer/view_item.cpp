@@ -1,13 +1,8 @@
 #include "viewer/view_item.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <map>
-#include <utility>
 
 #include "page/fit_facts.h"
 #include "page/html.h"
@@ -16,13 +11,6 @@
 #include "render/image/image_io.h"
 #include "render/planner/quick_picture.h"
 #include "render/scene/light_presets.h"
-#include "render/scene/scene_io.h"
-#include "render/scene/view_presets.h"
-#include "stone/cuts/cuts.h"
-#include "stone/text/errors.h"
-#include "stone/text/output_file.h"
-#include "viewer/engine/panorama.h"
-#include "viewer/engine/shown_stone.h"
 
 namespace culet {
 
@@ -32,54 +20,6 @@ namespace {
 // the eye's three colours are separated best (page/scene_settings.js).
 constexpr double k_still_tolerance = 0.2;
 constexpr std::array k_still_nm{450.0, 540.0, 610.0};
-
-constexpr const char* k_map_name = "environment.pfm";
-
-std::string render_command(const ViewSource& source) {
-    std::string command = "culet render " + shell_word(source.file.string());
-    const StoneScene& choices = source.choices;
-    if (!choices.material.empty()) command += " --material " + shell_word(choices.material);
-    if (!choices.light.empty()) command += " --light " + shell_word(choices.light);
-    if (choices.width_mm) command += fmt::format(" --width {}", *choices.width_mm);
-    for (const std::string& key : source.overrides) command += " --set " + shell_word(key);
-    return command;
-}
-
-bool is_scene_file(const ViewSource& source) {
-    return !source.cut && source.file.extension() == ".toml" &&
-           read_toml(source.file).kind("stone") != TomlTable::Kind::table;
-}
-
-// A scene file without its stone; for a stone alone, the scene in which `read_any_scene` shows it.
-std::string scene_text(const ViewSource& source, const Scene& scene) {
-    std::vector<std::string> keys = source.overrides;
-    const bool of_scene = is_scene_file(source);
-    const std::string& light = source.choices.light;
-    if (is_view_preset(light)) {
-        keys.push_back("preset=\"" + light + "\"");
-    } else if (!light.empty()) {
-        keys.push_back(fmt::format("light={{preset=\"{}\"}}", light));
-    } else if (!of_scene && !scene.light_preset.empty() &&
-               std::none_of(keys.begin(), keys.end(),
-                            [](const std::string& key) { return key.starts_with("light"); })) {
-        keys.push_back(fmt::format("light={{preset=\"{}\"}}", scene.light_preset));
-    }
-    if (scene.lights.environment)
-        keys.push_back(fmt::format("light.environment=\"{}\"", k_map_name));
-    // The page's view starts there: another light of the page must not frame the stone anew.
-    const Camera& camera = scene.camera;
-    const auto place = [&keys](const char* key, const Vec3& v) {
-        keys.push_back(fmt::format("camera.{}=[{},{},{}]", key, v.x, v.y, v.z));
-    };
-    place("position", camera.position);
-    place("look_at", camera.look_at);
-    place("up", camera.up);
-    keys.push_back(camera.orthographic_width
-                       ? fmt::format("camera.orthographic_width={}", *camera.orthographic_width)
-                       : fmt::format("camera.fov={}", degrees(camera.fov)));
-    return rewritten_text(of_scene ? read_text(source.file) : std::string(), source.file, keys,
-                          {"stone", "mesh", "material", "unit", "convex", "name", "object"});
-}
 
 std::string still_of(Scene scene, const std::string& refused) {
     Camera& camera = scene.camera;
@@ -116,119 +56,14 @@ std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json
     return facet_facts(names, fit_json);
 }
 
-Scene scene_of(const ViewSource& source) {
-    if (source.cut) {
-        Stone stone;
-        stone.name = source.cut->kind;
-        stone.solid = make_cut(source.cut->kind, source.cut->values);
-        stone.convex = cut_kind(source.cut->kind).convex;
-        return scene_around(stone, source.overrides, source.choices);
-    }
-    if (source.stone != nullptr && is_scene_file(source))
-        return read_scene(source.file, source.overrides, source.stone);
-    Scene scene = read_any_scene(source.file, source.overrides, source.choices);
-    if (source.stone != nullptr) scene.stone = *source.stone;
-    return scene;
-}
-
-// Direction from the middle to a notch, seen from above: the mean of the edges at which the stone
-// bends inwards. Nothing if there is none on one side.
-std::optional<Vec3> notch_of(const Solid& solid) {
-    constexpr double k_least = 1e-6, k_least_apart = 1e-3;  // of the stone's size
-    const double size = diameter(solid);
-    const Vec3 middle = centroid(solid);
-    std::map<std::pair<int, int>, std::size_t> owners;
-    Vec3 sum{0, 0, 0};
-    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const std::vector<int>& corners = solid.facets[f].corners;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            owners[{corners[i], corners[(i + 1) % corners.size()]}] = f;
-    }
-    for (const auto& [ends, f] : owners) {
-        const auto other = owners.find({ends.second, ends.first});
-        if (other == owners.end()) continue;
-        const Facet& across = solid.facets[other->second];
-        const Plane& plane = solid.facets[f].plane;
-        const bool inwards =
-            std::any_of(across.corners.begin(), across.corners.end(), [&](int corner) {
-                const Vec3& at = solid.vertices[static_cast<std::size_t>(corner)];
-                return glm::dot(plane.normal, at) - plane.offset > k_least * size;
-            });
-        if (!inwards) continue;
-        const Vec3 &a = solid.vertices[static_cast<std::size_t>(ends.first)],
-                   &b = solid.vertices[static_cast<std::size_t>(ends.second)];
-        sum += glm::length(b - a) * (0.5 * (a + b) - middle);
-    }
-    sum.z = 0;
-    if (!(glm::length(sum) > k_least_apart * size * size)) return std::nullopt;
-    return glm::normalize(sum);
-}
-
-// A heart stands on its tip, with the notch up, unless a scene file decides.
-ViewSource upright(const ViewSource& source, const Scene& scene) {
-    ViewSource turned = source;
-    if (scene.stone.convex || is_scene_file(source)) return turned;
-    for (const std::string& key : source.overrides) {
-        if (key.starts_with("camera")) return turned;
-    }
-    if (const std::optional<Vec3> notch = notch_of(scene.stone.solid))
-        turned.overrides.push_back(fmt::format("camera.up=[{:.6g},{:.6g},0]", notch->x, notch->y));
-    return turned;
-}
-
-// It gets the material of the shown stone.
-std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_at) {
-    Stone catalogue = looked_at;
-    if (source.catalogue != nullptr) {
-        catalogue.solid = *source.catalogue;
-    } else if (!source.before.empty()) {
-        StoneScene choices;
-        choices.material = "diamond";  // not used
-        const Stone before = read_any_scene(source.before, {}, choices).stone;
-        catalogue.solid = before.solid;
-        catalogue.name = before.name;
-        catalogue.unit = before.unit;
-        catalogue.convex = before.convex;
-    } else {
-        return std::nullopt;
-    }
-    return catalogue;
-}
-
 }  // namespace
 
-ViewItem view_item(const ViewSource& as_given, std::vector<std::string>& notes) {
-    Scene scene = scene_of(as_given);
-    const ViewSource source = upright(as_given, scene);
-    if (source.overrides != as_given.overrides) scene = scene_of(source);
-    notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
-    ViewItem item;
-    item.name = !scene.stone.name.empty() ? scene.stone.name : source.file.stem().string();
-    item.refused =
-        scene.has_stone() ? refused_by_page(scene) : "beams draw a stone, and this scene has none";
-    if (scene.has_stone()) {
-        if (const std::optional<Stone> before = catalogue_of(source, scene.stone)) {
-            ViewedStone catalogue;
-            catalogue.role = "catalogue";
-            catalogue.stone = *before;
-            item.stones.push_back(std::move(catalogue));
-        }
-        ViewedStone viewed;
-        viewed.role = source.cut                                            ? "design"
-                      : !source.fit_json.empty() || item.stones.size() == 1 ? "fitted"
-                                                                            : "stone";
-        viewed.stone = scene.stone;
-        viewed.cut = source.cut;
-        if (!source.fit_json.empty()) viewed.fit = facts_of(scene.stone.solid, source.fit_json);
-        item.stones.push_back(std::move(viewed));
-        item.scene = scene_text(source, scene);
-    }
-    if (scene.lights.environment) {
-        const EnvironmentMap& map = *scene.lights.environment;
-        item.files[k_map_name] = pfm_of(map.width, map.height, map.rgb);
-    }
-    item.picture = still_of(scene, item.refused);
-    item.command = source.cut || source.stone != nullptr ? std::string() : render_command(source);
+ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
+    Scene scene;
+    ViewItem item = item_of(source, notes, scene);
+    if (!source.fit_json.empty() && !item.stones.empty())
+        item.stones.back().fit = facts_of(scene.stone.solid, source.fit_json);
+    item.picture = still_of(std::move(scene), item.refused);
     return item;
 }
 

@@ -1,5 +1,7 @@
 #include "viewer/viewer_page.h"
 
+#include <utility>
+
 #include "page/html.h"
 #include "stone/text/errors.h"
 #include "viewer/engine_file.h"
@@ -13,12 +15,14 @@ extern const char* const viewer_js;
 extern const char* const worker_js;
 }  // namespace embedded
 
-std::string viewer_page(const ViewDocument& document) {
+std::string viewer_page(ViewDocument document) {
     check(document.first >= 0 && document.first < static_cast<int>(document.items.size()),
           "a page of the viewer shows something first");
-    const ViewItem& first = document.items[static_cast<std::size_t>(document.first)];
+    // The page shows it at once; a second copy would be a tenth of the page.
+    const std::string picture =
+        std::exchange(document.items[static_cast<std::size_t>(document.first)].picture, {});
     return filled(templates::viewer, {{"title", document.title},
-                                      {"picture", first.picture},
+                                      {"picture", picture},
                                       {"viewer_css", embedded::viewer_css},
                                       {"viewer_js", embedded::viewer_js},
                                       {"worker_js", embedded::worker_js},

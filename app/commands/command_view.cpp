@@ -126,7 +126,7 @@ int run_view(const ViewOptions& options) {
         say("the page shows a picture that does not turn: culet found no share/culet/engine.wasm; "
             "build it with `sh viewer/engine.sh`",
             quiet);
-    write_text(options.out, viewer_page(document));
+    write_text(options.out, viewer_page(std::move(document)));
     if (options.out == "-") return exit_good;
     say(fmt::format("{}: open it in a browser", options.out), quiet);
     if (options.open) open_page(options.out, quiet);

@@ -16,7 +16,7 @@ std::string viewer_for_report(const ViewSource& source, const std::string& title
     if (!document.items.front().refused.empty()) return {};
     document.title = title;
     document.version = CULET_VERSION;
-    return viewer_page(document);
+    return viewer_page(std::move(document));
 }
 
 }  // namespace culet

@@ -18,6 +18,7 @@
 #include "render/scene/view_presets.h"
 #include "stone/material/material_io.h"
 #include "stone/solid/checks.h"
+#include "stone/solid_input.h"
 #include "stone/stone_io.h"
 #include "stone/text/errors.h"
 
@@ -80,7 +81,9 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
         for (std::string& note : file.notes) notes.push_back(std::move(note));
         if (!file.states_convex) detect_convexity(stone, notes);
     } else {
-        SolidFile file = read_solid(*table.path("mesh"));
+        const std::string* const held = table.held_file("mesh");
+        SolidFile file = held != nullptr ? solid_of_bytes(*held, *table.path("mesh"))
+                                         : read_solid(*table.path("mesh"));
         stone.solid = std::move(file.solid);
         for (std::string& note : file.notes) notes.push_back(std::move(note));
         stone.name = table.path("mesh")->stem().string();

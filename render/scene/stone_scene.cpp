@@ -149,7 +149,7 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
     std::vector<std::pair<std::string, std::string>> texts{
         {kind == InputKind::stone ? "stone" : "mesh", file.filename().string()}};
     if (!material.empty()) texts.emplace_back("material", material);
-    const TomlTable root = toml_beside(file, texts, keys);
+    const TomlTable root = toml_beside(file, texts, keys, choices.held);
     if (kind != InputKind::stone && !root.has("material")) ask_for_material(file, kind);
     if (kind == InputKind::stone && !root.has("material")) {
         const TomlTable own = read_toml(file);

@@ -52,7 +52,7 @@ private:
         const std::vector<std::string_view> words = words_of(line);
         const std::string_view keyword = words[0];
         const std::string_view rest = trimmed(line.substr(keyword.size()));
-        const std::span<const std::string_view> values(words.begin() + 1, words.end());
+        const auto values = std::span<const std::string_view>(words).subspan(1);
         if (goes_on_with_instruction(words)) return instruct(line);
         if (keyword == "H") {
             design.headings.emplace_back(rest);

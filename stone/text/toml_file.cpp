@@ -36,9 +36,10 @@ TomlTable read_toml_with(const std::filesystem::path& file,
 
 TomlTable toml_beside(const std::filesystem::path& file,
                       const std::vector<std::pair<std::string, std::string>>& texts,
-                      const std::vector<std::string>& overrides) {
+                      const std::vector<std::string>& overrides, HeldFiles files) {
     auto content = std::make_shared<TomlTable::Content>();
     content->file = file;
+    content->held = std::move(files);
     for (const auto& [key, text] : texts) content->root.insert_or_assign(key, text);
     for (const std::string& setting : overrides) apply_override(content->root, setting);
     TomlTable table;

@@ -63,7 +63,7 @@ private:
                                     const std::vector<std::string>&);
     friend TomlTable toml_beside(const std::filesystem::path&,
                                  const std::vector<std::pair<std::string, std::string>>&,
-                                 const std::vector<std::string>&);
+                                 const std::vector<std::string>&, HeldFiles);
     friend TomlTable toml_of_text(std::string_view, const std::filesystem::path&,
                                   const std::vector<std::string>&, HeldFiles);
 };
@@ -78,14 +78,13 @@ TomlTable read_toml_with(const std::filesystem::path& file,
                          const std::vector<std::pair<std::string, std::string>>& texts,
                          const std::vector<std::string>& overrides);
 
-/// A table without a file, from keys and values. Paths are resolved against the folder of `file`,
-/// which is not read; errors name it. Throws InputError.
+/// A table without a file, from keys and values, with the files that they name. Paths are resolved
+/// against the folder of `file`, which is not read; errors name it. Throws InputError.
 TomlTable toml_beside(const std::filesystem::path& file,
                       const std::vector<std::pair<std::string, std::string>>& texts,
-                      const std::vector<std::string>& overrides = {});
+                      const std::vector<std::string>& overrides = {}, HeldFiles files = {});
 
-/// The same for a text without a file, with the files that it names; errors call it `name`. Throws
-/// InputError.
+/// The same for a text without a file; errors call it `name`. Throws InputError.
 TomlTable toml_of_text(std::string_view text, const std::filesystem::path& name,
                        const std::vector<std::string>& overrides = {}, HeldFiles files = {});
 

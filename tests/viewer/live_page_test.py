@@ -90,6 +90,31 @@ class LivePageTest(PageActions, unittest.TestCase):
             self.assertGreater(lit, 0.02, name)
             self.assertLessEqual(off, 0.001, name)
 
+    def test_dropped_stones_are_those_of_the_command_line(self):
+        """Also one that is not convex, in the material of before. A broken file is one plain line."""
+        self.open_page("brilliant.html")
+        culet("cut", "oval", "-o", self.folder / "an oval.asc")
+        culet("cut", "heart", "-o", self.folder / "-heart.obj")
+        (self.folder / "<b>broken.ply").write_text("ply\nformat ascii 1.0\n<script>alert(1)</script>\n")
+        (self.folder / "cut short.gem").write_bytes(bytes(range(100)))
+        drop = lambda name: self.browser.wait(f"""const bytes = Uint8Array.from(atob({json.dumps(base64.b64encode((self.folder / name).read_bytes()).decode())}), (c) => c.charCodeAt(0));
+            await culet_page.take_file(new File([bytes], {json.dumps(name)})); return document.getElementById('trouble').hidden ? '' : document.getElementById('trouble-text').textContent;""")
+        self.browser.resize(400, 520)  # rays draw the heart
+        for name, settings in [("an oval.asc", "{light: 'daylight', material: 'garnet_almandine'}"), ("-heart.obj", "{}")]:
+            self.browser.run(f"culet_page.state.set({settings})")
+            self.assertEqual(drop(name), "")
+            self.browser.rest()
+            self.assertIn("almandine", self.browser.run("return document.getElementById('subtitle').textContent").lower())
+            off, worst, lit = self.differing()
+            print(f"{name}: {100 * off:.4f} % of the pixels differ by more than 1, at most {worst}", file=sys.stderr)
+            self.assertGreater(lit, 0.02, name)
+            self.assertLessEqual(off, 0.001, name)
+        for name, line in [("<b>broken.ply", "ply:3: "), ("cut short.gem", "not a GemCad .gem file")]:
+            said = drop(name)
+            self.assertTrue(said.startswith(name) and line in said and "\n" not in said, said)
+            self.browser.run("culet_page.put_away()")
+        self.assertEqual(self.browser.run("return [culet_page.document.items.length, document.querySelectorAll('main b').length]"), [3, 0])
+
     def test_stopping_changes_neither_size_nor_brightness(self):
         """A turn, then rest: the same exposure, the stone's light within 12 %, no frame below half of the resolution."""
         self.open_page("brilliant.html")

@@ -435,11 +435,41 @@ class PageTest(PageActions, unittest.TestCase):
     def test_panorama_by_its_button_and_a_wrong_file(self):
         self.open()
         before = self.seen()
-        self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.hdr'));")
+        self.browser.wait("await culet_page.take_file(new File([new Uint8Array(8)], 'room.hdr'));")
         self.assertNotEqual(before, self.seen())
         self.assertEqual(self.browser.run("return culet_page.exposure()"), "auto")
-        self.browser.wait("await culet_page.take_panorama(new File([new Uint8Array(8)], 'room.txt'));")
+        self.browser.wait("await culet_page.take_file(new File([new Uint8Array(8)], 'room.txt'));")
         self.assertIn("room.txt is no panorama", self.browser.run("return document.getElementById('trouble').innerText"))
+
+    def drop(self, name, bytes_of="[1, 2, 3]"):
+        """Drops a file on the stage, and waits until the page has read or refused it."""
+        self.browser.wait(f"""const p = culet_page, drop = new DataTransfer(), {{take_file}} = p; let read;
+            drop.items.add(new File([new Uint8Array({bytes_of})], {json.dumps(name)}));
+            p.take_file = (file) => read = take_file.call(p, file);
+            p.stage.dispatchEvent(new DragEvent('drop', {{dataTransfer: drop, bubbles: true, cancelable: true}}));
+            delete p.take_file; await read;""")
+
+    def test_dropped_stone_joins_the_page(self):
+        self.open()
+        evil = "<img src=x onerror=\"document.title='hit'\">'.obj"
+        self.browser.run("culet_page.state.set({material: 'sapphire_blue', colour: 2})")
+        self.drop(evil)
+        self.browser.rest()
+        self.assertEqual(self.browser.run("return [culet_page.state.get('item'), culet_page.state.get('colour'), document.querySelectorAll('.thumb img').length]"), [1, 2, 2])
+        self.assertEqual(self.browser.run("return document.getElementById('title').textContent"), evil[:-4])
+        self.assertIn(evil, self.browser.run("return culet_page.command.line()"))
+        self.assertEqual(self.browser.run("return document.querySelectorAll('main img[src=x]').length"), 0)
+        self.drop("<b>broken</b>.stl")
+        self.assertEqual(self.browser.run("return document.getElementById('trouble-text').textContent"), "<b>broken</b>.stl: ends in the middle of a facet")
+        self.assertEqual(self.browser.run("return [culet_page.document.items.length, document.querySelectorAll('main b').length]"), [2, 0])
+        self.browser.run("culet_page.put_away()")
+        self.drop("large.ply", "16000001")
+        self.assertIn("large.ply has 16 MB", self.browser.run("return document.getElementById('trouble-text').textContent"))
+        self.drop("scene.glb")
+        self.assertIn("scene.glb is glTF", self.browser.run("return document.getElementById('trouble-text').textContent"))
+        self.hand().send_keys(Keys.PAGE_UP)
+        self.browser.rest()
+        self.assertEqual(self.browser.run("return [culet_page.state.get('item'), culet_page.state.get('material')]"), [0, None])
 
     def test_without_webassembly_the_picture_and_one_sentence(self):
         path = self.open()

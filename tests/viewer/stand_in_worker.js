@@ -150,6 +150,11 @@ const calls = {
     stones[place < 0 ? stones.length : place] = { ...made, role: "design", cut: { kind, values } };
     return { stone: place < 0 ? stones.length - 1 : place, summary: { dimensions }, geometry: stones[place < 0 ? stones.length - 1 : place] };
   },
+  stone({ name, material }) {
+    if (/broken/.test(name)) throw new Error(name + ": ends in the middle of a facet");
+    const own = { ...stones[0], name, cut: undefined, material: { id: material, name: material } };
+    return { item: { name, stones: [own], scene: "", files: {}, picture: "", refused: "", command: `culet render '${name}' --material ${material}` } };
+  },
   panorama: ({ name }) => {
     if (!/\.(hdr|exr|jpe?g|png)$/i.test(name)) throw new Error(name + " is no panorama");
     return { setting: `light={environment="${name}"}` };

@@ -18,9 +18,11 @@
 #include "render/render.h"
 #include "render/scene/light_presets.h"
 #include "render/scene/scene_io.h"
+#include "render/scene/stone_scene.h"
 #include "stone/cuts/cuts.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
+#include "tests/scratch_folder.h"
 #include "viewer/engine/viewer_document.h"
 #include "viewer/view_item.h"
 
@@ -75,9 +77,9 @@ struct Opened {
     Json call(const char* name, const Json& arguments, const std::string& attached = {}) {
         return Json::parse(engine.answer(name, arguments.dump(), attached));
     }
-    std::string refusal(const char* name, const Json& arguments) {
+    std::string refusal(const char* name, const Json& arguments, const std::string& attached = {}) {
         try {
-            call(name, arguments);
+            call(name, arguments, attached);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -294,6 +296,35 @@ TEST(ViewerEngine, APanoramaOfOneIsAFurnace) {
     EXPECT_GT(least, 0.99);
 }
 
+// Expectation: the program's own reader, from a file of that name.
+TEST(ViewerEngine, ReadsADroppedStoneAsTheProgramReadsItsFile) {
+    const test::ScratchFolder folder;
+    const std::filesystem::path file = folder / "it's a heart.obj";
+    write_solid(make_cut("heart"), file);
+    Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
+    const Json read =
+        page.call("stone", {{"name", file.string()}, {"material", "topaz_blue"}}, read_text(file));
+    const Json& item = read.at("item");
+    EXPECT_EQ(item.at("name"), file.filename().string());
+    EXPECT_TRUE(item.at("command").get<std::string>().starts_with(
+        "culet render 'it'\\''s a heart.obj' --material topaz_blue"));
+    StoneScene choices;
+    choices.material = "topaz_blue";
+    choices.usual_light = "jeweller";
+    const Stone expected = read_any_scene(file, {}, choices).stone;
+    const ViewItem held =
+        read_view_item(Json{{"schema", "culet-view-1"}, {"items", Json::array({item})}}.dump(), 0);
+    const Stone& stone = held.stones.at(0).stone;
+    EXPECT_EQ(stone.solid.vertices, expected.solid.vertices);
+    EXPECT_EQ(stone.material.id, "topaz_blue");
+    EXPECT_FALSE(stone.convex);
+    // Without a choice it has the material of the stone that is shown.
+    const Json own = page.call("stone", {{"name", "-.obj"}}, read_text(file));
+    EXPECT_EQ(own.at("item").at("command").get<std::string>().find(
+                  "culet render ./-.obj --material diamond"),
+              0u);
+}
+
 TEST(ViewerEngine, CutsWithOtherProportions) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     const Json cut = page.call("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 65.0}}}});
@@ -345,6 +376,9 @@ TEST(ViewerEngine, SaysWhatIsWrongInOneLine) {
     EXPECT_NE(page.refusal("draw", Json::object()), "none");
     EXPECT_NE(page.refusal("juggle", Json::object()), "none");
     EXPECT_NE(page.refusal("set", {{"stone", 7}}), "none");
+    for (const char* name :
+         {"x.obj", "x.asc", "x.gem", "x.stl", "x.ply", "x.off", "x.glb", "x.toml"})
+        EXPECT_TRUE(page.refusal("stone", {{"name", name}}, "v 1 2\n").starts_with(name)) << name;
     EXPECT_EQ(page.refusal("set", {{"settings", {"light.environment=\"/etc/passwd\""}}}).find('\n'),
               std::string::npos);
     page.call("draw", of_size(40));

@@ -71,8 +71,10 @@ def made_up_document(items=1, two=False):
 def page_text(document, worker=None, engine="stand-in"):
     """The template, filled as viewer_page.cpp fills it."""
     scripts = [(PAGE / name).read_text() for name in (PAGE / "scripts.txt").read_text().split()]
+    document = json.loads(json.dumps(document))
+    picture, document["items"][0]["picture"] = document["items"][0]["picture"], ""
     worker = (pathlib.Path(__file__).parent / "stand_in_worker.js").read_text() if worker is None else worker
-    values = {"title": document["title"], "picture": document["items"][0]["picture"], "engine": engine, "worker_js": worker,
+    values = {"title": document["title"], "picture": picture, "engine": engine, "worker_js": worker,
               "viewer_css": (PAGE / "viewer.css").read_text(), "viewer_js": "".join(scripts),
               "document_json": json.dumps(document).replace("</", "<\\/")}
     template = (PAGE / "templates" / "viewer.html.mustache").read_text()

@@ -15,6 +15,7 @@ nlohmann::ordered_json json_of(const Vec3& vector);
 Vec3 vector_from(const nlohmann::ordered_json& json);
 
 nlohmann::ordered_json json_of(const ViewedStone& stone);
+nlohmann::ordered_json json_of(const ViewItem& item);
 ViewedStone stone_from(const nlohmann::ordered_json& json);
 
 }  // namespace culet

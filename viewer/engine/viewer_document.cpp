@@ -56,15 +56,6 @@ FacetFacts facts_from(const Json& json) {
     return facts;
 }
 
-Json json_of(const ViewItem& item) {
-    Json stones = Json::array(), files = Json::object();
-    for (const ViewedStone& stone : item.stones) stones.push_back(json_of(stone));
-    for (const auto& [name, bytes] : item.files) files[name] = base64(bytes);
-    return {{"name", item.name},      {"stones", stones},        {"scene", item.scene},
-            {"files", files},         {"picture", item.picture}, {"refused", item.refused},
-            {"command", item.command}};
-}
-
 ViewItem item_from(const Json& json) {
     ViewItem item;
     item.name = json.at("name");
@@ -145,6 +136,15 @@ ViewedStone stone_from(const Json& json) {
         for (const Json& facts : json.at("fit")) viewed.fit.push_back(facts_from(facts));
     }
     return viewed;
+}
+
+Json json_of(const ViewItem& item) {
+    Json stones = Json::array(), files = Json::object();
+    for (const ViewedStone& stone : item.stones) stones.push_back(json_of(stone));
+    for (const auto& [name, bytes] : item.files) files[name] = base64(bytes);
+    return {{"name", item.name},      {"stones", stones},        {"scene", item.scene},
+            {"files", files},         {"picture", item.picture}, {"refused", item.refused},
+            {"command", item.command}};
 }
 
 std::string document_json(const ViewDocument& document) {

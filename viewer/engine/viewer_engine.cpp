@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "page/html.h"
 #include "render/gpu/gpu_program.h"
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
@@ -22,6 +23,7 @@
 #include "viewer/engine/shown_stone.h"
 #include "viewer/engine/stone_json.h"
 #include "viewer/engine/view_questions.h"
+#include "viewer/engine/view_source.h"
 
 namespace culet {
 
@@ -49,12 +51,13 @@ struct ViewerEngine::State {
     Json path(const Json& arguments);
     Json cut(const Json& arguments);
     Json panorama(const Json& arguments, std::string_view bytes);
+    Json stone(const Json& arguments, std::string_view bytes);
 
     struct Call {
         std::string_view name;
         Json (*answer)(State&, const Json& arguments, std::string_view attached);
     };
-    static const Call k_calls[10];
+    static const Call k_calls[11];
 };
 
 ShownStone& ViewerEngine::State::shown() {
@@ -233,6 +236,26 @@ Json ViewerEngine::State::panorama(const Json& arguments, std::string_view bytes
             {"notes", panorama.notes}};
 }
 
+// In the material that is shown: `material` of the catalogue, or the shown stone's own.
+Json ViewerEngine::State::stone(const Json& arguments, std::string_view bytes) {
+    const Material own = shown().viewed().stone.material;
+    const std::string chosen = arguments.value("material", "");
+    const std::string material = chosen.empty() ? own.id : chosen;
+    ViewSource source;
+    source.file = std::filesystem::path(arguments.at("name").get<std::string>()).filename();
+    source.choices.material = material.empty() ? "diamond" : material;
+    source.choices.held[source.file.string()] = bytes;
+    Scene scene;
+    std::vector<std::string> notes;
+    ViewItem read = item_of(source, notes, scene);
+    if (chosen.empty()) read.stones.back().stone.material = own;
+    if (material.empty())
+        read.command = fmt::format("culet render {} --material MATERIAL.toml",
+                                   shell_word(source.file.string()));
+    read.name = source.file.filename().string();
+    return {{"item", json_of(read)}};
+}
+
 // The only list of a page's calls, whether the engine runs in a worker or in the program.
 const ViewerEngine::State::Call ViewerEngine::State::k_calls[] = {
     {"open", [](State& s, const Json& a, std::string_view text) { return s.open(a, text); }},
@@ -246,6 +269,7 @@ const ViewerEngine::State::Call ViewerEngine::State::k_calls[] = {
     {"cut", [](State& s, const Json& a, std::string_view) { return s.cut(a); }},
     {"panorama",
      [](State& s, const Json& a, std::string_view text) { return s.panorama(a, text); }},
+    {"stone", [](State& s, const Json& a, std::string_view text) { return s.stone(a, text); }},
 };
 
 ViewerEngine::ViewerEngine(std::string version) : state_(std::make_unique<State>()) {

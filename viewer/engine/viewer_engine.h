@@ -18,8 +18,8 @@ public:
     ~ViewerEngine();
     ViewerEngine(ViewerEngine&&) noexcept;
 
-    /// `attached`: the document for `open`, the file for `panorama`. Throws InputError with what is
-    /// wrong, in one line for people, and then changes nothing.
+    /// `attached`: the document for `open`, the file for `panorama` and `stone`. Throws InputError
+    /// with what is wrong, in one line for people, and then changes nothing.
     std::string answer(std::string_view call, std::string_view arguments,
                        std::string_view attached = {});
 

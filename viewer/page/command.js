@@ -1,6 +1,8 @@
 "use strict";
 // The command that draws what the page shows.
 
+const k_unnamed_material = "--material MATERIAL.toml";  // as the engine writes it
+
 class Command {
   constructor(page) { this.page = page; }
 
@@ -44,6 +46,8 @@ class Command {
     const values = this.page.state.values, limits = [];
     if (values.light === "panorama" && this.page.panorama)
       limits.push(`It looks for ${this.page.panorama.name} beside the stone\u2019s file.`);
+    if (this.page.item().command.endsWith(k_unnamed_material))
+      limits.push("Its material is in no catalogue: name its file.");
     if (this.page.document_stone().role === "catalogue")
       limits.push("It draws the fitted stone; the page shows the catalogue\u2019s.");
     return limits.join(" ");

@@ -6,8 +6,12 @@ class Gallery {
     this.page = page;
     this.nav = nav;
     this.items = page.document.items;
+    this.build();
+  }
+
+  build() {
     if (this.items.length < 2) return;
-    nav.hidden = false;
+    this.nav.hidden = false;
     this.buttons = this.items.map((item, index) => {
       const one = button("", () => this.go(index), {class: "thumb"});
       // Only pictures inside the page; anything else could be a foreign address.
@@ -17,7 +21,7 @@ class Gallery {
       return one;
     });
     this.list = element("div", {class: "thumbs"}, ...this.buttons);
-    nav.append(
+    this.nav.replaceChildren(
       button("\u2039", () => this.step(-1),
         {class: "step", "aria-label": "Stone before (Page up)", title: "Stone before (Page up)"}),
       this.list,
@@ -39,6 +43,12 @@ class Gallery {
   }
   go(index) {
     if (index !== this.page.state.get("item")) this.page.open_item(index);
+  }
+  // Of a stone that was dropped.
+  take_picture(canvas) {
+    this.page.item().picture = canvas.toDataURL("image/jpeg");
+    this.build();
+    this.update();
   }
   update() {
     if (!this.buttons) return;

@@ -1,11 +1,15 @@
 "use strict";
 // The page: connects the parts.
 
+const k_stone_file = /\.(asc|gem|obj|off|ply|stl|gltf|glb)$/i;
+const k_most_of_stone = 16e6, k_most_of_panorama = 256e6;  // bytes
+
 function by_id(id) { return document.getElementById(id); }
 
 class Page {
   constructor() {
     this.document = JSON.parse(EngineClient.text_of("culet-document"));
+    this.document.items[this.document.first || 0].picture ||= by_id("still").getAttribute("src");
     this.stage = by_id("stage");
     this.state = new State();
     this.picture = new PictureView(this.stage, by_id("picture"), by_id("still"));
@@ -168,18 +172,43 @@ class Page {
         () => this.say("The browser does not allow the full screen here."));
     }
   }
-  async take_panorama(file) {
+  // A stone or a panorama, by the file's name.
+  async take_file(file) {
     if (!this.ready()) return;
+    const stone = k_stone_file.test(file.name), most = stone ? k_most_of_stone : k_most_of_panorama;
     try {
+      if (file.size > most) {
+        const mb = (bytes) => (bytes / 1e6).toFixed(0) + " MB";
+        throw new Error(`${file.name} has ${mb(file.size)}; this page takes ${mb(most)} at most`);
+      }
+      if (/\.(gltf|glb)$/i.test(file.name))
+        throw new Error(`${file.name} is glTF, which a page does not read: culet convert makes an .obj of it`);
       this.say(`Reading ${file.name}\u2026`);
-      await this.send_panorama(file);
-      this.state.set({light: "panorama", polariser: null});
-      this.panels.light.update();
-      this.loop.changed();
-      this.say(`The stone lies in ${file.name}.`);
+      await (stone ? this.take_stone(file) : this.take_panorama(file));
     } catch (error) {
+      by_id("say").textContent = "";
       this.failed(error);
     }
+  }
+  // It becomes another stone of the page, in the material that is shown.
+  async take_stone(file) {
+    const {material, colour} = this.state.values, items = this.document.items;
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const {item} = await this.engine.in_turn(
+      () => this.engine.call(
+        "stone", {name: file.name, material: material || "", bytes}, [bytes.buffer]));
+    const index = items.push(item) - 1;
+    this.gallery.build();
+    await this.open_item(index);
+    this.state.set({colour});
+    this.say(`This is ${file.name}.`);
+  }
+  async take_panorama(file) {
+    await this.send_panorama(file);
+    this.state.set({light: "panorama", polariser: null});
+    this.panels.light.update();
+    this.loop.changed();
+    this.say(`The stone lies in ${file.name}.`);
   }
 
   // Kept, because a restarted engine has lost it.
@@ -227,6 +256,8 @@ class Page {
     if (!this.first_picture_ms)
       this.stage.dataset.firstPictureMs = this.first_picture_ms = Math.round(performance.now());
     if (quick) return;
+    if (!this.item().picture)
+      this.gallery.take_picture((this.gpu.shown ? this.gpu : this.picture).canvas);
     this.keep_address();
     this.panels.picture.update();
     this.panels.save.update();

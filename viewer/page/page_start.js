@@ -194,7 +194,7 @@ Object.assign(Page.prototype, {
     const {light, polarisers, material, cut, picture, save} = this.panels;
     this.tabs.build([
       {name: "light", label: "Light", nodes: [light.node]},
-      {name: "stone", label: "Stone", nodes: [material.node, cut.node]},
+      {name: "stone", label: "Stone", nodes: [material.node, cut.node, this.another_stone()]},
       {name: "polarisers", label: "Polarisers", nodes: [polarisers.node]},
       {name: "fit", label: "Measured", nodes: [this.fit.node]},
       {name: "path", label: "Path", nodes: [this.light_path.node]},
@@ -203,6 +203,11 @@ Object.assign(Page.prototype, {
     ]);
     this.tabs.show("fit", this.fit.any());
     this.update_panels();
+  },
+  another_stone() {
+    return group("Another stone",
+      ".asc, .gem, .obj, .stl, .ply or .off, in this material. Or drop it on this one; the link does not keep it.",
+      file_button("Open a stone", ".asc,.gem,.obj,.stl,.ply,.off", (file) => this.take_file(file)));
   },
   update_panels() {
     for (const panel of Object.values(this.panels)) panel.update();

@@ -47,7 +47,7 @@ class PanelLight {
       group("By hand", null, this.by_hand, this.stay, this.reset),
       group("Your own surroundings", null,
         file_button("Open a panorama (.hdr, .exr, .jpg, .png)", ".hdr,.exr,.jpg,.jpeg,.png",
-          (file) => page.take_panorama(file)),
+          (file) => page.take_file(file)),
         this.panorama_note));
   }
 

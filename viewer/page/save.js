@@ -47,7 +47,7 @@ class PanelSave {
       group("Film", "One turn about the stone\u2019s axis.", this.length, this.record,
         this.progress, this.left),
       group("Link",
-        "Opens this page as it is now: view, light, material, everything but a panorama.",
+        "Opens this page as it is now: view, light, material, all but files that were dropped.",
         button("Copy the link", () => this.copy(this.link(), "The link is copied."),
           {class: "wide", "data-name": "link"})),
       group("Command", "Draws this very picture with culet on the command line.", this.command,

@@ -5,7 +5,7 @@ const k_mm = {um: 1e-3, mm: 1, cm: 10, m: 1000};
 
 // A file's name as a stone's: "round-brilliant.obj" is "Round brilliant".
 function stone_title(name) {
-  const bare = name.replace(/\.(obj|asc|gem|gcs|stl|glb|toml)$/i, "");
+  const bare = name.replace(/\.(obj|asc|gem|gcs|stl|ply|off|glb|toml)$/i, "");
   if (!/^[a-z0-9]+([-_][a-z0-9]+)*$/.test(bare)) return bare;
   return bare[0].toUpperCase() + bare.slice(1).replace(/[-_]/g, " ");
 }

@@ -89,7 +89,7 @@ Object.assign(Page.prototype, {
       event.preventDefault();
       depth = 0;
       drop.hidden = true;
-      if (event.dataTransfer.files[0]) this.take_panorama(event.dataTransfer.files[0]);
+      if (event.dataTransfer.files[0]) this.take_file(event.dataTransfer.files[0]);
     });
   },
 });

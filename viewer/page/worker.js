@@ -60,7 +60,7 @@ class EngineWorker {
             const text = typeof document === "string" ? document : JSON.stringify(document);
             return { result: this.engine.call(call, rest, text), transfer: [] };
         }
-        if (call === "panorama") {
+        if (call === "panorama" || call === "stone") {
             const { bytes, ...rest } = args;
             return { result: this.engine.call(call, rest, new Uint8Array(bytes)), transfer: [] };
         }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "stone/text/errors.h"
 #include "viewer/engine/viewer_engine.h"
 
 namespace {
@@ -22,7 +23,8 @@ std::string last_answer;
 
 std::string refusal(const char* what) {
     using Json = nlohmann::ordered_json;
-    return Json{{"error", what}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return Json{{"error", culet::for_terminal(what)}}.dump(-1, ' ', false,
+                                                           Json::error_handler_t::replace);
 }
 
 }  // namespace

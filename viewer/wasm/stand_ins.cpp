@@ -6,6 +6,7 @@
 #include "render/image/image_io.h"
 #include "render/reference/light_field.h"
 #include "render/scene/engine_name.h"
+#include "stone/design/tiers.h"
 #include "stone/material/wavelength_table.h"
 #include "stone/mesh/surface_mesh.h"
 #include "stone/solid/half_edges.h"
@@ -26,13 +27,13 @@ namespace {
 std::string read_text(const std::filesystem::path& file, std::size_t) {
     refuse(file);
 }
-SolidFile read_solid(const std::filesystem::path& file, Orientation) {
-    refuse(file);
-}
-std::string doubtful_size(const Solid&) {
+std::string foreign_kind_of(const std::filesystem::path&) {
     return {};
 }
-void withdraw_size_doubt(const Solid&, std::vector<std::string>&) {}
+// Of a design, which a page does not show.
+std::vector<FacetTier> tiers_of(const Solid&, const Vec3&) {
+    return {};
+}
 Spectrum read_wavelength_table(const std::filesystem::path& file, const char*,
                                std::vector<std::string>&) {
     refuse(file);

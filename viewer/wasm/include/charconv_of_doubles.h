@@ -1,7 +1,8 @@
 #pragma once
-// std::from_chars for floating point, which Emscripten's C++ library of Debian 12 lacks. Included
-// before every source (-include).
+// std::from_chars for floating point and std::bit_cast, which Emscripten's C++ library of Debian 12
+// lacks. Included before every source (-include).
 
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -30,5 +31,13 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
     value = number;
     return {stop, errc()};
 }
+
+#ifndef __cpp_lib_bit_cast
+template <class To, class From>
+constexpr To bit_cast(const From& from) {
+    static_assert(sizeof(To) == sizeof(From));
+    return __builtin_bit_cast(To, from);
+}
+#endif
 
 }  // namespace std
