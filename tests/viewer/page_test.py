@@ -141,8 +141,10 @@ class PageTest(PageActions, unittest.TestCase):
         area, small, low = 2 * 2**0.5 * 9, 2 * 2**0.5 * 2.25, 3 * math.tan(math.radians(40))
         volume = area * 0.3 + area * low / 3 + (area + small + (area * small) ** 0.5) / 3
         self.assertEqual(facts, f"diamond \u00b7 6.00 \u00d7 5.00 \u00d7 3.00 mm \u00b7 {volume * 3.52 / 200:.2f} ct \u00b7 table 55 %, depth 60 %")
+        # Another material weighs by the catalogue's density, where it has one.
         self.browser.run("culet_page.state.set({material: 'sapphire_blue'})")
-        self.assertTrue(self.browser.run(stage)[2].startswith("Blue sapphire \u00b7 6.00"))
+        self.assertTrue(self.browser.run(stage)[2].startswith(f"Blue sapphire \u00b7 6.00 \u00d7 5.00 \u00d7 3.00 mm \u00b7 {volume * 4 / 200:.2f} ct"))
+        self.browser.run("culet_page.state.set({material: 'tanzanite'})")
         self.assertNotIn(" ct", self.browser.run(stage)[2])
         self.open(made_up_document(two=True))
         row = self.browser.run("""const list = document.getElementById('tabs'), tabs = [...list.children].filter((tab) => !tab.hidden);

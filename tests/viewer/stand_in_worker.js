@@ -122,7 +122,7 @@ const calls = {
       materials: [
         { name: "diamond", optic: "isotropic", index: 2.417, summary: "colourless" },
         { name: "tanzanite", optic: "biaxial", index: 1.692, summary: "violetish blue" },
-        { name: "sapphire_blue", title: "Blue sapphire", optic: "uniaxial", index: 1.766, summary: "blue", colour: "#224387" }],
+        { name: "sapphire_blue", title: "Blue sapphire", optic: "uniaxial", index: 1.766, summary: "blue", colour: "#224387", density_g_cm3: 4 }],
       lights: [
         { name: "jeweller", summary: "a ring of light, two windows, a dim room", from_below: false, instrument: false },
         { name: "daylight", summary: "an open sky, a hazy sun, dim ground", from_below: false, instrument: false },

@@ -325,6 +325,19 @@ TEST(ViewerEngine, ReadsADroppedStoneAsTheProgramReadsItsFile) {
               0u);
 }
 
+TEST(ViewerEngine, ListsEveryDensityOfTheCatalogue) {
+    const Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
+    int known = 0;
+    for (const Json& entry : page.answer.at("materials")) {
+        const auto density = catalogue_material(entry.at("name").get<std::string>()).density_g_cm3;
+        ASSERT_EQ(entry.contains("density_g_cm3"), density.has_value()) << entry;
+        if (!density) continue;
+        EXPECT_EQ(entry.at("density_g_cm3"), *density);
+        ++known;
+    }
+    EXPECT_GT(known, 20);
+}
+
 TEST(ViewerEngine, CutsWithOtherProportions) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     const Json cut = page.call("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 65.0}}}});

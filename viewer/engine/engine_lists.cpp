@@ -41,6 +41,7 @@ Json material_list() {
                    {"optic", name_of(material.optic)},
                    {"index", index},
                    {"summary", material.usual_colour}};
+        if (material.density_g_cm3) entry["density_g_cm3"] = *material.density_g_cm3;
         if (material.has_absorption()) {
             const StoneColour colour = body_colour(material);
             entry["summary"] = colour.name;

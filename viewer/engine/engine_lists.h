@@ -8,7 +8,8 @@
 
 namespace culet {
 
-/// Name, optic, index at the sodium line, summary, colour (#rrggbb for a stone of the usual size).
+/// Name, optic, index at the sodium line, summary; density and colour (#rrggbb for a stone of the
+/// usual size) where they are known.
 nlohmann::ordered_json material_list();
 /// Light presets and the instruments.
 nlohmann::ordered_json light_list();

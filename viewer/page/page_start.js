@@ -159,7 +159,7 @@ Object.assign(Page.prototype, {
       document.title + ": arrow keys turn it, plus and minus zoom, question mark shows all keys");
     this.gallery.update();
   },
-  // What a jeweller asks first. Only the file's own material has a density here.
+  // What a jeweller asks first.
   show_facts() {
     const stone = this.shown_stone(), chosen = this.ready() && this.state.get("material");
     const own = (this.item().stones.length && this.document_stone().material) || {};
@@ -168,7 +168,7 @@ Object.assign(Page.prototype, {
     const parts = [name.replace(/_/g, " ")];
     if (this.ready() && stone) {
       parts.push(
-        stone.size(), stone.weight(chosen ? null : own.density_g_cm3), stone.proportions());
+        stone.size(), stone.weight(material && material.density_g_cm3), stone.proportions());
     }
     if (this.item().stones.length > 1) parts.push("fitted, beside the catalogue\u2019s");
     by_id("subtitle").textContent = parts.filter(Boolean).join(" \u00b7 ");
