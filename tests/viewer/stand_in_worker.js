@@ -129,7 +129,7 @@ const calls = {
         { name: "aset", summary: "red, green and blue by elevation (AGS)", from_below: false, instrument: true },
         { name: "hearts", summary: "a red reflector before the pavilion", from_below: true, instrument: true }],
       cuts: [{ name: "eight", summary: "a made-up cut", parameters: [{ name: "crown-angle", value: 34, least: 20, most: 50, unit: "deg", what: "of the crown" }] }],
-      views: [], camera: { position: [0, 0, 40], look_at: [0, 0, 0], up: [0, 1, 0], width: 8, size: [800, 800] },
+      camera: { position: [0, 0, 40], look_at: [0, 0, 0], up: [0, 1, 0], width: 8, size: [800, 800] },
       stone: stones.length - 1, settings: { light_preset: "jeweller", tonemap: "none" }, version: "stand-in",
     };
   },

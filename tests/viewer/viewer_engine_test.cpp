@@ -233,32 +233,6 @@ TEST(ViewerEngine, DrawsAStoneThatIsNotConvexByRays) {
     EXPECT_EQ(drawn("beams"), shown_bytes(render(scene).picture, scene.film, true));
 }
 
-// The middle of a visible convex facet lies on that facet.
-TEST(ViewerEngine, OutlinesAreOfTheFacetsThatRaysMeet) {
-    Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
-    Json view = of_size(400);
-    view["camera"] = {
-        {"position", {10, -20, 25}}, {"look_at", {0, 0, -1}}, {"up", {0, 0, 1}}, {"width", 9}};
-    const Json outline = page.call("outline", view);
-    EXPECT_GT(outline.at("facets").size(), 20u);
-    for (const Json& facet : outline.at("facets")) {
-        double x = 0, y = 0;
-        for (const Json& point : facet.at("points")) {
-            x += point[0].get<double>() / static_cast<double>(facet.at("points").size());
-            y += point[1].get<double>() / static_cast<double>(facet.at("points").size());
-        }
-        Json place = view;
-        place["x"] = x;
-        place["y"] = y;
-        const Json found = page.call("facet", place);
-        EXPECT_EQ(found.at("facet"), facet.at("facet"));
-    }
-    Json corner = view;
-    corner["x"] = 1;
-    corner["y"] = 1;
-    EXPECT_EQ(page.call("facet", corner).at("facet"), -1);
-}
-
 // Expectation: conservation, as in `culet probe`: all weights and losses add up to 1.
 TEST(ViewerEngine, PathsAreThoseOfProbe) {
     const Stone stone = stone_of("round-brilliant", "diamond");

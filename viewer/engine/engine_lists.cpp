@@ -63,20 +63,6 @@ Json light_list() {
     return list;
 }
 
-Json view_list() {
-    const auto view = [](const char* key, const char* label, const Vec3& eye, const Vec3& up) {
-        return Json{{"key", key},
-                    {"label", label},
-                    {"eye", json_of(glm::normalize(eye))},
-                    {"up", json_of(up)},
-                    {"from_below", eye.z < 0}};
-    };
-    return Json::array({view("table", "Face up", {0, 0, 1}, {0, 1, 0}),
-                        view("pavilion", "From below", {0, 0, -1}, {0, 1, 0}),
-                        view("side", "From the side", {0, -1, 0}, {0, 0, 1}),
-                        view("tilted", "Tilted", {0, -1, 2}, {0, 0, 1})});
-}
-
 Json cut_list() {
     Json list = Json::array();
     for (const CutKind& kind : cut_kinds()) {

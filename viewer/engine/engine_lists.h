@@ -13,8 +13,6 @@ namespace culet {
 nlohmann::ordered_json material_list();
 /// Light presets and the instruments.
 nlohmann::ordered_json light_list();
-/// Key, label, towards the eye, up, from_below.
-nlohmann::ordered_json view_list();
 nlohmann::ordered_json cut_list();
 
 nlohmann::ordered_json summary_of(const ViewedStone& stone);

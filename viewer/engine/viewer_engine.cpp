@@ -13,6 +13,7 @@
 #include "render/gpu/gpu_program.h"
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
+#include "render/reference/probe.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
 #include "stone/text/errors.h"
@@ -22,7 +23,6 @@
 #include "viewer/engine/panorama.h"
 #include "viewer/engine/shown_stone.h"
 #include "viewer/engine/stone_json.h"
-#include "viewer/engine/view_questions.h"
 #include "viewer/engine/view_source.h"
 
 namespace culet {
@@ -46,8 +46,6 @@ struct ViewerEngine::State {
     Json set(const Json& arguments);
     Json picture(const Json& arguments, bool shown_as_bytes);
     Json gpu(const Json& arguments);
-    Json facet(const Json& arguments);
-    Json outline(const Json& arguments);
     Json path(const Json& arguments);
     Json cut(const Json& arguments);
     Json panorama(const Json& arguments, std::string_view bytes);
@@ -57,7 +55,7 @@ struct ViewerEngine::State {
         std::string_view name;
         Json (*answer)(State&, const Json& arguments, std::string_view attached);
     };
-    static const Call k_calls[11];
+    static const Call k_calls[9];
 };
 
 ShownStone& ViewerEngine::State::shown() {
@@ -76,9 +74,10 @@ Json ViewerEngine::State::open(const Json& arguments, std::string_view document)
     settings.clear();
     Json shown_stones = Json::array();
     for (const ShownStone& stone : stones) shown_stones.push_back(summary_of(stone.viewed()));
-    Json result{{"stones", shown_stones},       {"stone", now},           {"refused", item.refused},
-                {"materials", material_list()}, {"lights", light_list()}, {"views", view_list()},
-                {"cuts", cut_list()},           {"version", version}};
+    Json result{{"stones", shown_stones},  {"stone", now},
+                {"refused", item.refused}, {"materials", material_list()},
+                {"lights", light_list()},  {"cuts", cut_list()},
+                {"version", version}};
     if (!stones.empty()) {
         const Scene& scene = shown().scene();
         result["camera"] = json_of(scene.camera);
@@ -161,31 +160,10 @@ Json ViewerEngine::State::gpu(const Json& arguments) {
     return std::move(answer.json);
 }
 
-Json ViewerEngine::State::facet(const Json& arguments) {
-    const FrameRequest request = request_of(arguments);
-    const Stone& stone = shown().scene().stone;
-    const int facet =
-        facet_at(stone, request.camera, arguments.at("x").get<double>(), arguments.at("y"));
-    Json answer{{"facet", facet}};
-    if (facet >= 0) answer["name"] = stone.solid.facets[static_cast<std::size_t>(facet)].name;
-    return answer;
-}
-
-Json ViewerEngine::State::outline(const Json& arguments) {
-    const FrameRequest request = request_of(arguments);
-    Json facets = Json::array();
-    for (const PickedFacet& seen : seen_facets(shown().scene().stone, request.camera)) {
-        Json points = Json::array();
-        for (const auto& [x, y] : seen.points) points.push_back({x, y});
-        facets.push_back({{"facet", seen.facet}, {"points", points}});
-    }
-    return {{"facets", facets}};
-}
-
 Json ViewerEngine::State::path(const Json& arguments) {
     const Scene scene = shown().scene_of(request_of(arguments));
-    return Json::parse(
-        paths_at(scene, arguments.at("x").get<double>(), arguments.at("y").get<double>()));
+    const EyeRay ray = EyeRays(scene.camera).through(arguments.at("x"), arguments.at("y"));
+    return Json::parse(probe_json(probe(scene, ray)));
 }
 
 Json ViewerEngine::State::cut(const Json& arguments) {
@@ -263,8 +241,6 @@ const ViewerEngine::State::Call ViewerEngine::State::k_calls[] = {
     {"draw", [](State& s, const Json& a, std::string_view) { return s.picture(a, true); }},
     {"radiance", [](State& s, const Json& a, std::string_view) { return s.picture(a, false); }},
     {"gpu", [](State& s, const Json& a, std::string_view) { return s.gpu(a); }},
-    {"facet", [](State& s, const Json& a, std::string_view) { return s.facet(a); }},
-    {"outline", [](State& s, const Json& a, std::string_view) { return s.outline(a); }},
     {"path", [](State& s, const Json& a, std::string_view) { return s.path(a); }},
     {"cut", [](State& s, const Json& a, std::string_view) { return s.cut(a); }},
     {"panorama",
