@@ -24,7 +24,7 @@ struct StoneScene {
     std::string material;            ///< catalogue name or material file; empty: from the file
     std::string light;               ///< preset or view; empty: from the file, else k_usual_light
     std::optional<double> width_mm;  ///< smaller extent of the outline
-    HeldFiles held;                  ///< a mesh or design that is in memory, by its name
+    HeldFiles held = {};             ///< a mesh or design that is in memory, by its name
 };
 
 /// Reads any file that shows a stone: a scene, a stone file, a mesh (.obj .off .ply .stl, in mm) or

@@ -284,7 +284,6 @@ TEST(ViewerEngine, ReadsADroppedStoneAsTheProgramReadsItsFile) {
         "culet render 'it'\\''s a heart.obj' --material topaz_blue"));
     StoneScene choices;
     choices.material = "topaz_blue";
-    choices.usual_light = "jeweller";
     const Stone expected = read_any_scene(file, {}, choices).stone;
     const ViewItem held =
         read_view_item(Json{{"schema", "culet-view-1"}, {"items", Json::array({item})}}.dump(), 0);
