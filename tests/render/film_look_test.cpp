@@ -130,6 +130,8 @@ TEST(Ground, LiesBehindTheStone) {
     EXPECT_FLOAT_EQ(as_shown(picture, look)[0], 0.4f) << "in the shadow";
     EXPECT_FLOAT_EQ(as_shown(picture, look)[3], 0.65f) << "at the stone's edge";
     EXPECT_FLOAT_EQ(as_shown(picture, look)[6], 0.25f) << "in the stone";
+    EXPECT_EQ(shown_bytes(picture, look, false)[0], std::lround(255 * srgb_encoded(0.4f)))
+        << "in a file, too";
     look.alpha = true;
     EXPECT_FLOAT_EQ(as_shown(picture, look)[0], 0.25f) << "a transparent ground is none";
 }
