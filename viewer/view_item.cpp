@@ -10,7 +10,7 @@
 #include "render/image/exposure.h"
 #include "render/image/image_io.h"
 #include "render/planner/quick_picture.h"
-#include "render/scene/light_presets.h"
+#include "render/scene/shown_picture.h"
 
 namespace culet {
 
@@ -44,9 +44,8 @@ std::string still_of(Scene scene, const std::string& refused) {
     }
     PngLook look = scene.film;
     look.ground = 0;  // the page's own
-    const LightPreset* const preset = find_light_preset(scene.light_preset);
-    if (preset != nullptr && !preset->instrument)
-        look.exposure = exposure_for_stone(result.picture, look.share_over_white);
+    look.exposure = shown_exposure("", scene).value_or(
+        exposure_for_stone(result.picture, look.share_over_white));
     return png_uri(png_of(result.picture, look));
 }
 

@@ -38,9 +38,8 @@ const LightPreset* find_light_preset(std::string_view name);
 /// The lights of a preset; nothing for an unknown name. docs/gallery.md has pictures. Angles count
 /// from straight up (+z) unless noted.
 /// jeweller: a ring of light 12-40 degrees round the viewer's head, two windows, a dim room.
-/// photograph: how dealers photograph stones: a dark camera (0-20 degrees), a ring of light round
-/// it
-///   (25-45), dim walls, a window, and a table that the stone shades.
+/// photograph: how dealers photograph stones: a dark camera (0-20 degrees), a ring of light
+///   round it (25-45), dim walls, a window, and a table that the stone shades.
 /// daylight: an open sky that is brighter towards a hazy sun, the viewer's head, trees on the
 ///   horizon, dim ground.
 /// lightbox: a white tent: walls and a floor of paper, two lamps behind the walls, a black gap

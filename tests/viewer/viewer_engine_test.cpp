@@ -296,6 +296,11 @@ TEST(ViewerEngine, ReadsADroppedStoneAsTheProgramReadsItsFile) {
     EXPECT_EQ(own.at("item").at("command").get<std::string>().find(
                   "culet render ./-.obj --material diamond"),
               0u);
+    Stone unnamed = stone_of("round-brilliant", "diamond");
+    unnamed.material.id.clear();
+    Opened other(unnamed, k_jeweller);
+    EXPECT_EQ(other.call("stone", {{"name", "-.obj"}}, read_text(file)).at("item").at("command"),
+              "culet render ./-.obj --material MATERIAL.toml");
 }
 
 TEST(ViewerEngine, ListsEveryDensityOfTheCatalogue) {

@@ -21,17 +21,6 @@ namespace {
 
 constexpr const char* k_map_name = "environment.pfm";
 
-std::string render_command(const ViewSource& source) {
-    const std::string file = source.file.string();
-    std::string command = "culet render " + shell_word((file.starts_with('-') ? "./" : "") + file);
-    const StoneScene& choices = source.choices;
-    if (!choices.material.empty()) command += " --material " + shell_word(choices.material);
-    if (!choices.light.empty()) command += " --light " + shell_word(choices.light);
-    if (choices.width_mm) command += fmt::format(" --width {}", *choices.width_mm);
-    for (const std::string& key : source.overrides) command += " --set " + shell_word(key);
-    return command;
-}
-
 bool is_scene_file(const ViewSource& source) {
     return !source.cut && source.file.extension() == ".toml" &&
            read_toml(source.file).kind("stone") != TomlTable::Kind::table;
@@ -148,6 +137,17 @@ std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_
 }
 
 }  // namespace
+
+std::string render_command(const ViewSource& source) {
+    const std::string file = source.file.string();
+    std::string command = "culet render " + shell_word((file.starts_with('-') ? "./" : "") + file);
+    const StoneScene& choices = source.choices;
+    if (!choices.material.empty()) command += " --material " + shell_word(choices.material);
+    if (!choices.light.empty()) command += " --light " + shell_word(choices.light);
+    if (choices.width_mm) command += fmt::format(" --width {}", *choices.width_mm);
+    for (const std::string& key : source.overrides) command += " --set " + shell_word(key);
+    return command;
+}
 
 ViewItem item_of(const ViewSource& as_given, std::vector<std::string>& notes, Scene& scene) {
     scene = scene_of(as_given);

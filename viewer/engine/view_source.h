@@ -22,6 +22,9 @@ struct ViewSource {
     const Solid* catalogue = nullptr;  ///< the contents of `before`; null: read the file
 };
 
+/// The command that draws it. The file may be one that `choices.held` has.
+std::string render_command(const ViewSource& source);
+
 /// The item without its picture and the fit's facts. `scene` becomes what it shows, `notes`
 /// receives the notes from reading. Throws InputError.
 ViewItem item_of(const ViewSource& source, std::vector<std::string>& notes, Scene& scene);

@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "page/html.h"
 #include "render/gpu/gpu_program.h"
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
@@ -227,9 +226,10 @@ Json ViewerEngine::State::stone(const Json& arguments, std::string_view bytes) {
     std::vector<std::string> notes;
     ViewItem read = item_of(source, notes, scene);
     if (chosen.empty()) read.stones.back().stone.material = own;
-    if (material.empty())
-        read.command = fmt::format("culet render {} --material MATERIAL.toml",
-                                   shell_word(source.file.string()));
+    if (material.empty()) {
+        source.choices.material = "MATERIAL.toml";
+        read.command = render_command(source);
+    }
     read.name = source.file.filename().string();
     return {{"item", json_of(read)}};
 }
