@@ -45,6 +45,10 @@ void draw_ground(const Picture& picture, const PngLook& look, std::vector<float>
     }
 }
 
+bool draws_ground(const PngLook& look) {
+    return look.ground > 0 && !look.alpha;
+}
+
 }  // namespace
 
 std::vector<std::string> tone_map_names() {
@@ -70,9 +74,13 @@ float tone_mapped(float light, ToneMap map) {
     return static_cast<float>(std::clamp(mapped(static_cast<double>(light), map), 0.0, 1.0));
 }
 
+bool is_pointwise(const PngLook& look) {
+    return !(look.glare > 0 || look.sparkle > 0 || draws_ground(look));
+}
+
 std::vector<float> as_shown(const Picture& picture, const PngLook& look) {
     std::vector<float> rgb = picture.rgb;
-    if (look.ground > 0 && !look.alpha) draw_ground(picture, look, rgb);
+    if (draws_ground(look)) draw_ground(picture, look, rgb);
     std::transform(rgb.begin(), rgb.end(), rgb.begin(),
                    [&](float v) { return exposed(v, look.exposure); });
     const PictureSize size{picture.width, picture.height};

@@ -50,6 +50,8 @@ float exposed(float light, double exposure);
 /// 0 to 1; increases with the light for every map.
 float tone_mapped(float light, ToneMap map);
 
+/// Whether every value shown depends on its own light alone.
+bool is_pointwise(const PngLook& look);
 /// R, G and B in linear light, 0 to 1, after ground, exposure, glare, sparkle and tone map. NaN and
 /// negative values become 0.
 std::vector<float> as_shown(const Picture& picture, const PngLook& look);

@@ -87,7 +87,7 @@ std::vector<std::uint8_t> shown_bytes(const Picture& picture, const PngLook& loo
             for (std::size_t c = 0; c < 3; ++c) bytes[channels * i + c] = byte_at(3 * i + c);
         }
     };
-    if (look.glare > 0 || look.sparkle > 0 || (look.ground > 0 && !look.alpha)) {
+    if (!is_pointwise(look)) {
         const std::vector<float> shown = as_shown(picture, look);
         fill([&](std::size_t i) { return encoded(shown[i]); });
     } else {

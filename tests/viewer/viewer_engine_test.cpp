@@ -19,6 +19,7 @@
 #include "render/scene/light_presets.h"
 #include "render/scene/scene_io.h"
 #include "render/scene/stone_scene.h"
+#include "render/scene/transform.h"
 #include "stone/cuts/cuts.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
@@ -187,6 +188,45 @@ TEST(ViewerEngine, APolariscopeIsTheSameWhateverTheLightBefore) {
                                    camera.at(is_far ? "width" : "fov_deg").dump()));
         EXPECT_EQ(page.engine.pixels(), rendered(stone, "", keys));
     }
+}
+
+// Expectation: the polariscope of the turned view itself. The turned light is the same but for
+// rounding, and few beams decide by it.
+TEST(ViewerEngine, APolariscopeTurnsWithTheEye) {
+    const Stone stone = stone_of("round-brilliant", "zircon_high");
+    const std::vector<std::string> keys{"render.tolerance=0.2", "render.wavelengths=[450,540,610]"};
+    const Vec3 middle{0, 0, -1}, back{0, -0.6, 0.8}, up{0, 0.8, 0.6};
+    const std::string scene = fmt::format(
+        "light = {{ preset = \"polariscope\", polarizer = 20 }}\n"
+        "camera = {{ position = [0, {}, {}], look_at = [0, 0, -1], up = [0, 0.8, 0.6], "
+        "orthographic_width = 9 }}\n",
+        60 * back.y, 60 * back.z - 1);
+    Opened page(stone, scene);
+    page.call("set", {{"settings", keys}});
+    const glm::dmat3 turn = rotation_of({25, -40, 70});
+    Json view = of_size(120);
+    std::vector<double> rows;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) rows.push_back(turn[column][row]);
+    }
+    view["turn"] = rows;
+    const Vec3 position = middle + turn * (60.0 * back), turned_up = turn * up;
+    const auto list = [](const Vec3& v) { return Json{v.x, v.y, v.z}; };
+    view["camera"] = {{"position", list(position)},
+                      {"look_at", list(middle)},
+                      {"up", list(turned_up)},
+                      {"width", 9}};
+    page.call("draw", view);
+    std::vector<std::string> all = keys;
+    all.emplace_back("camera.size=[120,120]");
+    all.push_back("camera.position=" + list(position).dump());
+    all.push_back("camera.up=" + list(turned_up).dump());
+    const auto expected = rendered(stone, scene, all);
+    ASSERT_EQ(expected.size(), page.engine.pixels().size());
+    int apart = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        apart += std::abs(expected[i] - page.engine.pixels()[i]) > 1;
+    EXPECT_LE(apart, 0.001 * static_cast<double>(expected.size()));
 }
 
 // A quarter about z takes x to y: matrix rows and light.rotate agree.
