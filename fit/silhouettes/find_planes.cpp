@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "fit/silhouettes/missing_facets.h"
 #include "stone/numbers/units.h"
@@ -45,14 +44,15 @@ std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh, bool at_
     return kept;
 }
 
-// How far outlines that show a plane edge-on reach along its normal: the median, against dust and
-// cut-off outlines.
+}  // namespace
+
 std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& problem,
-                                  const PlaneFit& fit) {
+                                  const Viewpoints& from) {
     constexpr double k_edge_on = 0.05;
     std::vector<double> reaches;
-    for (const FlatContour& contour : problem.contours) {
-        const PlacedContour at = placed(contour, fit.motions[std::size_t(contour.set)]);
+    for (std::size_t c = 0; c < problem.contours.size(); ++c) {
+        const FlatContour& contour = problem.contours[c];
+        const PlacedContour at = from.placed(problem.contours, c);
         if (std::abs(glm::dot(normal, glm::cross(at.across, at.along))) > k_edge_on) continue;
         const double x = glm::dot(normal, at.across), y = glm::dot(normal, at.along);
         double most = -1e300;
@@ -65,6 +65,8 @@ std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& pro
     return upper_median(std::move(reaches));
 }
 
+namespace {
+
 // Restarts a mesh facet that slid off the body where the outlines end; the up facet where it cuts
 // off a little, if they extend beyond the body (a holder).
 void restart_lost_facets(const Stone& mesh, PlaneFitProblem& problem, FoundPlanes& found) {
@@ -75,7 +77,7 @@ void restart_lost_facets(const Stone& mesh, PlaneFitProblem& problem, FoundPlane
         const Vec3& normal = problem.start[p].normal;
         double support = -1e300;
         for (const Vec3& c : fit.body.corners) support = std::max(support, glm::dot(normal, c));
-        std::optional<double> offset = reach_along(normal, problem, fit);
+        std::optional<double> offset = reach_along(normal, problem, fit.from);
         if (!offset || *offset > support) offset.reset();
         const std::string& name = mesh.solid.facets[std::size_t(found.mesh_facet[p])].name;
         if (!offset && name == mesh.up_facet) offset = support - k_little * problem.width;
@@ -99,7 +101,7 @@ bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, st
 // Continues from the last round; the prior stays at the original start.
 void run_on(const PlaneFitProblem& problem, int steps, FoundPlanes& found) {
     PlaneFitProblem from_here = problem;
-    from_here.motions = found.fit.motions;
+    from_here.from = found.fit.from;
     found.fit = fit_planes(from_here, found.fit.planes, steps);
     if (!found.fit.body.closed) {
         throw InputError(
@@ -134,10 +136,11 @@ void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, FoundPlanes& 
 
 FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
     FoundPlanes found;
-    for (std::size_t f = 0; f < problem.start.size(); ++f) found.mesh_facet.push_back(int(f));
+    for (std::size_t f = 0; f < problem.start.size(); ++f)
+        found.mesh_facet.push_back(f < mesh.solid.facets.size() ? int(f) : -1);
     found.fit.planes = problem.start;
-    found.fit.motions = problem.motions;
-    problem.reach = k_reach * problem.width;
+    found.fit.from = problem.from;
+    problem.outliers.reach = k_reach * problem.width;
     run_on(problem, k_first_steps, found);
     for (int round = 0; round < k_rounds; ++round) {
         restart_lost_facets(mesh, problem, found);
@@ -154,7 +157,7 @@ FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem) {
         run_on(problem, k_round_steps, found);
         keep(kept_planes(found.fit, mesh_planes(found), false), problem, found);
     }
-    problem.reach = 0;
+    problem.outliers.reach = 0;
     restart_lost_facets(mesh, problem, found);
     // Every pass but the last drops planes.
     for (;;) {

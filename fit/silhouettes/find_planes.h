@@ -1,6 +1,7 @@
 #pragma once
 // Finds all planes that outlines show, the mesh's and further ones. Private to the room.
 
+#include <optional>
 #include <vector>
 
 #include "fit/silhouettes/plane_fit.h"
@@ -16,8 +17,14 @@ struct FoundPlanes {
 };
 std::size_t mesh_planes(const FoundPlanes& found);
 
+/// How far outlines that show a plane edge-on reach along its normal: the median, against dust and
+/// cut-off outlines. No value: none shows it.
+std::optional<double> reach_along(const Vec3& normal, const PlaneFitProblem& problem,
+                                  const Viewpoints& from);
+
 /// Fits the mesh's planes, then adds planes where the body extends beyond the outlines. `problem`
-/// starts with the mesh's facets and returns with the planes found. Throws InputError if they
+/// starts with the mesh's facets, or with planes of no mesh after them, and returns with the planes
+/// found. Throws InputError if they
 /// enclose nothing.
 FoundPlanes find_planes(const Stone& mesh, PlaneFitProblem& problem);
 

@@ -52,7 +52,7 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
         // Points far outside the body are dust, and no evidence against a cut beside them.
         const double w = contour.weights[i];
         if (edge < 0) continue;
-        if (!(inlier_weight(std::sqrt(w) * std::max(distance, 0.0), scale, problem.reach) > 0)) {
+        if (!(inlier_weight(std::sqrt(w) * std::max(distance, 0.0), scale, problem.outliers) > 0)) {
             continue;
         }
         const auto k = std::size_t(edge);
@@ -88,7 +88,7 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
     const FlatContour& contour = problem.contours[c];
     const ProjectedOutline& outline = fit.distances.outlines[c];
     const double scale = fit.scales[std::size_t(contour.set)];
-    const PlacedContour at = placed(contour, fit.motions[std::size_t(contour.set)]);
+    const PlacedContour at = fit.from.placed(problem.contours, c);
     const std::vector<EdgePlaces> places = places_of(problem, fit, c, at, scale);
     const std::size_t count = outline.edges.size();
     const auto normal = [&](const ProjectedOutline::Edge& e) {

@@ -8,18 +8,27 @@ namespace culet {
 
 PlacedContour placed(const FlatContour& contour, const FrameMotion& motion) {
     const Vec3 across = motion.turned(contour.across), along = motion.turned(contour.along);
-    return {across, along, glm::dot(motion.shift, across), glm::dot(motion.shift, along)};
+    return {across, along, glm::dot(motion.shift, across), glm::dot(motion.shift, along), {}};
+}
+
+PlacedContour Viewpoints::placed(std::span<const FlatContour> contours, std::size_t contour) const {
+    if (series.turns.empty()) {
+        return culet::placed(contours[contour], motions[std::size_t(contours[contour].set)]);
+    }
+    const PictureAxes axes = picture_axes(series.camera, series.turns[contour]);
+    return {axes.across, axes.along, -axes.dx, -axes.dy, axes.nearing};
 }
 
 OutlineDistances outline_distances(std::span<const Vec3> corners,
-                                   std::span<const FlatContour> contours,
-                                   std::span<const FrameMotion> motions) {
+                                   std::span<const FlatContour> contours, const Viewpoints& from) {
     OutlineDistances all;
     all.outlines.reserve(contours.size());
     all.nearest.reserve(contours.size());
-    for (const FlatContour& contour : contours) {
-        const PlacedContour place = placed(contour, motions[std::size_t(contour.set)]);
-        ProjectedOutline outline = projected_outline(corners, place.across, place.along);
+    for (std::size_t c = 0; c < contours.size(); ++c) {
+        const FlatContour& contour = contours[c];
+        const PlacedContour place = from.placed(contours, c);
+        ProjectedOutline outline =
+            projected_outline(corners, place.across, place.along, place.nearing);
         std::vector<ProjectedOutline::Nearest> nearest;
         nearest.reserve(contour.points.size());
         for (const auto& [x, y] : contour.points) {
@@ -48,12 +57,11 @@ double robust_scale(const OutlineDistances& distances, std::span<const FlatConto
     return 1.4826 * *middle;
 }
 
-double inlier_weight(double distance, double scale, double reach) {
-    const double size = std::abs(distance);
-    if (size <= k_sure * scale) return 1;
-    if (reach > k_outlier * scale) return size > reach ? 0 : k_sure * scale / size;
-    return size >= k_outlier * scale ? 0
-                                     : (k_outlier * scale - size) / ((k_outlier - k_sure) * scale);
+double inlier_weight(double distance, double scale, const OutlierRule& rule) {
+    const double size = std::abs(distance), sure = rule.sure * scale, outlier = 1.75 * sure;
+    if (size <= sure) return 1;
+    if (rule.reach > outlier) return size > rule.reach ? 0 : sure / size;
+    return size >= outlier ? 0 : (outlier - size) / (outlier - sure);
 }
 
 SilhouetteMisfit misfit_of(const OutlineDistances& distances, std::span<const FlatContour> contours,

@@ -23,7 +23,7 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
                     int most_steps) {
     const PlaneSolver solver(problem);
     PlaneFit result;
-    PlaneState state{planes, problem.motions, {}, {}};
+    PlaneState state{planes, problem.from, {}, {}};
     if (solver.look(state)) {
         double damping = k_first_damping;
         int quiet = 0;
@@ -61,7 +61,7 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
         result.scales = solver.scales(state);
     }
     result.planes = std::move(state.planes);
-    result.motions = std::move(state.motions);
+    result.from = std::move(state.from);
     result.body = std::move(state.body);
     result.distances = std::move(state.distances);
     return result;
@@ -69,11 +69,11 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
 
 PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFit& fit) {
     const PlaneSolver solver(problem);
-    const PlaneState state{fit.planes, fit.motions, fit.body, fit.distances};
+    const PlaneState state{fit.planes, fit.from, fit.body, fit.distances};
     const auto weights = solver.weights(state, fit.scales);
     const std::vector<double>& scales = fit.scales;
     PlaneInformation information;
-    const std::size_t sets = problem.motions.size();
+    const std::size_t sets = fit.scales.size();
     std::vector<double> squares(sets, 0), count(sets, 0);
     for (std::size_t c = 0; c < weights.size(); ++c) {
         const auto set = std::size_t(problem.contours[c].set);
@@ -88,16 +88,16 @@ PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFi
     for (const double n : count) all += n;
     int present = 0;
     for (const bool p : fit.body.present) present += p;
-    int motions = 0;
-    for (const bool f : problem.is_free) motions += f ? 6 : 0;
-    const double parameters = 3.0 * present + motions;
+    const double parameters = 3.0 * present + solver.motions();
     for (std::size_t s = 0; s < sets; ++s) {
         const double own = all > 0 ? parameters * count[s] / all : 0;
         const double dof = std::max(1.0, count[s] - own);
         const bool is_stated = problem.stated_sigmas[s] > 0;
-        information.sigmas.push_back(is_stated
-                                         ? problem.stated_sigmas[s]
-                                         : std::max(std::sqrt(squares[s] / dof), 1e-6 * scales[s]));
+        // A rule that leaves out more than outliers makes the rest look too good.
+        const double least = problem.outliers.sure < k_sure ? 1 : 1e-6;
+        information.sigmas.push_back(
+            is_stated ? problem.stated_sigmas[s]
+                      : std::max(std::sqrt(squares[s] / dof), least * scales[s]));
         if (!is_stated) continue;
         information.chi2 += squares[s] / std::pow(problem.stated_sigmas[s], 2);
         information.chi2_dof += count[s] - own;
@@ -111,6 +111,11 @@ PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFi
         const Eigen::MatrixXd mixed = whole.bottomLeftCorner(rest, planes);
         information.matrix -= transpose_times(
             mixed, PivotedCholesky(whole.bottomRightCorner(rest, rest)).solve(mixed));
+    }
+    const auto turns = Eigen::Index(fit.from.series.turns.size());
+    if (turns > 0) {
+        const Eigen::VectorXd variances = PivotedCholesky(whole).inverse().diagonal().tail(turns);
+        for (const double v : variances) information.turn_sigmas.push_back(std::sqrt(v));
     }
     return information;
 }

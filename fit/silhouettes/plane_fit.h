@@ -17,18 +17,19 @@ namespace culet {
 
 struct PlaneFitProblem {
     std::vector<FlatContour> contours;
-    std::vector<FrameMotion> motions;   ///< of the sets, to the frame of the planes
+    Viewpoints from;                    ///< where the fit starts
     std::vector<bool> is_free;          ///< of the sets: the motion is unknown
     std::vector<double> stated_sigmas;  ///< of the sets; 0: estimated
     std::vector<Plane> start;           ///< planes are held to these with a weak prior
     std::vector<double> start_tilts;    ///< sigma of that prior; radians
     double width = 1;                   ///< of the stone
-    double reach = 0;                   ///< as in `inlier_weight`
+    OutlierRule outliers;
+    ExpectedSeries expected;  ///< of a turntable
 };
 
 struct PlaneFit {
     std::vector<Plane> planes;
-    std::vector<FrameMotion> motions;
+    Viewpoints from;
     PlaneBody body;
     OutlineDistances distances;
     std::vector<double> scales;  ///< robust_scale of each set
@@ -47,7 +48,8 @@ struct PlaneInformation {
     /// Two tilts along `tilts_of(normal)` and an offset for each plane: J' J / sigma^2 plus the
     /// start's information, with the free sets' motions eliminated (Schur complement).
     Eigen::MatrixXd matrix;
-    double chi2 = 0;  ///< of sets with a stated sigma
+    std::vector<double> turn_sigmas;  ///< of a turntable's turns; radians
+    double chi2 = 0;                  ///< of sets with a stated sigma
     double chi2_dof = 0;
 };
 PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFit& fit);

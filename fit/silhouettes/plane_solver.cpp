@@ -4,9 +4,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/silhouettes/turning_slopes.h"
+
 namespace culet {
 
 namespace {
+
+using Slopes = PlaneSolver::Slopes;
+
+constexpr int k_camera = 4;  // unknowns
 
 // Sigma of a plane's offset about its start. It holds planes that no outline shows, and is too weak
 // to matter beside an outline's point.
@@ -29,17 +35,6 @@ FrameMotion turned_and_shifted(const FrameMotion& m, const Vec3& turn, const Vec
     next.shift += shift;
     return next;
 }
-
-// Derivatives of one distance, by the few unknowns that matter.
-struct Slopes {
-    std::array<int, 24> column{};
-    std::array<double, 24> slope{};
-    int count = 0;
-    void add(int c, double s) {
-        column[std::size_t(count)] = c;
-        slope[std::size_t(count++)] = s;
-    }
-};
 
 // Derivatives of a corner's coordinate along a direction.
 Slopes slopes_of_corner(const std::vector<Plane>& planes, const PlaneBody& body, int corner,
@@ -91,18 +86,23 @@ PlaneSolver::PlaneSolver(const PlaneFitProblem& problem)
         column_of_set_.push_back(is_free ? size_ : -1);
         if (is_free) size_ += 6;
     }
+    const std::size_t turns = problem.from.series.turns.size();
+    if (turns > 0) {
+        camera_column_ = size_;
+        size_ += k_camera + int(turns);
+    }
 }
 
 bool PlaneSolver::look(PlaneState& state) const {
     state.body = enclosed_body(state.planes);
     if (!state.body.closed) return false;
-    state.distances = outline_distances(state.body.corners, problem_.contours, state.motions);
+    state.distances = outline_distances(state.body.corners, problem_.contours, state.from);
     return true;
 }
 
 std::vector<double> PlaneSolver::scales(const PlaneState& state) const {
     std::vector<double> all;
-    for (std::size_t s = 0; s < state.motions.size(); ++s) {
+    for (std::size_t s = 0; s < problem_.stated_sigmas.size(); ++s) {
         all.push_back(std::max(robust_scale(state.distances, problem_.contours, int(s)),
                                1e-9 * problem_.width));
     }
@@ -118,7 +118,7 @@ PlaneSolver::Weights PlaneSolver::weights(const PlaneState& state,
         for (std::size_t i = 0; i < contour.points.size(); ++i) {
             const double w = contour.weights[i];
             mine.push_back(w * inlier_weight(std::sqrt(w) * state.distances.nearest[c][i].distance,
-                                             scales[std::size_t(contour.set)], problem_.reach));
+                                             scales[std::size_t(contour.set)], problem_.outliers));
         }
     }
     return all;
@@ -140,15 +140,53 @@ double PlaneSolver::cost(const PlaneState& state, const Weights& weights,
         sum += glm::dot(tilt, tilt) / std::pow(problem_.start_tilts[p], 2) +
                std::pow((mine.offset - its.offset) / (k_start_offset * problem_.width), 2);
     }
+    const std::vector<double>& turns = state.from.series.turns;
+    for (std::size_t c = 0; c < turns.size(); ++c)
+        sum += std::pow((turns[c] - problem_.expected.turns[c]) / problem_.expected.turn_sigma, 2);
+    for (std::size_t i = 0; i < std::size_t(k_camera) && camera_column_ >= 0; ++i) {
+        const double sigma = problem_.expected.sigmas[i];
+        const double off =
+            state.from.series.camera.values()[i] - problem_.expected.camera.values()[i];
+        if (sigma > 0) sum += std::pow(off / sigma, 2);
+    }
     return sum;
+}
+
+// The distance is the point's height over the edge: it shrinks as the edge moves out.
+Slopes PlaneSolver::slopes_in_set(const PlaneState& state, const PlacedContour& place, int set,
+                                  const ProjectedOutline::Edge& e, int corner) const {
+    const Vec3 n = e.nx * place.across + e.ny * place.along;
+    Slopes s = slopes_of_corner(state.planes, state.body, corner, -n);
+    const int column = column_of_set_[std::size_t(set)];
+    if (column < 0) return s;
+    const Vec3& shift = state.from.motions[std::size_t(set)].shift;
+    const Vec3 turn = -glm::cross(n, state.body.corners[std::size_t(corner)] - shift);
+    for (int i = 0; i < 3; ++i) {
+        s.add(column + i, n[i]);
+        s.add(column + 3 + i, turn[i]);
+    }
+    return s;
+}
+
+Slopes PlaneSolver::slopes_in_series(const PlaneState& state, std::size_t c,
+                                     const ProjectedOutline::Edge& e, int corner) const {
+    const TurningSeries& series = state.from.series;
+    const PictureSlopes by = picture_slopes(series.camera, series.turns[c], e.nx, e.ny,
+                                            state.body.corners[std::size_t(corner)]);
+    Slopes s = slopes_of_corner(state.planes, state.body, corner, -by.by_place);
+    s.add(camera_column_, -by.by_axis);
+    s.add(camera_column_ + 1, -by.by_roll);
+    s.add(camera_column_ + 2, -by.by_elevation);
+    s.add(camera_column_ + 3, -by.by_perspective);
+    s.add(camera_column_ + k_camera + int(c), -by.by_turn);
+    return s;
 }
 
 void PlaneSolver::add_contour(const PlaneState& state, std::size_t c,
                               const std::vector<double>& weights, double sigma,
                               PlaneSolver::Equations& to) const {
     const FlatContour& contour = problem_.contours[c];
-    const FrameMotion& motion = state.motions[std::size_t(contour.set)];
-    const PlacedContour place = placed(contour, motion);
+    const PlacedContour place = state.from.placed(problem_.contours, c);
     const ProjectedOutline& outline = state.distances.outlines[c];
     std::vector<EdgeSums> sums(outline.edges.size());
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
@@ -165,24 +203,13 @@ void PlaneSolver::add_contour(const PlaneState& state, std::size_t c,
         sum.begin += w * (1 - t) * distance;
         sum.end += w * t * distance;
     }
-    const int set_column = column_of_set_[std::size_t(contour.set)];
     for (std::size_t k = 0; k < sums.size(); ++k) {
         const EdgeSums& sum = sums[k];
         if (sum.begin_begin == 0 && sum.end_end == 0) continue;
         const ProjectedOutline::Edge& e = outline.edges[k];
-        const Vec3 n = e.nx * place.across + e.ny * place.along;
-        // The distance is the point's height over the edge: it shrinks as the edge moves out.
         const auto end_slopes = [&](int corner) {
-            Slopes s = slopes_of_corner(state.planes, state.body, corner, -n);
-            if (set_column >= 0) {
-                const Vec3 turn =
-                    -glm::cross(n, state.body.corners[std::size_t(corner)] - motion.shift);
-                for (int i = 0; i < 3; ++i) {
-                    s.add(set_column + i, n[i]);
-                    s.add(set_column + 3 + i, turn[i]);
-                }
-            }
-            return s;
+            return camera_column_ < 0 ? slopes_in_set(state, place, contour.set, e, corner)
+                                      : slopes_in_series(state, c, e, corner);
         };
         const Slopes begin = end_slopes(e.from), end = end_slopes(e.to);
         add_products(to.matrix, begin, begin, sum.begin_begin);
@@ -217,6 +244,23 @@ PlaneSolver::Equations PlaneSolver::equations(const PlaneState& state, const Wei
         all.matrix(3 * p + 2, 3 * p + 2) += offset;
         all.gradient(3 * p + 2) += offset * (mine.offset - its.offset);
     }
+    const std::vector<double>& turns = state.from.series.turns;
+    for (std::size_t c = 0; c < turns.size(); ++c) {
+        const int at = camera_column_ + k_camera + int(c);
+        const double information = 1 / std::pow(problem_.expected.turn_sigma, 2);
+        all.matrix(at, at) += information;
+        all.gradient(at) += information * (turns[c] - problem_.expected.turns[c]);
+    }
+    for (int i = 0; i < k_camera && camera_column_ >= 0; ++i) {
+        const auto k = std::size_t(i);
+        const double sigma = problem_.expected.sigmas[k];
+        if (!(sigma > 0)) continue;
+        const int at = camera_column_ + i;
+        all.matrix(at, at) += 1 / (sigma * sigma);
+        all.gradient(at) +=
+            (state.from.series.camera.values()[k] - problem_.expected.camera.values()[k]) /
+            (sigma * sigma);
+    }
     return all;
 }
 
@@ -229,13 +273,22 @@ PlaneState PlaneSolver::moved(const PlaneState& state, const Eigen::VectorXd& st
         plane.normal = glm::normalize(plane.normal + step(3 * p) * t + step(3 * p + 1) * u);
         plane.offset += step(3 * p + 2);
     }
-    next.motions = state.motions;
-    for (std::size_t s = 0; s < next.motions.size(); ++s) {
+    next.from = state.from;
+    for (std::size_t s = 0; s < column_of_set_.size(); ++s) {
         const int at = column_of_set_[s];
         if (at < 0) continue;
-        next.motions[s] =
-            turned_and_shifted(next.motions[s], {step(at + 3), step(at + 4), step(at + 5)},
+        next.from.motions[s] =
+            turned_and_shifted(next.from.motions[s], {step(at + 3), step(at + 4), step(at + 5)},
                                {step(at), step(at + 1), step(at + 2)});
+    }
+    if (camera_column_ >= 0) {
+        TurningCamera& camera = next.from.series.camera;
+        camera.axis += step(camera_column_);
+        camera.roll += step(camera_column_ + 1);
+        camera.elevation += step(camera_column_ + 2);
+        camera.perspective += step(camera_column_ + 3);
+        for (std::size_t c = 0; c < next.from.series.turns.size(); ++c)
+            next.from.series.turns[c] += step(camera_column_ + k_camera + int(c));
     }
     return next;
 }

@@ -36,10 +36,11 @@ FlatContour flattened(const Contour& contour, int set) {
 }
 
 ProjectedOutline projected_outline(std::span<const Vec3> corners, const Vec3& across,
-                                   const Vec3& along) {
+                                   const Vec3& along, const Vec3& nearing) {
     std::vector<FlatCorner> flat(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        flat[i] = {glm::dot(corners[i], across), glm::dot(corners[i], along), int(i)};
+        const double near = 1 - glm::dot(corners[i], nearing);
+        flat[i] = {glm::dot(corners[i], across) / near, glm::dot(corners[i], along) / near, int(i)};
     }
     std::sort(flat.begin(), flat.end(), [](const FlatCorner& a, const FlatCorner& b) {
         return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.corner < b.corner;

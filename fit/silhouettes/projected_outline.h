@@ -42,8 +42,9 @@ struct ProjectedOutline {
     double part_of(const Edge& edge, double x, double y) const;
 };
 
-/// Convex hull of the corners projected on across and along: Andrew's monotone chain (1979).
+/// Convex hull of the corners projected on across and along, and divided by 1 - nearing . corner
+/// (perspective): Andrew's monotone chain (1979).
 ProjectedOutline projected_outline(std::span<const Vec3> corners, const Vec3& across,
-                                   const Vec3& along);
+                                   const Vec3& along, const Vec3& nearing = {0, 0, 0});
 
 }  // namespace culet

@@ -87,9 +87,7 @@ public:
 private:
     void look(const Similarity& at) {
         placed_ = placed_corners(corners_, at);
-        const FrameMotion same;
-        std::vector<FrameMotion> motions(1, same);
-        distances_ = outline_distances(placed_, contours_, motions);
+        distances_ = outline_distances(placed_, contours_, {std::vector<FrameMotion>(1), {}});
         scale_ = robust_scale(distances_, contours_, 0);
     }
 

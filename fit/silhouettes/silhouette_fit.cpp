@@ -174,7 +174,7 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets) {
     observations->chi2 = information.chi2;
     observations->dof = information.chi2_dof;
     for (std::size_t s = 0; s < sets.size(); ++s) {
-        observations->motions.push_back(product(back, found.fit.motions[s]));
+        observations->motions.push_back(product(back, found.fit.from.motions[s]));
         observations->sigmas.push_back(information.sigmas[s]);
         observations->estimated.push_back(!(start.problem.stated_sigmas[s] > 0));
     }
@@ -190,8 +190,7 @@ SilhouetteMisfit silhouette_misfit(const Solid& solid, const std::vector<Contour
     const Similarity at = registered(solid.vertices, flattened(fitted, 0), start, {});
     const std::vector<Vec3> corners = placed_corners(solid.vertices, at);
     const std::vector<FlatContour> flat = flattened(contours, 0);
-    const std::vector<FrameMotion> same(1);
-    return misfit_of(outline_distances(corners, flat, same), flat, 0);
+    return misfit_of(outline_distances(corners, flat, {std::vector<FrameMotion>(1), {}}), flat, 0);
 }
 
 }  // namespace culet

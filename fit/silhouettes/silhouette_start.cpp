@@ -71,7 +71,7 @@ SilhouetteStart silhouette_start(const Stone& mesh,
             std::vector<FlatContour> alone = flattened(sets[s]->contours, 0);
             motion = inverse(found_registration(placed, up, alone).motion);
         }
-        problem.motions.push_back(motion);
+        problem.from.motions.push_back(motion);
         problem.is_free.push_back(is_own);
         problem.stated_sigmas.push_back(0);
         if (sets[s]->has_sigma() && !sets[s]->contours.empty()) {

@@ -9,6 +9,7 @@
 #include "fit/silhouettes/plane_solver.h"
 #include "fit/silhouettes/silhouette_fit.h"
 #include "fit/silhouettes/silhouette_start.h"
+#include "fit/silhouettes/turning_fit.h"
 #include "stone/cuts/cuts.h"
 #include "tests/fit/test_stones.h"
 #include "tests/fit/turntable_outlines.h"
@@ -32,22 +33,33 @@ TEST(ProjectedOutline, OfACubeAlongADiagonalIsARectangle) {
     EXPECT_NEAR(outline.nearest(2, 0.5).distance, 2 - std::numbers::sqrt2, 1e-12);
 }
 
+// The same of a turntable: each contour's own turn, and the camera.
+PlaneFitProblem turning_problem(const Solid& truth) {
+    PlaneFitProblem problem;
+    problem.from.series.camera = {0.1, 0.02, 0.7, 0.02};
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> error(0, 0.002);
+    for (int k = 0; k < 6; ++k) {
+        problem.from.series.turns.push_back(k);
+        FlatContour& contour = problem.contours.emplace_back();
+        for (const glm::dvec2& p :
+             outline_in_picture(truth.vertices, {0.1, 0.021, 0.702, 0.021}, k + 0.001))
+            contour.points.push_back({p.x + error(random), p.y + error(random)});
+        contour.weights.assign(contour.points.size(), 1);
+    }
+    problem.expected = {{0.11, 0.02, 0.71, 0.02}, {0, 0, 0.1, 0.05}, {0, 1.01, 2, 3, 4, 5}, 0.1};
+    return problem;
+}
+
 // The analytic gradient of half the cost against central differences: with a step of 1e-6 the
 // quadratic error is about 1e-6 times a curvature of order one. There is no derivative at kinks,
 // where a corner leaves the outline within the step; few of the unknowns hit one.
-TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
-    const Solid truth = off_standard(test::brilliant(), 0.3, 0.01, 3);
-    SilhouetteSet set = turntable_outlines(truth, {.views = 6, .points = 60, .sigma = 0.002});
-    PlaneFitProblem problem;
-    for (const Contour& c : set.contours) problem.contours.push_back(flattened(c, 0));
-    problem.motions.resize(1);
-    problem.motions[0].shift = {0.01, -0.02, 0.03};
-    problem.is_free = {true};
+void expect_gradient(const Solid& truth, PlaneFitProblem problem) {
     problem.stated_sigmas = {0};
     problem.start_tilts.assign(truth.facets.size(), 0.03);
     for (const Facet& f : truth.facets) problem.start.push_back(f.plane);
     const PlaneSolver solver(problem);
-    PlaneState state{problem.start, problem.motions, {}, {}};
+    PlaneState state{problem.start, problem.from, {}, {}};
     ASSERT_TRUE(solver.look(state));
     const std::vector<double> sigmas{0.01};
     const PlaneSolver::Weights weights = solver.weights(state, {1});
@@ -72,6 +84,18 @@ TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
     }
     EXPECT_GT(seen, 60 / k_stride);
     EXPECT_LT(other, 0.05 * alike);
+}
+
+TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
+    const Solid truth = off_standard(test::brilliant(), 0.3, 0.01, 3);
+    SilhouetteSet set = turntable_outlines(truth, {.views = 6, .points = 60, .sigma = 0.002});
+    PlaneFitProblem problem;
+    for (const Contour& c : set.contours) problem.contours.push_back(flattened(c, 0));
+    problem.from.motions.resize(1);
+    problem.from.motions[0].shift = {0.01, -0.02, 0.03};
+    problem.is_free = {true};
+    expect_gradient(truth, problem);
+    expect_gradient(truth, turning_problem(truth));
 }
 
 // A step cut with facets far off the design, and few and rough outlines: added facets become too
