@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
     add_command_compare(program, exit_code);
     add_command_photo(program, exit_code);
     add_command_outline(program, exit_code);
+    add_command_spin(program, exit_code);
     add_command_refine(program, exit_code);
     add_command_light(program, exit_code);
     add_command_camera(program, exit_code);

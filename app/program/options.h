@@ -46,6 +46,7 @@ void add_command_compare(CLI::App& program, int& exit_code);
 void add_command_refine(CLI::App& program, int& exit_code);
 void add_command_camera(CLI::App& program, int& exit_code);
 void add_command_outline(CLI::App& program, int& exit_code);
+void add_command_spin(CLI::App& program, int& exit_code);
 void add_command_photo(CLI::App& program, int& exit_code);
 void add_command_light(CLI::App& program, int& exit_code);
 void add_command_cut(CLI::App& program, int& exit_code);

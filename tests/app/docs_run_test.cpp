@@ -37,7 +37,8 @@ const std::vector<Small> k_small = {
 };
 
 // Other tests run these, on files that take minutes to make.
-const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline", "culet compare"};
+const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline", "culet compare",
+                                              "culet spin"};
 
 // The commands of a page's code blocks, fenced or indented: lines that begin with culet, with their
 // continuations. A line with a word in brackets is a summary of options.

@@ -1,0 +1,235 @@
+// culet spin FRAME... -o STONE.obj: a stone from photographs of it on a turntable.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/program/options.h"
+#include "app/program/terminal.h"
+#include "compare/photo/photo.h"
+#include "compare/turntable/turntable.h"
+#include "refine/spin/spin.h"
+#include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
+#include "stone/stone.h"
+#include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+
+namespace culet {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct SpinArguments {
+    CommonOptions common;
+    std::vector<std::string> frames, held_out;
+    std::string output, json;
+    double step_deg = 0, width_mm = 0;
+};
+
+// All frames as the stone turned. Those that are held out may be among the others; if not, all are
+// put in the order of the numbers in their names.
+std::vector<std::string> names_of(const SpinArguments& a) {
+    std::vector<std::string> names = a.frames;
+    std::set<std::string> known;
+    for (const std::string& name : names) {
+        if (!known.insert(name).second) throw InputError(name, "is given twice");
+    }
+    bool is_new = false;
+    for (const std::string& name : a.held_out) {
+        if (!known.insert(name).second) continue;
+        names.push_back(name);
+        is_new = true;
+    }
+    if (!is_new) return names;
+    std::vector<std::string> bare, sorted;
+    for (const std::string& name : names) bare.push_back(fs::path(name).filename().string());
+    for (const std::size_t i : order_of_numbers(bare)) sorted.push_back(names[i]);
+    return sorted;
+}
+
+std::vector<SpinFrame> frames_of(const SpinArguments& a) {
+    const std::set<std::string> held_out(a.held_out.begin(), a.held_out.end());
+    const Progress progress = progress_line("reading frames", a.common.quiet);
+    std::vector<SpinFrame> frames;
+    std::set<std::string> told;
+    const std::vector<std::string> names = names_of(a);
+    for (const std::string& name : names) {
+        if (progress && !progress(double(frames.size()) / double(names.size())))
+            throw Interrupted();
+        const Photo photo = read_photo(name);
+        if (!frames.empty() &&
+            (photo.width != frames[0].picture.width || photo.height != frames[0].picture.height))
+            throw InputError(fs::path(name),
+                             fmt::format("has {} x {} pixels, {} has {} x {}: the camera must "
+                                         "stand still",
+                                         photo.width, photo.height, frames[0].name,
+                                         frames[0].picture.width, frames[0].picture.height));
+        frames.push_back({name, levels_of(photo), held_out.count(name) > 0});
+    }
+    return frames;
+}
+
+Json frame_json(const SpinFrame& frame, const SpinFrameResult& found, double px_mm) {
+    Json json{{"file", frame.name}, {"used", found.used}, {"held_out", frame.held_out}};
+    if (!found.trouble.empty()) json["trouble"] = found.trouble;
+    if (!found.turn) return json;
+    json["angle_deg"] = degrees(*found.turn);
+    json["sigma_deg"] = degrees(found.turn_sigma);
+    json["outline_rms_px"] = found.rms_px;
+    json["outline_median_px"] = found.median_px;
+    Json rows = Json::array();
+    for (const auto& row : found.projection)
+        rows.push_back({row[0] / px_mm, row[1] / px_mm, row[2] / px_mm, row[3]});
+    json["projection"] = std::move(rows);
+    return json;
+}
+
+Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
+               const SpinResult& found, double px_mm) {
+    Json json{{"schema", 1}, {"unit", a.width_mm > 0 ? "mm" : "px"}, {"frames", Json::array()}};
+    for (std::size_t f = 0; f < frames.size(); ++f)
+        json["frames"].push_back(frame_json(frames[f], found.frames[f], px_mm));
+    json["camera"] = {{"elevation_deg", degrees(found.camera.elevation)},
+                      {"roll_deg", degrees(found.camera.roll)},
+                      {"axis_px", found.camera.axis},
+                      {"perspective", found.camera.perspective * found.width_px}};
+    json["proportions"] = {
+        {"width", {{"value", found.width_px * px_mm}, {"read", found.width_seen}}},
+        {"length_to_width",
+         {{"value", found.length_px / found.width_px},
+          {"read", found.width_seen && found.length_seen}}}};
+    const Halves& halves = found.halves;
+    json["halves"] = {{"facets", halves.facets},
+                      {"facet_deg", degrees(halves.tilt)},
+                      {"sigmas_times", halves.factor},
+                      {"width_pct", 100 * halves.width},
+                      {"length_to_width_pct", 100 * halves.length_to_width},
+                      {"elevation_deg", degrees(halves.elevation)}};
+    json["ground_agreement"] = found.ground_agreement;
+    json["tangent_rms_px"] = found.tangent_px;
+    json["scatter_px"] = found.scatter_px;
+    if (!found.trouble.empty()) json["trouble"] = found.trouble;
+    json["unseen"] = Json::array();
+    for (const int f : found.unseen)
+        json["unseen"].push_back(found.solid.facets[std::size_t(f)].name);
+    json["facets"] = Json::array();
+    for (std::size_t f = 0; f < found.solid.facets.size(); ++f) {
+        const Facet& facet = found.solid.facets[f];
+        const Vec3& n = facet.plane.normal;
+        json["facets"].push_back({{"name", facet.name},
+                                  {"normal", {n.x, n.y, n.z}},
+                                  {"offset", facet.plane.offset * px_mm},
+                                  {"area", area(found.solid, facet) * px_mm * px_mm},
+                                  {"sigma_deg", degrees(found.tilt_sigmas[f])}});
+    }
+    return json;
+}
+
+Solid scaled(Solid solid, double scale) {
+    for (Vec3& v : solid.vertices) v *= scale;
+    for (Facet& f : solid.facets) f.plane.offset *= scale;
+    return solid;
+}
+
+void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
+                const SpinResult& found) {
+    std::vector<double> own, left_out;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        const SpinFrameResult& frame = found.frames[f];
+        if (!frame.trouble.empty())
+            say(fmt::format("{}: not used: {}", frames[f].name, frame.trouble), a.common.quiet);
+        else
+            (frame.used ? own : left_out).push_back(frame.median_px);
+    }
+    say(fmt::format("{} facets from {} frames; camera {:.2f} degrees above the turntable; half "
+                    "of the edges lie within {:.2f} px of the stone's outlines{}",
+                    found.solid.facets.size(), own.size(), degrees(found.camera.elevation),
+                    upper_median(own),
+                    left_out.empty() ? ""
+                                     : fmt::format(", in the {} frames left out within {:.2f} px",
+                                                   left_out.size(), upper_median(left_out))),
+        a.common.quiet);
+    say(fmt::format("the stone is {:.1f} px wide{}", found.width_px,
+                    a.width_mm > 0 ? "" : "; --width MM gives its lengths in mm"),
+        a.common.quiet);
+    if (!found.unseen.empty())
+        say(fmt::format("no frame shows {} of the facets edge-on: they close the stone, and their "
+                        "tilt is a guess (\"unseen\" in --json)",
+                        found.unseen.size()),
+            a.common.quiet);
+    if (!found.width_seen)
+        say("such facets bound the width: the scale is not to be trusted", a.common.quiet);
+    if (!found.trouble.empty())
+        say(fmt::format("do not use it: {}. {}.", found.trouble, found.remedy), a.common.quiet);
+}
+
+int run_spin(const SpinArguments& a) {
+    require_solid_name(a.output);
+    require_writable(a.output);
+    require_writable(a.json);
+    const std::vector<SpinFrame> frames = frames_of(a);
+    SpinOptions options;
+    options.step = radians(a.step_deg);
+    options.threads = a.common.threads;
+    const SpinResult found =
+        spin(frames, options, progress_line("finding the stone", a.common.quiet));
+    const double px_mm = a.width_mm > 0 ? a.width_mm / found.width_px : 1;
+    const std::string json = spin_json(a, frames, found, px_mm).dump(2) + "\n";
+    write_solid(scaled(found.solid, px_mm), a.output);
+    if (!a.json.empty()) write_text(a.json, json);
+    say_result(a, frames, found);
+    return found.trouble.empty() ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
+void add_command_spin(CLI::App& program, int& exit_code) {
+    auto arguments = std::make_shared<SpinArguments>();
+    SpinArguments& a = *arguments;
+    CLI::App* command = program.add_subcommand(
+        "spin", "a stone from photographs of it on a turntable, in any light");
+    command->add_option("FRAME", a.frames, "photographs of one turn, in the order of turning")
+        ->required()
+        ->expected(1, 100000)
+        ->type_name("FRAME...");
+    command->add_option("-o,--output", a.output, "the stone (.obj .off .ply .stl)")
+        ->required()
+        ->type_name("STONE");
+    command
+        ->add_option("--step", a.step_deg,
+                     "degrees from one frame to the next, either way (default: one turn in all)")
+        ->check(CLI::Range(0.01, 120.0))
+        ->type_name("DEG");
+    command
+        ->add_option("--width", a.width_mm,
+                     "the stone's least width across its table, as calipers find it (default: "
+                     "lengths in pixels)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("MM");
+    command
+        ->add_option("--hold-out", a.held_out,
+                     "frames of which only the turn is found, to check the stone by")
+        ->type_name("FRAME...");
+    command
+        ->add_option("--json", a.json,
+                     "turn and projection of each frame, the camera, the facets; - is stdout")
+        ->type_name("FILE");
+    add_common(*command, a.common, false);
+    command->footer(
+        "Examples:\n"
+        "  culet spin turn-*.jpg -o stone.obj --json spin.json\n"
+        "  culet spin f0*.jpg --hold-out f010.jpg f020.jpg --width 6.98 -o stone.obj\n"
+        "Exit codes: 0 found; 1 found, not to be trusted; 2 could not be done.");
+    command->callback([arguments, &exit_code] { exit_code = run_spin(*arguments); });
+}
+
+}  // namespace culet

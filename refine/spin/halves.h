@@ -1,0 +1,19 @@
+#pragma once
+// How far two fits to halves of the frames differ.
+
+#include "fit/silhouettes/turning_fit.h"
+
+namespace culet {
+
+/// Facets whose tilt one half does not tell to `k_told` are left out.
+struct Halves {
+    int facets = 0;     ///< that were compared
+    double tilt = 0;    ///< median angle between the same facets, radians
+    double factor = 1;  ///< by which facets differ more than their sigmas say; at least 1
+    double width = 0;   ///< differences, as parts of the mean
+    double length_to_width = 0;
+    double elevation = 0;  ///< difference, radians
+};
+Halves compared(const TurningFit& one, const TurningFit& other);
+
+}  // namespace culet

@@ -1,0 +1,71 @@
+#pragma once
+// A convex stone from photographs of it on a turntable, in any light, before a plain ground.
+//
+// The outlines' common tangent planes tell how the turntable stood and how far the stone turned;
+// then facets, turns and camera are fitted together to the edges in the pictures. What no outline
+// shows is not known: the table and flat facets beside it, if the camera looks down on the stone.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/turntable/edge_points.h"
+#include "fit/silhouettes/turning_fit.h"
+#include "refine/spin/halves.h"
+#include "refine/spin/stone_attitude.h"
+#include "stone/progress/progress.h"
+
+namespace culet {
+
+struct SpinFrame {
+    std::string name;
+    LevelPicture picture;
+    bool held_out = false;  ///< only its turn is found
+};
+
+struct SpinOptions {
+    /// Radians from one frame to the next, in any sense; 0: one turn over all frames.
+    double step = 0;
+    int threads = 0;  ///< 0: all; the result does not depend on it
+};
+
+struct SpinFrameResult {
+    bool used = false;
+    /// Of the stone, counter-clockwise from above, radians; without one: no outline was found.
+    std::optional<double> turn;
+    double turn_sigma = 0;
+    /// Of the edge's places from the stone's outline.
+    double rms_px = 0, median_px = 0;
+    std::string trouble;  ///< why it was not used, for people
+    Projection projection{};
+};
+
+struct SpinResult {
+    /// Lengths in pixels at the turntable's axis. z is up through the stone's widest outline, as
+    /// the table is in most stones, within degrees; x is along its least width.
+    Solid solid;
+    std::vector<double> tilt_sigmas;     ///< by facet, radians: as much as halves differ
+    std::vector<int> unseen;             ///< facets whose tilt is hardly more than a guess
+    double width_px = 0, length_px = 0;  ///< least and largest across z, as calipers read
+    /// Whether facets that are not `unseen` alone meet at both ends.
+    bool width_seen = false, length_seen = false;
+    TurningCamera camera;
+    std::vector<SpinFrameResult> frames;
+    Halves halves;  ///< every other frame against the rest
+    /// Part of the ground's grain that turns with the stone; camera and turns are the ground's if
+    /// it is large enough (ground_texture.h).
+    double ground_agreement = 0;
+    double tangent_px = 0;  ///< rms disagreement of the first outlines at common tangent planes
+    double scatter_px = 0;  ///< robust standard deviation of the edges about the stone's outlines
+    /// Why the result should not be trusted, and what to do, for people; empty: it can.
+    std::string trouble, remedy;
+};
+
+/// Throws InputError if fewer than `k_least_frames` frames show a stone, or if no stone has such
+/// outlines.
+SpinResult spin(const std::vector<SpinFrame>& frames, const SpinOptions& options = {},
+                const Progress& progress = {});
+
+inline constexpr int k_least_frames = 8;
+
+}  // namespace culet

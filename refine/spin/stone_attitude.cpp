@@ -1,0 +1,118 @@
+#include "refine/spin/stone_attitude.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "stone/numbers/units.h"
+#include "stone/solid/perpendicular.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_step = radians(3.0), k_last_step = radians(0.01);
+
+// Of the outline, twice: each facet's area as seen along the direction, from both sides.
+double doubled_outline(const Solid& solid, const std::vector<double>& areas, const Vec3& along) {
+    double sum = 0;
+    for (std::size_t f = 0; f < areas.size(); ++f)
+        sum += areas[f] * std::abs(glm::dot(solid.facets[f].plane.normal, along));
+    return sum;
+}
+
+Vec3 widest_along(const Solid& solid) {
+    std::vector<double> areas;
+    for (const Facet& facet : solid.facets) areas.push_back(area(solid, facet));
+    Vec3 best{0, 0, 1};
+    double most = doubled_outline(solid, areas, best);
+    const auto look = [&](const Vec3& direction) {
+        const double seen = doubled_outline(solid, areas, direction);
+        if (!(seen > most)) return false;
+        most = seen;
+        best = direction;
+        return true;
+    };
+    for (double polar = k_step; polar < std::numbers::pi / 2; polar += k_step) {
+        const double around = k_step / std::sin(polar);
+        for (double azimuth = 0; azimuth < 2 * std::numbers::pi; azimuth += around)
+            look({std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                  std::cos(polar)});
+    }
+    for (double step = k_step / 2; step > k_last_step;) {
+        const Vec3 at = best, t = perpendicular_to(at), u = glm::cross(at, t);
+        bool moved = false;
+        for (const Vec3& side : {t, -t, u, -u}) moved |= look(glm::normalize(at + step * side));
+        if (!moved) step /= 2;
+    }
+    return best;
+}
+
+Vec3 in_axes(const StoneAttitude& at, const Vec3& v) {
+    return {glm::dot(at.x, v), glm::dot(at.y, v), glm::dot(at.z, v)};
+}
+
+}  // namespace
+
+StoneAttitude attitude_of(const Solid& solid, const Vec3& up) {
+    StoneAttitude found;
+    found.z = widest_along(solid);
+    if (glm::dot(found.z, up) < 0) found.z = -found.z;
+    const Vec3 t = perpendicular_to(found.z), u = glm::cross(found.z, t);
+    found.width = HUGE_VAL;
+    for (double angle = 0; angle < std::numbers::pi; angle += radians(0.05)) {
+        const Vec3 across = std::cos(angle) * t + std::sin(angle) * u;
+        const double width = width_along(solid, across);
+        if (width > found.length) {
+            found.length = width;
+            found.along_length = across;
+        }
+        if (!(width < found.width)) continue;
+        found.width = width;
+        found.x = across;
+    }
+    found.y = glm::cross(found.z, found.x);
+    return found;
+}
+
+bool ends_are_seen(const Solid& solid, const std::vector<bool>& seen, const Vec3& along) {
+    for (const Vec3& way : {along, -along}) {
+        const std::vector<Vec3>& all = solid.vertices;
+        const auto end = std::max_element(
+            all.begin(), all.end(),
+            [&](const Vec3& a, const Vec3& b) { return glm::dot(a, way) < glm::dot(b, way); });
+        for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+            const std::vector<int>& corners = solid.facets[f].corners;
+            if (!seen[f] && std::count(corners.begin(), corners.end(), int(end - all.begin())) > 0)
+                return false;
+        }
+    }
+    return true;
+}
+
+Solid upright(Solid solid, const StoneAttitude& attitude) {
+    for (Vec3& v : solid.vertices) v = in_axes(attitude, v);
+    for (Facet& f : solid.facets) f.plane.normal = in_axes(attitude, f.plane.normal);
+    return solid;
+}
+
+Projection projection_of(const PictureAxes& axes, const StoneAttitude& attitude,
+                         const LevelPicture& picture) {
+    const Vec3 across = in_axes(attitude, axes.across), along = in_axes(attitude, axes.along),
+               near = in_axes(attitude, axes.nearing);
+    const double u = picture.width / 2.0 + axes.dx, v = picture.height / 2.0 - axes.dy;
+    Projection p{};
+    for (int i = 0; i < 3; ++i) {
+        const auto k = std::size_t(i);
+        p[0][k] = across[i] - u * near[i];
+        p[1][k] = -along[i] - v * near[i];
+        p[2][k] = -near[i];
+    }
+    p[0][3] = u;
+    p[1][3] = v;
+    p[2][3] = 1;
+    return p;
+}
+
+}  // namespace culet
