@@ -52,6 +52,7 @@ int main() {
             const Json draw{{"width", 200},
                             {"height", 160},
                             {"engine", kind},
+                            {"turn", {1, 0, 0, 0, 0.6, -0.8, 0, 0.8, 0.6}},
                             {"camera",
                              {{"position", {6, -12, 30}},
                               {"look_at", {0, 0, -0.5}},

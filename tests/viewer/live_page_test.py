@@ -78,7 +78,8 @@ class LivePageTest(PageActions, unittest.TestCase):
             "sapphire, axis tilted": "culet_page.state.set({light: 'daylight', material: 'sapphire_blue', axis: [30, 20]})",
             "hearts": "culet_page.choose_light('hearts')",
             "polariscope": "culet_page.state.set({polariser: 10, analyser: 40})",
-            "a cut of one's own": "culet_page.state.set({polariser: null, analyser: null, light: null, material: null, axis: null, cut: {'crown-angle': 30}})",
+            "polariscope, tilted": "culet_page.motion.turn_to(Turn.after(Turn.about([1, 0.4, 0.1], 1), culet_page.home()))",
+            "a cut of one's own": "culet_page.state.set({turn: null, polariser: null, analyser: null, light: null, material: null, axis: null, cut: {'crown-angle': 30}})",
         }
         self.open_page("brilliant.html", width=1000, height=560)
         for name, change in changes.items():
