@@ -28,10 +28,6 @@ class LivePageTest(PageActions, unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="culet-live-pages-"))
         cls.browser = Browser(900, 520).__enter__()
         culet("view", "round-brilliant", "-o", cls.folder / "brilliant.html")
-        sample = SOURCE / "samples" / "cutters-evening"
-        culet("fit", sample / "mended.toml", "-o", cls.folder / "fitted.obj", "--report", cls.folder / "fit.json")
-        culet("view", cls.folder / "fitted.obj", "--material", "diamond", "--report", cls.folder / "fit.json",
-              "--before", sample / "start.obj", "-o", cls.folder / "fitted.html")
 
     @classmethod
     def tearDownClass(cls):
@@ -40,7 +36,14 @@ class LivePageTest(PageActions, unittest.TestCase):
     def tearDown(self):
         self.assertEqual(self.browser.errors(), [], "the console")
 
+    def make_fitted(self):
+        sample = SOURCE / "samples" / "cutters-evening"
+        culet("fit", sample / "mended.toml", "-o", self.folder / "fitted.obj", "--report", self.folder / "fit.json")
+        culet("view", self.folder / "fitted.obj", "--material", "diamond", "--report", self.folder / "fit.json",
+              "--before", sample / "start.obj", "-o", self.folder / "fitted.html")
+
     def open_page(self, name, fragment="", width=900, height=520):
+        if name == "fitted.html" and not (self.folder / name).exists(): self.make_fitted()
         self.browser.resize(width, height)
         self.browser.open(self.folder / name, fragment)
         self.browser.rest()
@@ -69,7 +72,7 @@ class LivePageTest(PageActions, unittest.TestCase):
             return [off / (a.length / 4), worst, lit / (a.length / 4)];""")
 
     def test_pixels_are_those_of_the_command_line(self):
-        """Issue 40: 99.9 % of the pixels within 1 of 255."""
+        """Issue 40: 99.9 % of the pixels within 1 of 255; 99.95 here, because two thirds of a small picture are ground."""
         changes = {
             "face up": "",
             "tilted, lights stay with the viewer": "culet_page.motion.turn_to(Turn.after(Turn.about([1, 0.4, 0.1], 0.5), culet_page.home()))",
@@ -81,26 +84,24 @@ class LivePageTest(PageActions, unittest.TestCase):
             "polariscope, tilted": "culet_page.motion.turn_to(Turn.after(Turn.about([1, 0.4, 0.1], 1), culet_page.home()))",
             "a cut of one's own": "culet_page.state.set({turn: null, polariser: null, analyser: null, light: null, material: null, axis: null, cut: {'crown-angle': 30}})",
         }
-        self.open_page("brilliant.html", width=1000, height=560)
+        self.open_page("brilliant.html", width=300)
         for name, change in changes.items():
             self.browser.run(change)
-            self.browser.wait("await new Promise((r) => setTimeout(r, 700));")
             self.browser.rest()
             off, worst, lit = self.differing()
             print(f"{name}: {100 * off:.4f} % of the pixels differ by more than 1, at most {worst}", file=sys.stderr)
             self.assertGreater(lit, 0.02, name)
-            self.assertLessEqual(off, 0.001, name)
+            self.assertLessEqual(off, 0.0005, name)
 
     def test_dropped_stones_are_those_of_the_command_line(self):
         """Also one that is not convex, in the material of before. A broken file is one plain line."""
-        self.open_page("brilliant.html")
+        self.open_page("brilliant.html", width=300)
         culet("cut", "oval", "-o", self.folder / "an oval.asc")
         culet("cut", "heart", "-o", self.folder / "-heart.obj")
         (self.folder / "<b>broken.ply").write_text("ply\nformat ascii 1.0\n<script>alert(1)</script>\n")
         (self.folder / "cut short.gem").write_bytes(bytes(range(100)))
         drop = lambda name: self.browser.wait(f"""const bytes = Uint8Array.from(atob({json.dumps(base64.b64encode((self.folder / name).read_bytes()).decode())}), (c) => c.charCodeAt(0));
             await culet_page.take_file(new File([bytes], {json.dumps(name)})); return document.getElementById('trouble').hidden ? '' : document.getElementById('trouble-text').textContent;""")
-        self.browser.resize(400, 520)  # rays draw the heart
         for name, settings in [("an oval.asc", "{light: 'daylight', material: 'garnet_almandine'}"), ("-heart.obj", "{}")]:
             self.browser.run(f"culet_page.state.set({settings})")
             self.assertEqual(drop(name), "")
@@ -118,7 +119,7 @@ class LivePageTest(PageActions, unittest.TestCase):
 
     def test_stopping_changes_neither_size_nor_brightness(self):
         """A turn, then rest: the same exposure, the stone's light within 12 %, no frame below half of the resolution."""
-        self.open_page("brilliant.html")
+        self.open_page("brilliant.html", width=300)
         for material in ["diamond", "sapphire_blue"]:
             self.browser.run("culet_page.state.set({material: arguments[0]})", material)
             self.browser.rest()

@@ -118,7 +118,7 @@ class PageTest(PageActions, unittest.TestCase):
     def open(self, document=None, fragment="", **how):
         path = pathlib.Path(self.folder) / (self._testMethodName + ".html")
         path.write_text(page_text(document or made_up_document(), **how))
-        self.browser.resize(900, 460)
+        self.browser.resize(780, 380)
         self.browser.open(path, fragment)
         self.browser.rest()
         return path
@@ -527,9 +527,13 @@ class PageTest(PageActions, unittest.TestCase):
             const on = (what) => new Promise((done, fail) => {{ video.addEventListener(what, done, {{once: true}}); video.addEventListener('error', () => fail(video.error.message), {{once: true}}); }});
             const loaded = on('loadeddata'); video.muted = true; video.src = URL.createObjectURL(film); await loaded;
             const c = document.createElement('canvas'), t = c.getContext('2d', {{willReadFrequently: true}}); c.width = video.videoWidth; c.height = video.videoHeight;
-            const at = async (time) => {{ const sought = on('seeked'); video.currentTime = time; await sought; t.drawImage(video, 0, 0); return [...t.getImageData(c.width / 2 + 0.22 * c.height, c.height / 2, 1, 1).data].slice(0, 3); }};
-            t.putImageData(drawn, 0, 0); const still = [...t.getImageData(c.width / 2 + 0.22 * c.height, c.height / 2, 1, 1).data].slice(0, 3);
-            return [btoa(text), video.duration, c.width, c.height, still, await at(0.02), await at(0.2 * video.duration)];""")
+            const pixel = () => [...t.getImageData(c.width / 2 + 0.22 * c.height, c.height / 2, 1, 1).data].slice(0, 3);
+            const at = async (time) => {{ const sought = on('seeked'); video.currentTime = time; await sought; t.drawImage(video, 0, 0); return pixel(); }};
+            t.putImageData(drawn, 0, 0); const still = pixel(), first = await at(0.02);
+            // A busy machine shows the frame some time after it was found.
+            let later = await at(0.2 * video.duration);
+            for (let i = 0; i < 100 && String(later) === String(first); ++i) {{ await new Promise((r) => setTimeout(r, 30)); t.drawImage(video, 0, 0); later = pixel(); }}
+            return [btoa(text), video.duration, c.width, c.height, still, first, later];""")
         return base64.b64decode(text), played
 
     def test_film_is_as_long_as_asked(self):
