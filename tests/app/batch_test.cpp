@@ -163,7 +163,7 @@ TEST_F(BatchCommand, ResumeDoesWhatHasChanged) {
 
 // Kills the process and its workers while they work; finished results must stay.
 TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
-    constexpr int k_stones = 24;
+    constexpr int k_stones = 12;
     write_stones(k_stones);
     const auto start = std::chrono::steady_clock::now();
     ASSERT_NE(batch({file("stones"), "-o", file("whole"), "-q"}).exit_code, 2);

@@ -29,7 +29,7 @@ struct Small {
     std::vector<std::pair<std::string, std::string>> options;
 };
 const std::vector<Small> k_small = {
-    {"render", {{"--size", "48"}, {"--check", "none"}}},
+    {"render", {{"--size", "48"}}},
     {"grade", {{"--tilts", "0"}, {"--draws", "2"}, {"--size", "32"}}},
     {"batch", {{"--tilts", "0"}, {"--draws", "0"}}},
     {"optimize", {{"--evaluations", "40"}}},

@@ -78,7 +78,7 @@ TEST_F(GradeCommand, PageHoldsSeveralDesignsAndLoadsNothing) {
               0);
     const ProgramRun run =
         run_culet({"grade", file("round.obj"), file("deep.obj"), "--material", "diamond", "--tilts",
-                   "-20:20:10", "--size", "64", "-o", file("page"), "-q"});
+                   "-20:20:10", "--size", "32", "-o", file("page"), "-q"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const std::string page = text("page/report.html");
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));

@@ -190,7 +190,7 @@ class Grades(Scratch):
 
     def test_of_a_fit_have_sigmas(self):
         fit = culet.fit(EVENING)
-        self.assertIn("sigma", json.dumps(culet.grade(fit, tilts=[0], draws=3).report))
+        self.assertIn("sigma", json.dumps(culet.grade(fit, tilts=[0], draws=2).report))
 
 
 class Comparisons(Scratch):
