@@ -13,6 +13,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <regex>
 #include <set>
 
@@ -104,6 +105,11 @@ TEST_F(RegisterSample, IsFoundWhenCropped) {
 // where an option accepts the pose or widens the search, the same refusal does not come again.
 TEST_F(RegisterSample, IsFoundAsItIsAndAdviceCanBeFollowed) {
     expect_found(registered(k_photo));
+    // Half as large for the many searches.
+    cv::Mat small;
+    cv::resize(cv::imread(k_photo, cv::IMREAD_UNCHANGED), small, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::imwrite(file("small.png"), small);
+    const std::string small_photo = file("small.png");
     const std::vector<std::vector<std::string>> strict{
         {"--within-deg", "0.01"},
         {"--within-px", "0.01"},
@@ -112,7 +118,7 @@ TEST_F(RegisterSample, IsFoundAsItIsAndAdviceCanBeFollowed) {
     int advised = 0;
     std::set<std::string> switches;
     for (const std::vector<std::string>& limits : strict) {
-        const ProgramRun refused = registered(k_photo, limits);
+        const ProgramRun refused = registered(small_photo, limits);
         ASSERT_EQ(refused.exit_code, 1) << refused.err;
         EXPECT_TRUE(!limits[0].starts_with("--within") ||
                     refused.err.find(limits[0]) != std::string::npos)
@@ -130,7 +136,7 @@ TEST_F(RegisterSample, IsFoundAsItIsAndAdviceCanBeFollowed) {
             if (value.empty() && !switches.insert(name).second) continue;
             call.push_back(name);
             if (!value.empty()) call.push_back(value.substr(1));
-            const ProgramRun followed = registered(k_photo, call);
+            const ProgramRun followed = registered(small_photo, call);
             EXPECT_NE(followed.exit_code, 2) << said << followed.err;
             const std::string why = nlohmann::json::parse(refused.out).at("trouble");
             if (!value.empty()) {
