@@ -111,6 +111,7 @@ Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
     json["halves"] = {{"facets", halves.facets},
                       {"facet_deg", degrees(halves.tilt)},
                       {"sigmas_times", halves.factor},
+                      {"up_deg", degrees(halves.up)},
                       {"width_pct", 100 * halves.width},
                       {"length_to_width_pct", 100 * halves.length_to_width},
                       {"elevation_deg", degrees(halves.elevation)}};

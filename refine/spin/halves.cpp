@@ -19,6 +19,12 @@ const double k_median_length = std::sqrt(2 * std::log(2.0));
 
 }  // namespace
 
+std::vector<bool> seen_facets(const TurningFit& fit) {
+    std::vector<bool> seen;
+    for (const double sigma : fit.tilt_sigmas) seen.push_back(sigma <= k_turning_tilt / 2);
+    return seen;
+}
+
 Halves compared(const TurningFit& one, const TurningFit& other) {
     Halves halves;
     std::vector<double> tilts, parts;
@@ -40,8 +46,9 @@ Halves compared(const TurningFit& one, const TurningFit& other) {
         halves.tilt = upper_median(tilts);
         halves.factor = std::max(1.0, upper_median(parts) / k_median_length);
     }
-    const StoneAttitude a = attitude_of(one.solid, {0, 0, 1}),
-                        b = attitude_of(other.solid, {0, 0, 1});
+    const StoneAttitude a = attitude_of(one.solid, seen_facets(one), {0, 0, 1}),
+                        b = attitude_of(other.solid, seen_facets(other), {0, 0, 1});
+    halves.up = angle_between(a.z, b.z);
     halves.width = 2 * (a.width - b.width) / (a.width + b.width);
     halves.length_to_width =
         2 * (a.length / a.width - b.length / b.width) / (a.length / a.width + b.length / b.width);

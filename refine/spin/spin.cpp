@@ -32,7 +32,6 @@ constexpr double k_first_reach = 4, k_reach = 2.5;
 constexpr int k_refits = 2;
 // Pixels: coarse outlines of a turning stone disagree by one or two, of another thing by tens.
 constexpr double k_doubtful_tangents = 5, k_doubtful_scatter = 1;
-constexpr double k_unseen = k_turning_tilt / 2;
 
 class Spin {
 public:
@@ -251,9 +250,8 @@ private:
     }
 
     void stand_upright() {
-        const StoneAttitude at = attitude_of(fit_.solid, {0, 0, 1});
-        std::vector<bool> seen;
-        for (const double sigma : fit_.tilt_sigmas) seen.push_back(sigma <= k_unseen);
+        const std::vector<bool> seen = seen_facets(fit_);
+        const StoneAttitude at = attitude_of(fit_.solid, seen, {0, 0, 1});
         result_.width_px = at.width;
         result_.length_px = at.length;
         result_.width_seen = ends_are_seen(fit_.solid, seen, at.x);

@@ -49,15 +49,68 @@ Vec3 widest_along(const Solid& solid) {
     return best;
 }
 
+// A facet's partner is so far off (one sigma); the axis so far from where the stone is widest.
+constexpr double k_alike = radians(1.5), k_furthest = radians(25.0);
+constexpr double k_least_share = 0.3;
+const double k_across = std::cos(radians(20.0));
+
+// Part of the seen facets' area that half a turn about the axis brings onto other seen facets.
+double half_turn_share(const Solid& solid, const std::vector<double>& areas, const Vec3& axis) {
+    double alike = 0, all = 0;
+    for (std::size_t f = 0; f < areas.size(); ++f) {
+        const Vec3& n = solid.facets[f].plane.normal;
+        // A facet across the axis is its own partner, and says nothing.
+        if (!(areas[f] > 0) || std::abs(glm::dot(n, axis)) > k_across) continue;
+        const Vec3 turned = 2 * glm::dot(n, axis) * axis - n;
+        double nearest = std::numbers::pi;
+        for (std::size_t g = 0; g < areas.size(); ++g) {
+            if (areas[g] > 0)
+                nearest = std::min(nearest, angle_between(turned, solid.facets[g].plane.normal));
+        }
+        alike += areas[f] * std::exp(-0.5 * std::pow(nearest / k_alike, 2));
+        all += areas[f];
+    }
+    return all > 0 ? alike / all : 0;
+}
+
+// Most cuts look the same after half a turn. `about` if this stone does not.
+Vec3 axis_of_half_turn(const Solid& solid, const std::vector<bool>& seen, const Vec3& about) {
+    std::vector<double> areas;
+    for (std::size_t f = 0; f < seen.size(); ++f)
+        areas.push_back(seen[f] ? area(solid, solid.facets[f]) : 0);
+    const Vec3 t = perpendicular_to(about), u = glm::cross(about, t);
+    Vec3 best = about;
+    double most = k_least_share;
+    const auto look = [&](const Vec3& axis) {
+        const double share = half_turn_share(solid, areas, axis);
+        if (!(share > most)) return false;
+        most = share;
+        best = axis;
+        return true;
+    };
+    const int steps = int(k_furthest / k_alike);
+    for (int i = -steps; i <= steps; ++i) {
+        for (int k = -steps; k <= steps; ++k)
+            look(glm::normalize(about + std::tan(i * k_alike) * t + std::tan(k * k_alike) * u));
+    }
+    for (double step = k_alike / 2; step > k_last_step;) {
+        const Vec3 at = best, v = perpendicular_to(at), w = glm::cross(at, v);
+        bool moved = false;
+        for (const Vec3& side : {v, -v, w, -w}) moved |= look(glm::normalize(at + step * side));
+        if (!moved) step /= 2;
+    }
+    return best;
+}
+
 Vec3 in_axes(const StoneAttitude& at, const Vec3& v) {
     return {glm::dot(at.x, v), glm::dot(at.y, v), glm::dot(at.z, v)};
 }
 
 }  // namespace
 
-StoneAttitude attitude_of(const Solid& solid, const Vec3& up) {
+StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up) {
     StoneAttitude found;
-    found.z = widest_along(solid);
+    found.z = axis_of_half_turn(solid, seen, widest_along(solid));
     if (glm::dot(found.z, up) < 0) found.z = -found.z;
     const Vec3 t = perpendicular_to(found.z), u = glm::cross(found.z, t);
     found.width = HUGE_VAL;

@@ -17,9 +17,10 @@ struct StoneAttitude {
     Vec3 along_length{0, 1, 0};
 };
 
-/// z is the direction along which the outline's area is largest, on the side of `up`; x that of the
-/// least width across z.
-StoneAttitude attitude_of(const Solid& solid, const Vec3& up);
+/// z is the axis of half a turn that brings most of the `seen` facets onto others, near the
+/// direction along which the outline's area is largest, or that direction if there is no such axis;
+/// on the side of `up`. x is that of the least width across z.
+StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up);
 
 /// Whether facets that were `seen` alone meet at the furthest corners on both sides.
 bool ends_are_seen(const Solid& solid, const std::vector<bool>& seen, const Vec3& along);
