@@ -18,25 +18,21 @@ namespace {
 
 constexpr std::size_t k_held_out = 11;
 
-class SpinSeries : public testing::Test {
-protected:
-    static void SetUpTestSuite() {
-        truth_ = new synthetic::SpinTruth(synthetic::lying_step_cut(64));
-        frames_ = new std::vector<SpinFrame>(synthetic::frames_of(*truth_));
-        (*frames_)[k_held_out].held_out = true;
-        found_ = new SpinResult(spin(*frames_));
-    }
-    static void TearDownTestSuite() {
-        delete found_;
-        delete frames_;
-        delete truth_;
+struct SpinSeries {
+    synthetic::SpinTruth truth = synthetic::lying_step_cut(64);
+    std::vector<SpinFrame> frames = synthetic::frames_of(truth);
+    SpinResult found;
+
+    SpinSeries() {
+        frames[k_held_out].held_out = true;
+        found = spin(frames);
     }
 
     // Directions of the found stone as the turntable has them: the camera's axes of one frame, as
     // its projection has them, stand for the true ones.
-    static Vec3 on_turntable(const Vec3& v) {
-        const auto& p = found_->frames[0].projection;
-        const PictureAxes at = picture_axes(truth_->series.camera, truth_->series.turns[0]);
+    Vec3 on_turntable(const Vec3& v) const {
+        const auto& p = found.frames[0].projection;
+        const PictureAxes at = picture_axes(truth.series.camera, truth.series.turns[0]);
         const Vec3 row0(p[0][0], p[0][1], p[0][2]), row1(p[1][0], p[1][1], p[1][2]),
             row2(p[2][0], p[2][1], p[2][2]);
         const Vec3 across = glm::normalize(row0 - p[0][3] * row2),
@@ -44,10 +40,6 @@ protected:
         return glm::dot(v, across) * at.across + glm::dot(v, along) * at.along +
                glm::dot(v, glm::cross(across, along)) * glm::cross(at.across, at.along);
     }
-
-    static inline synthetic::SpinTruth* truth_;
-    static inline std::vector<SpinFrame>* frames_;
-    static inline SpinResult* found_;
 };
 
 double mean_turn_error(const SpinResult& found, const synthetic::SpinTruth& truth) {
@@ -59,21 +51,22 @@ double mean_turn_error(const SpinResult& found, const synthetic::SpinTruth& trut
 
 // Dust tells a turn to 0.03 degrees, `k_ground_turn_sigma`, and the camera to `k_ground_sigmas`:
 // twice (root mean square) and three times that.
-TEST_F(SpinSeries, TurnsAndCameraAreThoseOfTheGround) {
-    EXPECT_EQ(found_->trouble, "");
-    EXPECT_GT(found_->ground_agreement, 0.5);
-    EXPECT_NEAR(degrees(found_->camera.elevation), 48, 0.15);
-    EXPECT_NEAR(degrees(found_->camera.roll), 0.4, 0.15);
-    EXPECT_NEAR(found_->camera.axis, 2.3, 0.3);
-    const double mean = mean_turn_error(*found_, *truth_);
+void expect_turns_and_camera_of_the_ground(const SpinSeries& series) {
+    EXPECT_EQ(series.found.trouble, "");
+    EXPECT_GT(series.found.ground_agreement, 0.5);
+    EXPECT_NEAR(degrees(series.found.camera.elevation), 48, 0.15);
+    EXPECT_NEAR(degrees(series.found.camera.roll), 0.4, 0.15);
+    EXPECT_NEAR(series.found.camera.axis, 2.3, 0.3);
+    const double mean = mean_turn_error(series.found, series.truth);
     double squares = 0;
-    for (std::size_t f = 0; f < frames_->size(); ++f) {
-        const double off = degrees(*found_->frames[f].turn - truth_->series.turns[f] - mean);
+    for (std::size_t f = 0; f < series.frames.size(); ++f) {
+        const double off =
+            degrees(*series.found.frames[f].turn - series.truth.series.turns[f] - mean);
         EXPECT_NEAR(off, 0, 0.3) << f;
         squares += off * off;
-        EXPECT_EQ(found_->frames[f].used, f != k_held_out);
+        EXPECT_EQ(series.found.frames[f].used, f != k_held_out);
     }
-    EXPECT_LT(std::sqrt(squares / double(frames_->size())), 0.06);
+    EXPECT_LT(std::sqrt(squares / double(series.frames.size())), 0.06);
 }
 
 // Each side of an outline is off by about 0.25 pixels as a whole, since bright facets look larger
@@ -106,19 +99,21 @@ TEST(Spin, TurnsAreThoseOfTheOutlinesOnBareGround) {
 
 // Within three times the sigma that the result itself gives. The blur of a side of 20 pixels shifts
 // it by 0.25 pixels at one end and not at the other: 0.25 / 20, 0.7 degrees, twice.
-TEST_F(SpinSeries, FacetsSeenEdgeOnAreFound) {
+void expect_facets_seen_edge_on(const SpinSeries& series) {
     int seen = 0;
-    for (const Facet& facet : truth_->solid.facets) {
+    for (const Facet& facet : series.truth.solid.facets) {
         const double up = degrees(std::asin(facet.plane.normal.z));
-        if (std::abs(up) > 0.9 * (90 - 48) || narrow_width(truth_->solid, facet) < 20) continue;
+        if (std::abs(up) > 0.9 * (90 - 48) || narrow_width(series.truth.solid, facet) < 20)
+            continue;
         ++seen;
         double nearest = 180, sigma = 0;
-        for (std::size_t f = 0; f < found_->solid.facets.size(); ++f) {
-            const double angle = degrees(angle_between(
-                on_turntable(found_->solid.facets[f].plane.normal), facet.plane.normal));
+        for (std::size_t f = 0; f < series.found.solid.facets.size(); ++f) {
+            const double angle = degrees(
+                angle_between(series.on_turntable(series.found.solid.facets[f].plane.normal),
+                              facet.plane.normal));
             if (!(angle < nearest)) continue;
             nearest = angle;
-            sigma = degrees(found_->tilt_sigmas[f]);
+            sigma = degrees(series.found.tilt_sigmas[f]);
         }
         EXPECT_LT(nearest, 3 * sigma) << facet.name;
         EXPECT_LT(nearest, 1.4) << facet.name;
@@ -129,11 +124,11 @@ TEST_F(SpinSeries, FacetsSeenEdgeOnAreFound) {
 // The corners of the true outline, of the frame left out, too, lie by the found stone's outline as
 // its projection gives it: within a pixel (root mean square), as small facets that are not found
 // cut off corners. Half of the edges are within half a pixel: the blur of a bright facet is wider.
-TEST_F(SpinSeries, ProjectionsGiveTheOutlines) {
-    for (std::size_t f = 0; f < frames_->size(); ++f) {
-        const auto& p = found_->frames[f].projection;
+void expect_outlines_from_projections(const SpinSeries& series) {
+    for (std::size_t f = 0; f < series.frames.size(); ++f) {
+        const auto& p = series.found.frames[f].projection;
         std::vector<cv::Point2f> mine, hull;
-        for (const Vec3& v : found_->solid.vertices) {
+        for (const Vec3& v : series.found.solid.vertices) {
             const auto row = [&](std::size_t i) {
                 return p[i][0] * v.x + p[i][1] * v.y + p[i][2] * v.z + p[i][3];
             };
@@ -142,15 +137,22 @@ TEST_F(SpinSeries, ProjectionsGiveTheOutlines) {
         cv::convexHull(mine, hull);
         double squares = 0;
         const PicturePoints corners = outline_in_picture(
-            truth_->solid.vertices, truth_->series.camera, truth_->series.turns[f]);
+            series.truth.solid.vertices, series.truth.series.camera, series.truth.series.turns[f]);
         for (const glm::dvec2& c : corners) {
-            const cv::Point2f corner(float(truth_->size / 2.0 + c.x),
-                                     float(truth_->size / 2.0 - c.y));
+            const cv::Point2f corner(float(series.truth.size / 2.0 + c.x),
+                                     float(series.truth.size / 2.0 - c.y));
             squares += std::pow(cv::pointPolygonTest(hull, corner, true), 2);
         }
         EXPECT_LT(std::sqrt(squares / double(corners.size())), 1) << f;
-        EXPECT_LT(found_->frames[f].median_px, 0.5) << f;
+        EXPECT_LT(series.found.frames[f].median_px, 0.5) << f;
     }
+}
+
+TEST(Spin, FindsTheStoneWithWhichFramesWereDrawn) {
+    const SpinSeries series;
+    expect_turns_and_camera_of_the_ground(series);
+    expect_facets_seen_edge_on(series);
+    expect_outlines_from_projections(series);
 }
 
 // The same bytes from any number of threads.
