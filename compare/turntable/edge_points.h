@@ -32,8 +32,8 @@ std::vector<glm::dvec2> places_along(const std::vector<glm::dvec2>& outline);
 
 /// Places of the edge near an expected outline (a convex polygon, counter-clockwise), 3 pixels from
 /// each other, to a few tenths of a pixel: the steepest place along the outline's normal, within
-/// `reach` pixels. Of several the outermost is taken, unless the next is more than twice as steep,
-/// since sharpening cameras draw a halo. Places without an edge are left out.
+/// `reach` pixels. Of several the outermost is taken, unless the next is nearly three times as
+/// steep, since sharpening cameras draw a halo. Places without an edge are left out.
 std::vector<glm::dvec2> edge_points(const LevelPicture& picture,
                                     const std::vector<glm::dvec2>& outline, double reach);
 

@@ -33,11 +33,11 @@ void keep_strongest(std::vector<Landmark>& all, std::size_t most) {
 
 class Texture {
 public:
-    Texture(const std::vector<LevelPicture>& pictures,
+    Texture(const std::vector<const LevelPicture*>& pictures,
             const std::vector<std::vector<glm::dvec2>>& stones, const TurningSeries& start)
         : start_(start) {
         for (std::size_t f = 0; f < pictures.size(); ++f)
-            grains_.push_back(ground_grain(pictures[f], stones[f]));
+            grains_.push_back(ground_grain(*pictures[f], stones[f]));
         found_.series = start;
         const double radius = std::min(grains_[0].cols, grains_[0].rows) / 2.0;
         for (double y = -radius; y < radius; y += k_cell) {
@@ -262,7 +262,7 @@ private:
 
 }  // namespace
 
-GroundTexture ground_texture(const std::vector<LevelPicture>& pictures,
+GroundTexture ground_texture(const std::vector<const LevelPicture*>& pictures,
                              const std::vector<std::vector<glm::dvec2>>& stones,
                              const TurningSeries& start, double deepest) {
     return Texture(pictures, stones, start).run(deepest);

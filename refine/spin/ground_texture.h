@@ -25,7 +25,7 @@ struct GroundTexture {
 /// `stones`: the stone's outline in each picture; the ground near it is left out. `start`: each
 /// turn may be off by 1.5 degrees against the turn before it. The first turn stays. `deepest`: how
 /// far the ground may lie below the frame's origin.
-GroundTexture ground_texture(const std::vector<LevelPicture>& pictures,
+GroundTexture ground_texture(const std::vector<const LevelPicture*>& pictures,
                              const std::vector<std::vector<glm::dvec2>>& stones,
                              const TurningSeries& start, double deepest);
 

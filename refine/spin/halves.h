@@ -5,7 +5,7 @@
 
 namespace culet {
 
-/// Facets whose tilt one half does not tell to `k_told` are left out.
+/// Facets whose tilt one half does not tell to 2 degrees are left out.
 struct Halves {
     int facets = 0;     ///< that were compared
     double tilt = 0;    ///< median angle between the same facets, radians

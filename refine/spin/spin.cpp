@@ -52,7 +52,7 @@ public:
         look_at_ground();
         done(0.6);
         refit(k_first_reach, has_ground_);
-        done(0.6);
+        done(0.7);
         for (int i = 0; i < k_refits; ++i) {
             refit(k_reach);
             done(0.7 + 0.15 * (i + 1) / k_refits);
@@ -122,11 +122,11 @@ private:
 
     // Grain on the ground tells camera and turns far better than the stone, if there is any.
     void look_at_ground() {
-        std::vector<LevelPicture> pictures;
+        std::vector<const LevelPicture*> pictures;
         std::vector<std::vector<glm::dvec2>> stones;
         double deepest = 0;
         for (const std::size_t f : used_) {
-            pictures.push_back(frames_[f].picture);
+            pictures.push_back(&frames_[f].picture);
             stones.push_back(coarse_[f].corners);
             for (const glm::dvec2& c : coarse_[f].corners)
                 deepest = std::max(deepest, glm::length(c));

@@ -41,10 +41,10 @@ struct SpinFrameResult {
 };
 
 struct SpinResult {
-    /// Lengths in pixels at the turntable's axis. z is up through the stone's widest outline, as
-    /// the table is in most stones, within degrees; x is along its least width.
+    /// Lengths in pixels at the turntable's axis. It stands upright (stone_attitude.h), x along its
+    /// least width.
     Solid solid;
-    std::vector<double> tilt_sigmas;     ///< by facet, radians: as much as halves differ
+    std::vector<double> tilt_sigmas;     ///< by facet, radians
     std::vector<int> unseen;             ///< facets whose tilt is hardly more than a guess
     double width_px = 0, length_px = 0;  ///< least and largest across z, as calipers read
     /// Whether facets that are not `unseen` alone meet at both ends.

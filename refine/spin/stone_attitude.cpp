@@ -22,6 +22,17 @@ double doubled_outline(const Solid& solid, const std::vector<double>& areas, con
     return sum;
 }
 
+// `look` makes a direction the best if it is better, and tells.
+template <class Look>
+void climb(const Vec3& best, double step, const Look& look) {
+    while (step > k_last_step) {
+        const Vec3 at = best, t = perpendicular_to(at), u = glm::cross(at, t);
+        bool moved = false;
+        for (const Vec3& side : {t, -t, u, -u}) moved |= look(glm::normalize(at + step * side));
+        if (!moved) step /= 2;
+    }
+}
+
 Vec3 widest_along(const Solid& solid) {
     std::vector<double> areas;
     for (const Facet& facet : solid.facets) areas.push_back(area(solid, facet));
@@ -40,12 +51,7 @@ Vec3 widest_along(const Solid& solid) {
             look({std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
                   std::cos(polar)});
     }
-    for (double step = k_step / 2; step > k_last_step;) {
-        const Vec3 at = best, t = perpendicular_to(at), u = glm::cross(at, t);
-        bool moved = false;
-        for (const Vec3& side : {t, -t, u, -u}) moved |= look(glm::normalize(at + step * side));
-        if (!moved) step /= 2;
-    }
+    climb(best, k_step / 2, look);
     return best;
 }
 
@@ -93,12 +99,7 @@ Vec3 axis_of_half_turn(const Solid& solid, const std::vector<bool>& seen, const 
         for (int k = -steps; k <= steps; ++k)
             look(glm::normalize(about + std::tan(i * k_alike) * t + std::tan(k * k_alike) * u));
     }
-    for (double step = k_alike / 2; step > k_last_step;) {
-        const Vec3 at = best, v = perpendicular_to(at), w = glm::cross(at, v);
-        bool moved = false;
-        for (const Vec3& side : {v, -v, w, -w}) moved |= look(glm::normalize(at + step * side));
-        if (!moved) step /= 2;
-    }
+    climb(best, k_alike / 2, look);
     return best;
 }
 
