@@ -107,6 +107,14 @@ Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
         {"length_to_width",
          {{"value", found.length_px / found.width_px},
           {"read", found.width_seen && found.length_seen}}}};
+    if (const auto& crown = found.crowned) {
+        json["proportions"]["table_pct"] = {{"value", 100 * crown->table_part},
+                                            {"sigma", 100 * crown->table_part_sigma},
+                                            {"read", crown->table_part > 0}};
+        json["crown"] = {{"edges", crown->edges},
+                         {"edge_sigma_px", crown->edge_sigma},
+                         {"table_tilt_deg", degrees(crown->table_tilt)}};
+    }
     const Halves& halves = found.halves;
     json["halves"] = {{"facets", halves.facets},
                       {"facet_deg", degrees(halves.tilt)},
@@ -162,6 +170,17 @@ void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
     say(fmt::format("the stone is {:.1f} px wide{}", found.width_px,
                     a.width_mm > 0 ? "" : "; --width MM gives its lengths in mm"),
         a.common.quiet);
+    if (found.crowned)
+        say(fmt::format("table and crown by {} edges of the surface{}", found.crowned->edges,
+                        found.crowned->table_part > 0
+                            ? fmt::format(": the table is {:.1f} \u00b1 {:.1f} % of the width",
+                                          100 * found.crowned->table_part,
+                                          100 * found.crowned->table_part_sigma)
+                            : ""),
+            a.common.quiet);
+    else
+        say("no edges of a table were found: the stone is closed by planes that nothing shows",
+            a.common.quiet);
     if (!found.unseen.empty())
         say(fmt::format("no frame shows {} of the facets edge-on: they close the stone, and their "
                         "tilt is a guess (\"unseen\" in --json)",

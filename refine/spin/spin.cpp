@@ -13,6 +13,7 @@
 #include "refine/spin/ground_texture.h"
 #include "refine/spin/halves.h"
 #include "refine/spin/stone_attitude.h"
+#include "refine/spin/surface_edges.h"
 #include "stone/numbers/units.h"
 #include "stone/numbers/upper_median.h"
 #include "stone/text/errors.h"
@@ -30,6 +31,8 @@ constexpr double k_ground_turn_sigma = radians(0.03);
 // Pixels from the expected outline: first as the coarse outlines tell it, then as the edges do.
 constexpr double k_first_reach = 4, k_reach = 2.5;
 constexpr int k_refits = 2;
+constexpr int k_attitudes = 3;
+constexpr double k_level_table = radians(0.2);
 // Pixels: coarse outlines of a turning stone disagree by one or two, of another thing by tens.
 constexpr double k_doubtful_tangents = 5, k_doubtful_scatter = 1;
 
@@ -61,7 +64,7 @@ public:
         done(0.95);
         hold_out();
         take_frames();
-        stand_upright();
+        find_crown();
         judge();
         return std::move(result_);
     }
@@ -249,15 +252,15 @@ private:
         }
     }
 
-    void stand_upright() {
+    void stand_upright(const StoneAttitude& at) {
         const std::vector<bool> seen = seen_facets(fit_);
-        const StoneAttitude at = attitude_of(fit_.solid, seen, {0, 0, 1});
         result_.width_px = at.width;
         result_.length_px = at.length;
         result_.width_seen = ends_are_seen(fit_.solid, seen, at.x);
         result_.length_seen = ends_are_seen(fit_.solid, seen, at.along_length);
         result_.solid = upright(fit_.solid, at);
         result_.tilt_sigmas = fit_.tilt_sigmas;
+        result_.unseen.clear();
         for (std::size_t f = 0; f < seen.size(); ++f) {
             if (!seen[f]) result_.unseen.push_back(int(f));
         }
@@ -267,6 +270,32 @@ private:
                 frame.projection = projection_of(picture_axes(fit_.series.camera, *frame.turn), at,
                                                  frames_[f].picture);
         }
+    }
+
+    // By edges inside the outlines, from 64 frames at most. Edges are looked for across the way up:
+    // the table tells it better than the outlines.
+    void find_crown() {
+        const std::vector<bool> seen = seen_facets(fit_);
+        StoneAttitude at = attitude_of(fit_.solid, seen, {0, 0, 1});
+        std::vector<SweptFrame> swept;
+        for (int i = 0; i < k_attitudes; ++i) {
+            stand_upright(at);
+            swept.clear();
+            for (std::size_t k = 0; k < used_.size(); k += (used_.size() + 63) / 64)
+                swept.push_back(
+                    swept_frame(frames_[used_[k]].picture, result_.frames[used_[k]].projection));
+            in_arena([&] {
+                result_.crowned = crowned(result_.solid, seen, result_.tilt_sigmas, swept);
+            });
+            if (!result_.crowned || result_.crowned->table_tilt < k_level_table) break;
+            const Vec3 n = result_.crowned->solid.facets[0].plane.normal;
+            at = attitude_about(fit_.solid, n.x * at.x + n.y * at.y + n.z * at.z);
+        }
+        if (!result_.crowned) return;
+        result_.solid = result_.crowned->solid;
+        result_.tilt_sigmas = result_.crowned->tilt_sigmas;
+        result_.unseen = result_.crowned->unseen;
+        result_.width_px = width_along(result_.solid, {1, 0, 0});
     }
 
     void judge() {

@@ -11,6 +11,7 @@
 
 #include "compare/turntable/edge_points.h"
 #include "fit/silhouettes/turning_fit.h"
+#include "refine/spin/crowned_stone.h"
 #include "refine/spin/halves.h"
 #include "refine/spin/stone_attitude.h"
 #include "stone/progress/progress.h"
@@ -52,6 +53,8 @@ struct SpinResult {
     TurningCamera camera;
     std::vector<SpinFrameResult> frames;
     Halves halves;  ///< every other frame against the rest
+    /// With table and crown, if their edges were found: then `solid` is its.
+    std::optional<CrownedStone> crowned;
     /// Part of the ground's grain that turns with the stone; camera and turns are the ground's if
     /// it is large enough (ground_texture.h).
     double ground_agreement = 0;

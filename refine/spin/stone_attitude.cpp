@@ -109,10 +109,9 @@ Vec3 in_axes(const StoneAttitude& at, const Vec3& v) {
 
 }  // namespace
 
-StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up) {
+StoneAttitude attitude_about(const Solid& solid, const Vec3& up) {
     StoneAttitude found;
-    found.z = axis_of_half_turn(solid, seen, widest_along(solid));
-    if (glm::dot(found.z, up) < 0) found.z = -found.z;
+    found.z = up;
     const Vec3 t = perpendicular_to(found.z), u = glm::cross(found.z, t);
     found.width = HUGE_VAL;
     for (double angle = 0; angle < std::numbers::pi; angle += radians(0.05)) {
@@ -128,6 +127,11 @@ StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, con
     }
     found.y = glm::cross(found.z, found.x);
     return found;
+}
+
+StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up) {
+    const Vec3 axis = axis_of_half_turn(solid, seen, widest_along(solid));
+    return attitude_about(solid, glm::dot(axis, up) < 0 ? -axis : axis);
 }
 
 bool ends_are_seen(const Solid& solid, const std::vector<bool>& seen, const Vec3& along) {

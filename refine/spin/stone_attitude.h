@@ -22,6 +22,9 @@ struct StoneAttitude {
 /// on the side of `up`. x is that of the least width across z.
 StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up);
 
+/// With z as given.
+StoneAttitude attitude_about(const Solid& solid, const Vec3& up);
+
 /// Whether facets that were `seen` alone meet at the furthest corners on both sides.
 bool ends_are_seen(const Solid& solid, const std::vector<bool>& seen, const Vec3& along);
 

@@ -148,11 +148,36 @@ void expect_outlines_from_projections(const SpinSeries& series) {
     }
 }
 
+// No outline shows the table: its edges move as it does. Four times its own sigma and that of the
+// camera's elevation; its width three times its sigma and that of the stone's width, half a pixel
+// on both sides.
+void expect_table(const SpinSeries& series) {
+    ASSERT_TRUE(series.found.crowned);
+    const CrownedStone& crowned = *series.found.crowned;
+    const Facet& table = series.truth.solid.facets[0];
+    ASSERT_EQ(table.name, "T");
+    ASSERT_EQ(crowned.solid.facets[0].name, "T");
+    const double off = degrees(angle_between(
+        series.on_turntable(crowned.solid.facets[0].plane.normal), table.plane.normal));
+    EXPECT_LT(off, 4 * std::hypot(degrees(crowned.tilt_sigmas[0]), 0.05));
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    const Vec3 across = series.on_turntable({1, 0, 0});
+    for (const int c : table.corners) {
+        const double x = glm::dot(across, series.truth.solid.vertices[std::size_t(c)]);
+        least = std::min(least, x);
+        most = std::max(most, x);
+    }
+    const double width = width_along(series.truth.solid, across);
+    EXPECT_NEAR(crowned.table_part, (most - least) / width,
+                3 * std::hypot(crowned.table_part_sigma, 1 / width));
+}
+
 TEST(Spin, FindsTheStoneWithWhichFramesWereDrawn) {
     const SpinSeries series;
     expect_turns_and_camera_of_the_ground(series);
     expect_facets_seen_edge_on(series);
     expect_outlines_from_projections(series);
+    expect_table(series);
 }
 
 // The same bytes from any number of threads.
