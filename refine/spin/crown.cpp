@@ -14,7 +14,9 @@ namespace {
 
 constexpr double k_one_side = radians(10.0);
 constexpr std::size_t k_most_sides = 16;
-constexpr double k_level = 4;  // sigmas: from an edge of the table to its plane
+// From an edge of the table to its plane: sigmas, and parts of the width, since edges of a stone
+// that does not stand level are found somewhat off.
+constexpr double k_level = 4, k_flat = 0.006;
 const double k_level_normal = std::cos(radians(6.0));
 constexpr std::size_t k_least_sides = 4;
 constexpr double k_strong_edge = 3.2;     // robust standard deviations
@@ -59,29 +61,32 @@ double height_of(const Plane& plane, const SurfaceEdge& e) {
 }
 
 struct Table {
-    double height = -HUGE_VAL, strength = 0;
+    double strength = 0;
     std::vector<SurfaceEdge> edges;
 };
 
-// The strongest edge of each side in a plane.
+// The strongest edge of each side in the plane. Nothing of a stone lies above its table: the
+// strongest edge there counts against it.
 Table table_in(const Plane& plane, const std::vector<std::vector<SurfaceEdge>>& sides,
                double within) {
     Table table;
-    table.height = plane.offset / plane.normal.z;
     for (const auto& side : sides) {
+        double on = 0, above = 0;
         for (const SurfaceEdge& e : side) {
-            if (e.strength < k_strong_edge || std::abs(e.height - height_of(plane, e)) > within)
-                continue;
+            if (e.strength < k_strong_edge) break;
+            const double over = e.height - height_of(plane, e);
+            if (over > within) above = std::max(above, e.strength);
+            if (std::abs(over) > within || on > 0) continue;
+            on = e.strength;
             table.edges.push_back(e);
-            table.strength += e.strength;
-            break;
         }
+        table.strength += on - above;
     }
     return table;
 }
 
-// The highest plane, nearly level, in which enough sides have an edge: of all through three edges.
-Table highest_table(const std::vector<std::vector<SurfaceEdge>>& sides, double within) {
+// The strongest of all nearly level planes through three edges in which enough sides have one.
+Table strongest_table(const std::vector<std::vector<SurfaceEdge>>& sides, double within) {
     std::vector<SurfaceEdge> all;
     for (const auto& side : sides) {
         for (std::size_t i = 0; i < std::min(side.size(), k_most_edges); ++i) {
@@ -99,10 +104,9 @@ Table highest_table(const std::vector<std::vector<SurfaceEdge>>& sides, double w
                 if (!is_other_side(i, k) || !is_other_side(j, k)) continue;
                 const Plane plane = plane_through({all[i], all[j], all[k]});
                 if (!(plane.normal.z > k_level_normal)) continue;
-                if (plane.offset / plane.normal.z < best.height - within) continue;
                 Table table = table_in(plane, sides, within);
-                if (table.edges.size() < k_least_sides || !surround(table.edges)) continue;
-                if (table.height > best.height + within || table.strength > best.strength)
+                if (table.strength > best.strength && table.edges.size() >= k_least_sides &&
+                    surround(table.edges))
                     best = std::move(table);
             }
         }
@@ -191,7 +195,7 @@ std::vector<SweptSide> sides_of(const Solid& upright, const std::vector<bool>& s
 
 std::optional<Crown> crown_of(const std::vector<std::vector<SurfaceEdge>>& edges, double width,
                               double edge_sigma) {
-    const Table table = highest_table(edges, k_level * edge_sigma);
+    const Table table = strongest_table(edges, std::max(k_level * edge_sigma, k_flat * width));
     if (table.edges.empty()) return std::nullopt;
     Crown crown;
     crown.table_edges = table.edges;

@@ -55,13 +55,15 @@ Vec3 widest_along(const Solid& solid) {
     return best;
 }
 
-// A facet's partner is so far off (one sigma); the axis so far from where the stone is widest.
-constexpr double k_alike = radians(1.5), k_furthest = radians(25.0);
+// A facet's partner is so far off (one sigma), while the axis is looked for and then; the axis so
+// far from where the stone is widest.
+constexpr double k_roughly_alike = radians(3.0), k_alike = radians(1.5), k_furthest = radians(25.0);
 constexpr double k_least_share = 0.3;
 const double k_across = std::cos(radians(20.0));
 
 // Part of the seen facets' area that half a turn about the axis brings onto other seen facets.
-double half_turn_share(const Solid& solid, const std::vector<double>& areas, const Vec3& axis) {
+double half_turn_share(const Solid& solid, const std::vector<double>& areas, const Vec3& axis,
+                       double alike_sigma) {
     double alike = 0, all = 0;
     for (std::size_t f = 0; f < areas.size(); ++f) {
         const Vec3& n = solid.facets[f].plane.normal;
@@ -73,7 +75,7 @@ double half_turn_share(const Solid& solid, const std::vector<double>& areas, con
             if (areas[g] > 0)
                 nearest = std::min(nearest, angle_between(turned, solid.facets[g].plane.normal));
         }
-        alike += areas[f] * std::exp(-0.5 * std::pow(nearest / k_alike, 2));
+        alike += areas[f] * std::exp(-0.5 * std::pow(nearest / alike_sigma, 2));
         all += areas[f];
     }
     return all > 0 ? alike / all : 0;
@@ -86,9 +88,9 @@ Vec3 axis_of_half_turn(const Solid& solid, const std::vector<bool>& seen, const 
         areas.push_back(seen[f] ? area(solid, solid.facets[f]) : 0);
     const Vec3 t = perpendicular_to(about), u = glm::cross(about, t);
     Vec3 best = about;
-    double most = k_least_share;
+    double most = k_least_share, alike = k_roughly_alike;
     const auto look = [&](const Vec3& axis) {
-        const double share = half_turn_share(solid, areas, axis);
+        const double share = half_turn_share(solid, areas, axis, alike);
         if (!(share > most)) return false;
         most = share;
         best = axis;
@@ -99,6 +101,9 @@ Vec3 axis_of_half_turn(const Solid& solid, const std::vector<bool>& seen, const 
         for (int k = -steps; k <= steps; ++k)
             look(glm::normalize(about + std::tan(i * k_alike) * t + std::tan(k * k_alike) * u));
     }
+    if (most == k_least_share) return about;
+    alike = k_alike;
+    most = half_turn_share(solid, areas, best, alike);
     climb(best, k_alike / 2, look);
     return best;
 }
