@@ -101,28 +101,27 @@ Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
     json["camera"] = {{"elevation_deg", degrees(found.camera.elevation)},
                       {"roll_deg", degrees(found.camera.roll)},
                       {"axis_px", found.camera.axis},
-                      {"perspective", found.camera.perspective * found.width_px}};
-    json["proportions"] = {
-        {"width", {{"value", found.width_px * px_mm}, {"read", found.width_seen}}},
-        {"length_to_width",
-         {{"value", found.length_px / found.width_px},
-          {"read", found.width_seen && found.length_seen}}}};
+                      {"perspective", found.camera.perspective * found.width().value}};
+    for (const SpinProportion& p : found.proportions) {
+        const double scale = p.name == "width" ? px_mm : 1;
+        json["proportions"][p.name] = {
+            {"value", p.value * scale}, {"sigma", p.sigma * scale}, {"read", p.read}};
+    }
     if (const auto& crown = found.crowned) {
-        json["proportions"]["table_pct"] = {{"value", 100 * crown->table_part},
-                                            {"sigma", 100 * crown->table_part_sigma},
-                                            {"read", crown->table_part > 0}};
         json["crown"] = {{"edges", crown->edges},
                          {"edge_sigma_px", crown->edge_sigma},
                          {"table_tilt_deg", degrees(crown->table_tilt)}};
     }
     const Halves& halves = found.halves;
-    json["halves"] = {{"facets", halves.facets},
-                      {"facet_deg", degrees(halves.tilt)},
+    json["halves"] = {{"facets", halves.facets.count},
+                      {"facet_deg", degrees(halves.facets.tilt)},
+                      {"large_facets", halves.large_facets.count},
+                      {"large_facet_deg", degrees(halves.large_facets.tilt)},
                       {"sigmas_times", halves.factor},
                       {"up_deg", degrees(halves.up)},
-                      {"width_pct", 100 * halves.width},
-                      {"length_to_width_pct", 100 * halves.length_to_width},
                       {"elevation_deg", degrees(halves.elevation)}};
+    for (const auto& [name, difference] : halves.proportions)
+        json["halves"]["proportions"][name] = difference * (name == "width" ? px_mm : 1);
     json["ground_agreement"] = found.ground_agreement;
     json["tangent_rms_px"] = found.tangent_px;
     json["scatter_px"] = found.scatter_px;
@@ -167,7 +166,7 @@ void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
                                      : fmt::format(", in the {} frames left out within {:.2f} px",
                                                    left_out.size(), upper_median(left_out))),
         a.common.quiet);
-    say(fmt::format("the stone is {:.1f} px wide{}", found.width_px,
+    say(fmt::format("the stone is {:.1f} px wide{}", found.width().value,
                     a.width_mm > 0 ? "" : "; --width MM gives its lengths in mm"),
         a.common.quiet);
     if (found.crowned)
@@ -186,7 +185,7 @@ void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
                         "tilt is a guess (\"unseen\" in --json)",
                         found.unseen.size()),
             a.common.quiet);
-    if (!found.width_seen)
+    if (!found.width().read)
         say("such facets bound the width: the scale is not to be trusted", a.common.quiet);
     if (!found.trouble.empty())
         say(fmt::format("do not use it: {}. {}.", found.trouble, found.remedy), a.common.quiet);
@@ -202,7 +201,7 @@ int run_spin(const SpinArguments& a) {
     options.threads = a.common.threads;
     const SpinResult found =
         spin(frames, options, progress_line("finding the stone", a.common.quiet));
-    const double px_mm = a.width_mm > 0 ? a.width_mm / found.width_px : 1;
+    const double px_mm = a.width_mm > 0 ? a.width_mm / found.width().value : 1;
     const std::string json = spin_json(a, frames, found, px_mm).dump(2) + "\n";
     write_solid(scaled(found.solid, px_mm), a.output);
     if (!a.json.empty()) write_text(a.json, json);

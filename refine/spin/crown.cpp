@@ -208,6 +208,7 @@ std::optional<Crown> crown_of(const std::vector<std::vector<SurfaceEdge>>& edges
         for (const auto& side : edges) {
             if (side.empty() || side[0].azimuth != e.azimuth) continue;
             const std::vector<SurfaceEdge> chain = chain_from(e, side, k_apart * width);
+            if (chain.size() > 1) crown.outermost.push_back(chain.back());
             for (std::size_t i = 1; i < chain.size(); ++i) {
                 const double out = chain[i].radius - chain[i - 1].radius,
                              down = chain[i - 1].height - chain[i].height,

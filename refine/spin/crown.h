@@ -17,7 +17,8 @@ struct Crown {
     CrownFacet table;
     /// The table's edge on each side that shows one, away from the axis.
     std::vector<SurfaceEdge> table_edges;
-    std::vector<CrownFacet> facets;  ///< further down, on each side from the table outwards
+    std::vector<CrownFacet> facets;      ///< further down, on each side from the table outwards
+    std::vector<SurfaceEdge> outermost;  ///< the last edge of each such side
 };
 
 /// The sides of the stone to look at: directions in which its seen facets lie.

@@ -20,6 +20,7 @@ constexpr double k_cut_off = 0.008;  // of the width: what a new facet may take 
 constexpr double k_opposite = radians(12.0);
 // What outlines alone put in the table's place is less inclined to it.
 constexpr double k_table = radians(12.0);
+const double k_upright = std::sin(radians(10.0));
 constexpr double k_least_sigma = 0.125;  // pixels: half a step of the sweep's last refinement
 constexpr double k_compared_edge = 3.2;
 
@@ -55,6 +56,16 @@ bool contradicts(const Plane& plane, const Solid& solid, const std::vector<bool>
         if (is_seen[c] && height_above(plane, solid.vertices[c]) > most) return true;
     }
     return false;
+}
+
+// A girdle that no outline shows is taken as upright, below the crown's outermost edge.
+Plane girdle_below(const Crown& crown, const Plane& guess) {
+    if (std::abs(guess.normal.z) > k_upright) return guess;
+    for (const SurfaceEdge& e : crown.outermost) {
+        const Vec3 out{std::cos(e.azimuth), std::sin(e.azimuth), 0};
+        if (angle_between(out, guess.normal) < k_opposite) return {out, e.radius};
+    }
+    return guess;
 }
 
 // Between the two opposite sides nearest to x, along which the stone is narrowest.
@@ -102,7 +113,8 @@ std::optional<CrownedStone> crowned(const Solid& solid, const std::vector<bool>&
         const Vec3& normal = solid.facets[f].plane.normal;
         if (!seen[f] && normal.z > 0) continue;
         if (angle_between(normal, crown->table.plane.normal) < k_table) continue;
-        planes.push_back({solid.facets[f].name, solid.facets[f].plane});
+        const Plane& plane = solid.facets[f].plane;
+        planes.push_back({solid.facets[f].name, seen[f] ? plane : girdle_below(*crown, plane)});
         sigmas[solid.facets[f].name] = tilt_sigmas[f];
     }
     HalfSpaceSolid body = intersect_half_spaces(planes);

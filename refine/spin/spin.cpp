@@ -5,15 +5,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
 #include "compare/turntable/tangency.h"
 #include "refine/spin/ground_texture.h"
-#include "refine/spin/halves.h"
-#include "refine/spin/stone_attitude.h"
-#include "refine/spin/surface_edges.h"
 #include "stone/numbers/units.h"
 #include "stone/numbers/upper_median.h"
 #include "stone/text/errors.h"
@@ -31,8 +29,6 @@ constexpr double k_ground_turn_sigma = radians(0.03);
 // Pixels from the expected outline: first as the coarse outlines tell it, then as the edges do.
 constexpr double k_first_reach = 4, k_reach = 2.5;
 constexpr int k_refits = 2;
-constexpr int k_attitudes = 3;
-constexpr double k_level_table = radians(0.2);
 // Pixels: coarse outlines of a turning stone disagree by one or two, of another thing by tens.
 constexpr double k_doubtful_tangents = 5, k_doubtful_scatter = 1;
 
@@ -63,8 +59,8 @@ public:
         compare_halves();
         done(0.95);
         hold_out();
+        stand_upright();
         take_frames();
-        find_crown();
         judge();
         return std::move(result_);
     }
@@ -181,13 +177,14 @@ private:
     // Edges are off along whole sides, not point by point: how far halves of the frames differ says
     // more than the scatter.
     void compare_halves() {
-        std::array<TurningFit, 2> halves;
         in_arena([&] {
-            tbb::parallel_for(std::size_t{0}, halves.size(), [&](std::size_t h) {
-                halves[h] = fitted([&](std::size_t f) { return edges_[f]; }, h, halves.size());
+            tbb::parallel_for(std::size_t{0}, halves_.size(), [&](std::size_t h) {
+                halves_[h] = fitted([&](std::size_t f) { return edges_[f]; }, h, halves_.size());
             });
         });
-        result_.halves = compared(halves[0], halves[1]);
+        result_.halves.factor = factor_of_halves(halves_[0], halves_[1]);
+        result_.halves.elevation =
+            halves_[0].series.camera.elevation - halves_[1].series.camera.elevation;
         for (double& sigma : fit_.tilt_sigmas)
             sigma = std::min(k_turning_tilt, sigma * result_.halves.factor);
         for (std::size_t k = 0; k < used_.size(); ++k) {
@@ -252,50 +249,43 @@ private:
         }
     }
 
-    void stand_upright(const StoneAttitude& at) {
-        const std::vector<bool> seen = seen_facets(fit_);
-        result_.width_px = at.width;
-        result_.length_px = at.length;
-        result_.width_seen = ends_are_seen(fit_.solid, seen, at.x);
-        result_.length_seen = ends_are_seen(fit_.solid, seen, at.along_length);
-        result_.solid = upright(fit_.solid, at);
-        result_.tilt_sigmas = fit_.tilt_sigmas;
-        result_.unseen.clear();
-        for (std::size_t f = 0; f < seen.size(); ++f) {
-            if (!seen[f]) result_.unseen.push_back(int(f));
+    StandingStone standing(const TurningFit& fit, std::size_t first, std::size_t every) const {
+        std::vector<const LevelPicture*> pictures;
+        for (std::size_t k = first; k < used_.size(); k += every)
+            pictures.push_back(&frames_[used_[k]].picture);
+        return standing_stone(fit, pictures);
+    }
+
+    void stand_upright() {
+        if (has_ground_) {
+            lay_on_ground(fit_, ground_.depth);
+            for (TurningFit& half : halves_) lay_on_ground(half, ground_.depth);
+        }
+        StandingStone stone;
+        in_arena([&] { stone = standing(fit_, 0, 1); });
+        std::array<StandingStone, 2> halves;
+        in_arena([&] {
+            for (std::size_t h = 0; h < 2; ++h) halves[h] = standing(halves_[h], h, 2);
+        });
+        compare_stones(halves[0], halves[1], result_.halves);
+        result_.proportions =
+            proportions_of(stone, stone.crowned ? stone.crowned->edge_sigma : fit_.scatter);
+        for (SpinProportion& p : result_.proportions) {
+            for (const auto& [name, difference] : result_.halves.proportions)
+                if (name == p.name) p.sigma = std::max(p.sigma, std::abs(difference) / 2);
+        }
+        result_.solid = stone.solid;
+        result_.tilt_sigmas = stone.tilt_sigmas;
+        result_.crowned = stone.crowned;
+        for (std::size_t f = 0; f < stone.seen.size(); ++f) {
+            if (!stone.seen[f]) result_.unseen.push_back(int(f));
         }
         for (std::size_t f = 0; f < frames_.size(); ++f) {
             SpinFrameResult& frame = result_.frames[f];
             if (frame.turn)
-                frame.projection = projection_of(picture_axes(fit_.series.camera, *frame.turn), at,
-                                                 frames_[f].picture);
+                frame.projection = projection_of(picture_axes(fit_.series.camera, *frame.turn),
+                                                 stone.at, frames_[f].picture);
         }
-    }
-
-    // By edges inside the outlines, from 64 frames at most. Edges are looked for across the way up:
-    // the table tells it better than the outlines.
-    void find_crown() {
-        const std::vector<bool> seen = seen_facets(fit_);
-        StoneAttitude at = attitude_of(fit_.solid, seen, {0, 0, 1});
-        std::vector<SweptFrame> swept;
-        for (int i = 0; i < k_attitudes; ++i) {
-            stand_upright(at);
-            swept.clear();
-            for (std::size_t k = 0; k < used_.size(); k += (used_.size() + 63) / 64)
-                swept.push_back(
-                    swept_frame(frames_[used_[k]].picture, result_.frames[used_[k]].projection));
-            in_arena([&] {
-                result_.crowned = crowned(result_.solid, seen, result_.tilt_sigmas, swept);
-            });
-            if (!result_.crowned || result_.crowned->table_tilt < k_level_table) break;
-            const Vec3 n = result_.crowned->solid.facets[0].plane.normal;
-            at = attitude_about(fit_.solid, n.x * at.x + n.y * at.y + n.z * at.z);
-        }
-        if (!result_.crowned) return;
-        result_.solid = result_.crowned->solid;
-        result_.tilt_sigmas = result_.crowned->tilt_sigmas;
-        result_.unseen = result_.crowned->unseen;
-        result_.width_px = width_along(result_.solid, {1, 0, 0});
     }
 
     void judge() {
@@ -324,6 +314,7 @@ private:
     GroundTexture ground_;
     bool has_ground_ = false;
     TurningFit fit_;
+    std::array<TurningFit, 2> halves_;
     SpinResult result_;
 };
 

@@ -11,9 +11,8 @@
 
 #include "compare/turntable/edge_points.h"
 #include "fit/silhouettes/turning_fit.h"
-#include "refine/spin/crowned_stone.h"
 #include "refine/spin/halves.h"
-#include "refine/spin/stone_attitude.h"
+#include "refine/spin/spin_proportions.h"
 #include "stone/progress/progress.h"
 
 namespace culet {
@@ -45,11 +44,11 @@ struct SpinResult {
     /// Lengths in pixels at the turntable's axis. It stands upright (stone_attitude.h), x along its
     /// least width.
     Solid solid;
-    std::vector<double> tilt_sigmas;     ///< by facet, radians
-    std::vector<int> unseen;             ///< facets whose tilt is hardly more than a guess
-    double width_px = 0, length_px = 0;  ///< least and largest across z, as calipers read
-    /// Whether facets that are not `unseen` alone meet at both ends.
-    bool width_seen = false, length_seen = false;
+    std::vector<double> tilt_sigmas;  ///< by facet, radians
+    std::vector<int> unseen;          ///< facets whose tilt is hardly more than a guess
+    /// The width is in pixels. A sigma is at least half of how far the halves' values differ.
+    std::vector<SpinProportion> proportions;
+    const SpinProportion& width() const { return proportions.front(); }
     TurningCamera camera;
     std::vector<SpinFrameResult> frames;
     Halves halves;  ///< every other frame against the rest

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "stone/numbers/units.h"
+#include "stone/solid/caliper.h"
 #include "stone/solid/perpendicular.h"
 
 namespace culet {
@@ -115,23 +116,10 @@ Vec3 in_axes(const StoneAttitude& at, const Vec3& v) {
 }  // namespace
 
 StoneAttitude attitude_about(const Solid& solid, const Vec3& up) {
-    StoneAttitude found;
-    found.z = up;
-    const Vec3 t = perpendicular_to(found.z), u = glm::cross(found.z, t);
-    found.width = HUGE_VAL;
-    for (double angle = 0; angle < std::numbers::pi; angle += radians(0.05)) {
-        const Vec3 across = std::cos(angle) * t + std::sin(angle) * u;
-        const double width = width_along(solid, across);
-        if (width > found.length) {
-            found.length = width;
-            found.along_length = across;
-        }
-        if (!(width < found.width)) continue;
-        found.width = width;
-        found.x = across;
-    }
-    found.y = glm::cross(found.z, found.x);
-    return found;
+    const double azimuth = caliper_widths(solid, up).least_azimuth;
+    const PlanFrame plan = plan_frame(up);
+    const Vec3 x = std::cos(azimuth) * plan.x + std::sin(azimuth) * plan.y;
+    return {x, glm::cross(up, x), up};
 }
 
 StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up) {

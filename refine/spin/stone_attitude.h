@@ -10,16 +10,14 @@
 
 namespace culet {
 
-/// Axes of the upright stone, and its widths across z.
+/// Axes of the upright stone.
 struct StoneAttitude {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-    double width = 0, length = 0;
-    Vec3 along_length{0, 1, 0};
 };
 
 /// z is the axis of half a turn that brings most of the `seen` facets onto others, near the
 /// direction along which the outline's area is largest, or that direction if there is no such axis;
-/// on the side of `up`. x is that of the least width across z.
+/// on the side of `up`. x is along the least width across z.
 StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, const Vec3& up);
 
 /// With z as given.

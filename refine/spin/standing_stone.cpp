@@ -1,0 +1,76 @@
+#include "refine/spin/standing_stone.h"
+
+#include <map>
+
+#include "refine/spin/surface_edges.h"
+#include "stone/numbers/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_attitudes = 3;
+constexpr double k_level_table = radians(0.2);
+constexpr std::size_t k_swept = 64;  // frames in which edges are looked for, at most
+// As halves of a real series differ.
+constexpr double k_ground_tilt = radians(0.05);
+constexpr double k_same_as_ground = radians(12.0);
+
+}  // namespace
+
+std::vector<bool> seen_facets(const TurningFit& fit) {
+    std::vector<bool> seen;
+    for (const double sigma : fit.tilt_sigmas) seen.push_back(sigma <= k_turning_tilt / 2);
+    return seen;
+}
+
+void lay_on_ground(TurningFit& fit, double depth) {
+    const Vec3 down{0, 0, -1};
+    const std::vector<bool> seen = seen_facets(fit);
+    std::vector<NamedPlane> planes;
+    std::map<std::string, double> sigmas{{"G", k_ground_tilt}};
+    for (std::size_t f = 0; f < seen.size(); ++f) {
+        const Facet& facet = fit.solid.facets[f];
+        if (!seen[f] && angle_between(facet.plane.normal, down) < k_same_as_ground) continue;
+        planes.push_back({facet.name, facet.plane});
+        sigmas[facet.name] = fit.tilt_sigmas[f];
+    }
+    planes.push_back({"G", {down, depth}});
+    HalfSpaceSolid lying = intersect_half_spaces(planes);
+    if (lying.solid.facets.empty()) return;
+    fit.solid = std::move(lying.solid);
+    fit.tilt_sigmas.clear();
+    for (const Facet& facet : fit.solid.facets) fit.tilt_sigmas.push_back(sigmas[facet.name]);
+}
+
+StandingStone standing_stone(const TurningFit& fit,
+                             const std::vector<const LevelPicture*>& pictures) {
+    StandingStone stone;
+    const std::vector<bool> seen = seen_facets(fit);
+    stone.at = attitude_of(fit.solid, seen, {0, 0, 1});
+    const std::size_t every = (pictures.size() + k_swept - 1) / k_swept;
+    // Edges are looked for across the way up: the table tells it better than the outlines.
+    for (int i = 0; i < k_attitudes; ++i) {
+        stone.solid = upright(fit.solid, stone.at);
+        std::vector<SweptFrame> swept;
+        for (std::size_t k = 0; k < pictures.size(); k += every)
+            swept.push_back(swept_frame(
+                *pictures[k], projection_of(picture_axes(fit.series.camera, fit.series.turns[k]),
+                                            stone.at, *pictures[k])));
+        stone.crowned = crowned(stone.solid, seen, fit.tilt_sigmas, swept);
+        if (!stone.crowned || stone.crowned->table_tilt < k_level_table) break;
+        if (i + 1 < k_attitudes)
+            stone.at = attitude_about(
+                fit.solid, stone.on_turntable(stone.crowned->solid.facets[0].plane.normal));
+    }
+    stone.tilt_sigmas = fit.tilt_sigmas;
+    stone.seen = seen;
+    if (!stone.crowned) return stone;
+    stone.solid = stone.crowned->solid;
+    stone.tilt_sigmas = stone.crowned->tilt_sigmas;
+    stone.seen.assign(stone.solid.facets.size(), true);
+    for (const int f : stone.crowned->unseen) stone.seen[std::size_t(f)] = false;
+    return stone;
+}
+
+}  // namespace culet
