@@ -113,6 +113,12 @@ std::string png_uri(std::string_view png) {
     return "data:image/png;base64," + base64(png);
 }
 
+std::string picture_uri(std::string_view file) {
+    if (file.starts_with("\x89PNG")) return png_uri(file);
+    if (file.starts_with("\xff\xd8\xff")) return "data:image/jpeg;base64," + base64(file);
+    return {};
+}
+
 std::string shell_word(const std::string& word) {
     const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
         return std::isalnum(c) || std::string_view("._-/=+:,").find(char(c)) != std::string::npos;

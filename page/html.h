@@ -24,6 +24,8 @@ std::optional<std::string> bytes_of_base64(std::string_view text);
 
 /// `data:image/png;base64,...`
 std::string png_uri(std::string_view png);
+/// The same for the bytes of a JPEG or PNG file, by how it begins; empty for others.
+std::string picture_uri(std::string_view file);
 
 /// Writes `count` decimals and a true minus sign; a dash for nothing, NaN and infinity.
 std::string decimals(const std::optional<double>& value, int count);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/commands/spin_report.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
 #include "compare/photo/photo.h"
@@ -31,7 +32,7 @@ using Json = nlohmann::ordered_json;
 struct SpinArguments {
     CommonOptions common;
     std::vector<std::string> frames, held_out;
-    std::string output, json;
+    std::string output, json, report;
     double step_deg = 0, width_mm = 0;
 };
 
@@ -205,6 +206,12 @@ int run_spin(const SpinArguments& a) {
     const std::string json = spin_json(a, frames, found, px_mm).dump(2) + "\n";
     write_solid(scaled(found.solid, px_mm), a.output);
     if (!a.json.empty()) write_text(a.json, json);
+    if (!a.report.empty()) {
+        write_spin_report(a.report, frames, found, a.width_mm);
+        say(fmt::format("report: {}; next: open it in a browser",
+                        (fs::path(a.report) / "report.html").string()),
+            a.common.quiet);
+    }
     say_result(a, frames, found);
     return found.trouble.empty() ? exit_good : exit_untrusted;
 }
@@ -242,6 +249,11 @@ void add_command_spin(CLI::App& program, int& exit_code) {
         ->add_option("--json", a.json,
                      "turn and projection of each frame, the camera, the facets; - is stdout")
         ->type_name("FILE");
+    command
+        ->add_option("--report", a.report,
+                     "folder for report.html: the stone turning beside its photographs, and its "
+                     "proportions")
+        ->type_name("DIR");
     add_common(*command, a.common, false);
     command->footer(
         "Examples:\n"

@@ -66,7 +66,10 @@ StandingStone standing_stone(const TurningFit& fit,
     stone.tilt_sigmas = fit.tilt_sigmas;
     stone.seen = seen;
     if (!stone.crowned) return stone;
-    stone.solid = stone.crowned->solid;
+    // The girdle may have become narrower.
+    const StoneAttitude turned = attitude_about(stone.crowned->solid, {0, 0, 1});
+    stone.solid = upright(stone.crowned->solid, turned);
+    stone.at = {stone.on_turntable(turned.x), stone.on_turntable(turned.y), stone.at.z};
     stone.tilt_sigmas = stone.crowned->tilt_sigmas;
     stone.seen.assign(stone.solid.facets.size(), true);
     for (const int f : stone.crowned->unseen) stone.seen[std::size_t(f)] = false;

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "stone/solid_input.h"
+#include "stone/text/output_file.h"
 #include "tests/app/program_test.h"
 #include "tests/refine/spin_frames.h"
 
@@ -41,11 +42,16 @@ TEST_F(SpinCommand, WritesAStoneAndItsProjections) {
     std::vector<std::string> arguments{"spin"};
     const std::vector<std::string> files = written(synthetic::frames_of(truth));
     arguments.insert(arguments.end(), files.begin(), files.end());
-    arguments.insert(arguments.end(), {"--hold-out", files[9], "--width", "5", "-o",
-                                       file("stone.obj"), "--json", file("spin.json")});
+    arguments.insert(arguments.end(),
+                     {"--hold-out", files[9], "--width", "5", "-o", file("stone.obj"), "--json",
+                      file("spin.json"), "--report", file("report")});
     const ProgramRun run = run_culet(arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out, "");
+    const std::string page = read_text(file("report") + "/report.html");
+    for (const char* part :
+         {"frame-010.png", "data:image/png;base64,", "length to width", "5.000 mm"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
     const nlohmann::json found = json("spin.json");
     EXPECT_EQ(found["unit"], "mm");
     ASSERT_EQ(found["frames"].size(), 32u);

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "stone/numbers/units.h"
+#include "stone/solid/caliper.h"
 #include "stone/text/errors.h"
 #include "tests/refine/spin_frames.h"
 
@@ -172,12 +173,31 @@ void expect_table(const SpinSeries& series) {
                 3 * std::hypot(crowned.table_part_sigma, 1 / width));
 }
 
+// Within three times their sigmas, if they were read.
+void expect_proportions(const SpinSeries& series) {
+    EXPECT_TRUE(series.found.width().read);
+    const Solid& solid = series.truth.solid;
+    const CaliperWidths calipers = caliper_widths(solid, solid.facets[0].plane.normal);
+    const std::pair<const char*, double> expected[] = {
+        {"width", calipers.least},
+        {"length_to_width", calipers.length / calipers.least},
+        {"depth_pct", 100 * width_along(solid, solid.facets[0].plane.normal) / calipers.least}};
+    for (const auto& [name, value] : expected) {
+        const SpinProportion* found = proportion(series.found.proportions, name);
+        ASSERT_TRUE(found) << name;
+        if (found->read) {
+            EXPECT_NEAR(found->value, value, 3 * found->sigma) << name;
+        }
+    }
+}
+
 TEST(Spin, FindsTheStoneWithWhichFramesWereDrawn) {
     const SpinSeries series;
     expect_turns_and_camera_of_the_ground(series);
     expect_facets_seen_edge_on(series);
     expect_outlines_from_projections(series);
     expect_table(series);
+    expect_proportions(series);
 }
 
 // The same bytes from any number of threads.
