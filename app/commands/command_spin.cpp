@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -57,25 +58,36 @@ std::vector<std::string> names_of(const SpinArguments& a) {
     return sorted;
 }
 
+void require_one_size(const std::vector<SpinFrame>& frames) {
+    const auto size_of = [](const SpinFrame& frame) {
+        return fmt::format("{} x {}", frame.picture.width, frame.picture.height);
+    };
+    std::map<std::string, std::size_t> counts;
+    for (const SpinFrame& frame : frames) ++counts[size_of(frame)];
+    const auto usual =
+        std::max_element(counts.begin(), counts.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    for (const SpinFrame& frame : frames) {
+        if (size_of(frame) != usual->first)
+            throw InputError(
+                fs::path(frame.name),
+                fmt::format("has {} pixels, {} of {} frames have {}: leave it out or "
+                            "give it as large as the others, from the same place",
+                            size_of(frame), usual->second, frames.size(), usual->first));
+    }
+}
+
 std::vector<SpinFrame> frames_of(const SpinArguments& a) {
     const std::set<std::string> held_out(a.held_out.begin(), a.held_out.end());
     const Progress progress = progress_line("reading frames", a.common.quiet);
     std::vector<SpinFrame> frames;
-    std::set<std::string> told;
     const std::vector<std::string> names = names_of(a);
     for (const std::string& name : names) {
         if (progress && !progress(double(frames.size()) / double(names.size())))
             throw Interrupted();
-        const Photo photo = read_photo(name);
-        if (!frames.empty() &&
-            (photo.width != frames[0].picture.width || photo.height != frames[0].picture.height))
-            throw InputError(fs::path(name),
-                             fmt::format("has {} x {} pixels, {} has {} x {}: the camera must "
-                                         "stand still",
-                                         photo.width, photo.height, frames[0].name,
-                                         frames[0].picture.width, frames[0].picture.height));
-        frames.push_back({name, levels_of(photo), held_out.count(name) > 0});
+        frames.push_back({name, levels_of(read_photo(name)), held_out.count(name) > 0});
     }
+    require_one_size(frames);
     return frames;
 }
 
@@ -126,6 +138,7 @@ Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
     json["ground_agreement"] = found.ground_agreement;
     json["tangent_rms_px"] = found.tangent_px;
     json["scatter_px"] = found.scatter_px;
+    json["notes"] = found.notes;
     if (!found.trouble.empty()) json["trouble"] = found.trouble;
     json["unseen"] = Json::array();
     for (const int f : found.unseen)
@@ -151,6 +164,9 @@ Solid scaled(Solid solid, double scale) {
 
 void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
                 const SpinResult& found) {
+    if (found.trouble.empty()) {
+        for (const std::string& note : found.notes) say(note, a.common.quiet);
+    }
     std::vector<double> own, left_out;
     for (std::size_t f = 0; f < frames.size(); ++f) {
         const SpinFrameResult& frame = found.frames[f];

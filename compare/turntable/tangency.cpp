@@ -1,6 +1,7 @@
 #include "compare/turntable/tangency.h"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -9,6 +10,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "compare/turntable/shared_planes.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -21,94 +23,19 @@ constexpr double k_least_sine = 0.1;
 constexpr double k_opposite = 0.05;
 constexpr std::size_t k_most_pairs = 4000;
 constexpr double k_loss_px = 1;
+constexpr double k_far_better = 0.8;  // of the cost
 // Determinant of the normal equations over the product of the diagonal: below this it is rounding
 // error.
 constexpr double k_singular = 1e-12;
 
-using Hull = std::vector<glm::dvec2>;
-
-template <class T>
-using V3 = Eigen::Matrix<T, 3, 1>;
-
-// The camera's axes for an outline: towards it, right and up in the picture.
-template <class T>
-struct View {
-    V3<T> sight, right, up;
-};
-template <class T>
-View<T> view_at(const T& turn, const T& elevation) {
-    const T c = cos(elevation), s = sin(elevation);
-    // When the stone turns one way, the camera goes round it the other way.
-    const T x = cos(turn), y = -sin(turn);
-    return {{c * x, c * y, s}, {-y, x, T(0)}, {-s * x, -s * y, c}};
-}
-
-// How far the outline reaches in a direction perpendicular to the line of sight.
-template <class T>
-T reach(const Hull& hull, const View<T>& view, const V3<T>& direction, const T* table) {
-    const T x = view.right.dot(direction), y = view.up.dot(direction);
-    const T c = cos(table[1]), s = sin(table[1]);
-    // The direction in the picture, whose up is the axis, rotated by the roll.
-    const T u = c * x + s * y, v = c * y - s * x;
-    const auto number = [](const T& t) {
-        if constexpr (std::is_same_v<T, double>)
-            return t;
-        else
-            return t.a;
-    };
-    const double nu = number(u), nv = number(v);
-    std::size_t far = 0;
-    double most = -1e300;
-    for (std::size_t i = 0; i < hull.size(); ++i) {
-        const double d = nu * hull[i].x + nv * hull[i].y;
-        if (d > most) {
-            most = d;
-            far = i;
-        }
-    }
-    return u * (T(hull[far].x) - table[0]) + v * hull[far].y;
-}
-
-// Both outlines touch the plane through their lines of sight; `side`: +1 above, -1 below.
-struct SharedPlane {
-    const Hull *one, *other;
-    double side;
-
-    template <class T>
-    bool operator()(const T* const table, const T* const turn_one, const T* const turn_other,
-                    T* residual) const {
-        const View<T> a = view_at(*turn_one, table[2]), b = view_at(*turn_other, table[2]);
-        V3<T> normal = a.sight.cross(b.sight);
-        normal /= normal.norm();
-        if (normal.z() < T(0)) normal = -normal;
-        normal *= T(side);
-        residual[0] = reach(*one, a, normal, table) - reach(*other, b, normal, table);
-        return true;
-    }
-};
-
-// Half a turn apart: both touch the plane beside the axis.
-struct OppositeReach {
-    const Hull *one, *other;
-    double side;
-
-    template <class T>
-    bool operator()(const T* const table, const T* const turn, T* residual) const {
-        const View<T> a = view_at(*turn, table[2]),
-                      b = view_at(T(*turn + std::numbers::pi), table[2]);
-        const V3<T> normal = T(side) * a.right;
-        residual[0] = reach(*one, a, normal, table) - reach(*other, b, normal, table);
-        return true;
-    }
-};
-
-// A turn about the expected one, in sigmas.
-struct ExpectedTurn {
+// A step about the expected one, in sigmas.
+struct ExpectedStep {
     double expected, sigma;
 
     template <class T>
-    bool operator()(const T* const turn, T* residual) const {
-        residual[0] = (*turn - T(expected)) / sigma;
+    bool operator()(const T* const turn, const T* const next, const T* const scale,
+                    T* residual) const {
+        residual[0] = (*next - *turn - *scale * T(expected)) / sigma;
         return true;
     }
 };
@@ -118,7 +45,8 @@ struct Problem {
     std::vector<double> turns;
     ceres::Problem ceres = {};
     std::array<double, 3> table{0, 0, 0};
-    int shared = 0, opposite = 0;
+    int opposite = 0;
+    std::vector<TangentGap> shared = {};
 };
 
 void add_opposite(Problem& problem) {
@@ -163,7 +91,7 @@ void add_shared(Problem& problem) {
                                                new SharedPlane{&one.corners, &other.corners, side}),
                                            new ceres::HuberLoss(k_loss_px), problem.table.data(),
                                            &problem.turns[i], &problem.turns[j]);
-            ++problem.shared;
+            problem.shared.push_back({i, j, 0});
         }
     }
 }
@@ -202,16 +130,56 @@ void solve_with_exact_turns(Problem& problem, const TangencyOptions& options) {
     problem.table = best;
 }
 
-void solve_with_free_turns(Problem& problem, double sigma) {
-    for (double& turn : problem.turns) {
-        if (!problem.ceres.HasParameterBlock(&turn)) continue;
-        problem.ceres.SetParameterBlockVariable(&turn);
-        problem.ceres.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<ExpectedTurn, 1, 1>(new ExpectedTurn{turn, sigma}),
-            nullptr, &turn);
-    }
+// Each turn about an expected one.
+double solve_about(Problem& problem, const std::vector<double>& expected, double sigma) {
+    const ceres::Matrix weight = ceres::Matrix::Constant(1, 1, 1 / sigma);
+    std::vector<ceres::ResidualBlockId> priors;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        priors.push_back(problem.ceres.AddResidualBlock(
+            new ceres::NormalPrior(weight, ceres::Vector::Constant(1, expected[i])), nullptr,
+            &problem.turns[i]));
     // Hundreds of unknowns, thousands of equations.
+    const double cost = solved(problem, ceres::DENSE_NORMAL_CHOLESKY);
+    for (const ceres::ResidualBlockId prior : priors) problem.ceres.RemoveResidualBlock(prior);
+    return cost;
+}
+
+// Each step about the given one, or far from it, so that one of another size moves all pictures
+// behind it.
+void solve_by_steps(Problem& problem, const std::vector<double>& given, double sigma) {
+    double scale = 1;
+    std::vector<ceres::ResidualBlockId> steps;
+    for (std::size_t i = 0; i + 1 < given.size(); ++i)
+        steps.push_back(problem.ceres.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<ExpectedStep, 1, 1, 1, 1>(
+                new ExpectedStep{given[i + 1] - given[i], sigma}),
+            new ceres::CauchyLoss(1), &problem.turns[i], &problem.turns[i + 1], &scale));
+    problem.ceres.SetParameterBlockConstant(problem.turns.data());
     solved(problem, ceres::DENSE_NORMAL_CHOLESKY);
+    problem.ceres.SetParameterBlockVariable(problem.turns.data());
+    for (const ceres::ResidualBlockId step : steps) problem.ceres.RemoveResidualBlock(step);
+    problem.ceres.RemoveParameterBlock(&scale);
+}
+
+// Turns about even steps, or about others if they suit the outlines far better.
+SteppedTurns solve_with_free_turns(Problem& problem, double sigma) {
+    const std::vector<double> given = problem.turns;
+    for (double& turn : problem.turns) {
+        if (!problem.ceres.HasParameterBlock(&turn)) return stepped_turns(given, given);
+        problem.ceres.SetParameterBlockVariable(&turn);
+    }
+    const double even = solve_about(problem, given, sigma);
+    const std::array<double, 3> table = problem.table;
+    const std::vector<double> turns = problem.turns;
+    solve_by_steps(problem, given, sigma);
+    SteppedTurns expected = stepped_turns(given, problem.turns);
+    std::copy(expected.turns.begin(), expected.turns.end(), problem.turns.begin());
+    if (expected.turns != given &&
+        solve_about(problem, expected.turns, sigma) < k_far_better * even)
+        return expected;
+    problem.table = table;
+    std::copy(turns.begin(), turns.end(), problem.turns.begin());
+    return stepped_turns(given, given);
 }
 
 void take_sigmas(Problem& problem, Tangency& found) {
@@ -252,8 +220,8 @@ Tangency tangency_of(const std::vector<OutlineHull>& hulls, const std::vector<do
     add_shared(problem);
     solve_with_exact_turns(problem, options);
     Tangency found;
-    found.tangents = problem.opposite + problem.shared;
-    if (options.turn_sigma > 0) solve_with_free_turns(problem, options.turn_sigma);
+    found.tangents = problem.opposite + int(problem.shared.size());
+    if (options.turn_sigma > 0) found.expected = solve_with_free_turns(problem, options.turn_sigma);
     found.table = problem.table;
     found.turns = problem.turns;
     std::vector<double> residuals;
@@ -262,6 +230,9 @@ Tangency tangency_of(const std::vector<OutlineHull>& hulls, const std::vector<do
     problem.ceres.Evaluate(evaluate, nullptr, &residuals, nullptr, nullptr);
     residuals.resize(std::size_t(found.tangents));  // without those of expected turns
     for (const double r : residuals) found.residual_px += r * r;
+    found.gaps = std::move(problem.shared);
+    for (std::size_t k = 0; k < found.gaps.size(); ++k)
+        found.gaps[k].px = residuals[std::size_t(problem.opposite) + k];
     found.residual_px =
         std::sqrt(found.residual_px / std::max(1.0, static_cast<double>(residuals.size()) - 3));
     take_sigmas(problem, found);

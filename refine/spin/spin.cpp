@@ -12,6 +12,7 @@
 
 #include "compare/turntable/tangency.h"
 #include "refine/spin/ground_texture.h"
+#include "refine/spin/series_faults.h"
 #include "stone/numbers/units.h"
 #include "stone/numbers/upper_median.h"
 #include "stone/text/errors.h"
@@ -30,7 +31,7 @@ constexpr double k_ground_turn_sigma = radians(0.03);
 constexpr double k_first_reach = 4, k_reach = 2.5;
 constexpr int k_refits = 2;
 // Pixels: coarse outlines of a turning stone disagree by one or two, of another thing by tens.
-constexpr double k_doubtful_tangents = 5, k_doubtful_scatter = 1;
+constexpr double k_doubtful_tangents = 5, k_doubtful_scatter = 1, k_suspicious_scatter = 0.7;
 
 class Spin {
 public:
@@ -46,7 +47,7 @@ public:
         trace();
         find_turntable();
         done(0.2);
-        fit_ = fitted([&](std::size_t f) { return places_along(coarse_[f].corners); });
+        fit_coarse_outlines();
         done(0.45);
         look_at_ground();
         done(0.6);
@@ -99,24 +100,46 @@ private:
                                                : 2 * std::numbers::pi / double(frames_.size());
         std::vector<OutlineHull> hulls;
         for (const std::size_t f : used_) hulls.push_back({coarse_[f].corners});
+        TangencyOptions options;
+        options.from_above = true;
+        options.turn_sigma = k_turn_sigma;
+        for (const double deg : {3, 20, 35, 50, 65, 80}) options.elevations.push_back(radians(deg));
         Tangency best;
         for (const double sense : {1.0, -1.0}) {
             std::vector<double> turns;
             for (const std::size_t f : used_) turns.push_back(sense * step * double(f));
-            TangencyOptions options;
-            options.from_above = true;
-            options.turn_sigma = k_turn_sigma;
-            for (const double deg : {3, 20, 35, 50, 65, 80})
-                options.elevations.push_back(radians(deg));
             const Tangency found = tangency_of(hulls, turns, options);
             if (!best.turns.empty() && found.residual_px >= best.residual_px) continue;
             best = found;
             step_ = sense * step;
         }
+        take_series(best, options);
         result_.tangent_px = best.residual_px;
         fit_.series = {{best.table[0], best.table[1], best.table[2], 0}, best.turns};
         expected_.turn_sigma = k_turn_sigma;
-        for (const std::size_t f : used_) expected_.turns.push_back(step_ * double(f));
+        expected_.turns = best.expected.turns;
+    }
+
+    void take_series(const Tangency& found, const TangencyOptions& options) {
+        std::vector<std::string> names;
+        std::vector<CoarseOutline> outlines;
+        for (const std::size_t f : used_) {
+            names.push_back(frames_[f].name);
+            outlines.push_back(coarse_[f]);
+        }
+        faults_ = faults_of_series(found, options, step_, names, outlines);
+        result_.notes = faults_.notes;
+        step_ *= found.expected.scale;
+    }
+
+    void fit_coarse_outlines() {
+        try {
+            fit_ = fitted([&](std::size_t f) { return places_along(coarse_[f].corners); });
+        } catch (const InputError&) {
+            const SeriesFaults cut = cut_out(frames_, coarse_);
+            if (cut.trouble.empty()) throw;
+            throw InputError(cut.trouble + ". " + cut.remedy);
+        }
     }
 
     // Grain on the ground tells camera and turns far better than the stone, if there is any.
@@ -289,6 +312,11 @@ private:
     }
 
     void judge() {
+        if (faults_.trouble.empty() && result_.scatter_px > k_suspicious_scatter)
+            faults_ = cut_out(frames_, coarse_);
+        result_.trouble = faults_.trouble;
+        result_.remedy = faults_.remedy;
+        if (!result_.trouble.empty()) return;
         if (result_.tangent_px > k_doubtful_tangents)
             result_.trouble = fmt::format("the outlines contradict each other by {:.1f} pixels",
                                           result_.tangent_px);
@@ -299,8 +327,8 @@ private:
         else
             return;
         result_.remedy =
-            "Give all frames of one turn in their order, or --step; the camera must stand still "
-            "and the stone must not slip on the turntable";
+            "Give all frames of one turn in their order, or --step; the camera must stand still, "
+            "the stone must not slip on the turntable, and nothing with sharp edges may touch it";
     }
 
     const std::vector<SpinFrame>& frames_;
@@ -311,6 +339,7 @@ private:
     std::vector<std::size_t> used_;
     double step_ = 0;  // with the sense of turning
     ExpectedSeries expected_;
+    SeriesFaults faults_;
     GroundTexture ground_;
     bool has_ground_ = false;
     TurningFit fit_;

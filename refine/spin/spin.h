@@ -59,6 +59,7 @@ struct SpinResult {
     double ground_agreement = 0;
     double tangent_px = 0;  ///< rms disagreement of the first outlines at common tangent planes
     double scatter_px = 0;  ///< robust standard deviation of the edges about the stone's outlines
+    std::vector<std::string> notes;  ///< what is odd about the series, for people
     /// Why the result should not be trusted, and what to do, for people; empty: it can.
     std::string trouble, remedy;
 };
