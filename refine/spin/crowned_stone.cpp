@@ -59,13 +59,13 @@ bool contradicts(const Plane& plane, const Solid& solid, const std::vector<bool>
 }
 
 // A girdle that no outline shows is taken as upright, below the crown's outermost edge.
-Plane girdle_below(const Crown& crown, const Plane& guess) {
-    if (std::abs(guess.normal.z) > k_upright) return guess;
+std::optional<Plane> girdle_below(const Crown& crown, const Plane& guess) {
+    if (std::abs(guess.normal.z) > k_upright) return std::nullopt;
     for (const SurfaceEdge& e : crown.outermost) {
         const Vec3 out{std::cos(e.azimuth), std::sin(e.azimuth), 0};
-        if (angle_between(out, guess.normal) < k_opposite) return {out, e.radius};
+        if (angle_between(out, guess.normal) < k_opposite) return Plane{out, e.radius};
     }
-    return guess;
+    return std::nullopt;
 }
 
 // Between the two opposite sides nearest to x, along which the stone is narrowest.
@@ -113,9 +113,11 @@ std::optional<CrownedStone> crowned(const Solid& solid, const std::vector<bool>&
         const Vec3& normal = solid.facets[f].plane.normal;
         if (!seen[f] && normal.z > 0) continue;
         if (angle_between(normal, crown->table.plane.normal) < k_table) continue;
-        const Plane& plane = solid.facets[f].plane;
-        planes.push_back({solid.facets[f].name, seen[f] ? plane : girdle_below(*crown, plane)});
-        sigmas[solid.facets[f].name] = tilt_sigmas[f];
+        planes.push_back({solid.facets[f].name, solid.facets[f].plane});
+        if (const auto girdle =
+                seen[f] ? std::nullopt : girdle_below(*crown, solid.facets[f].plane))
+            planes.back() = {fmt::format("C{}", planes.size()), *girdle};
+        sigmas[planes.back().name] = tilt_sigmas[f];
     }
     HalfSpaceSolid body = intersect_half_spaces(planes);
     stone.solid = std::move(body.solid);

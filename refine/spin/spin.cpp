@@ -300,8 +300,10 @@ private:
         result_.solid = stone.solid;
         result_.tilt_sigmas = stone.tilt_sigmas;
         result_.crowned = stone.crowned;
+        result_.copies = stone.copies;
         for (std::size_t f = 0; f < stone.seen.size(); ++f) {
-            if (!stone.seen[f]) result_.unseen.push_back(int(f));
+            const bool is_copy = std::count(stone.copies.begin(), stone.copies.end(), int(f)) > 0;
+            if (!stone.seen[f] && !is_copy) result_.unseen.push_back(int(f));
         }
         for (std::size_t f = 0; f < frames_.size(); ++f) {
             SpinFrameResult& frame = result_.frames[f];

@@ -46,13 +46,15 @@ struct SpinResult {
     Solid solid;
     std::vector<double> tilt_sigmas;  ///< by facet, radians
     std::vector<int> unseen;          ///< facets whose tilt is hardly more than a guess
+    /// Facets that no frame shows, taken from those half a turn about z away (half_turn.h).
+    std::vector<int> copies;
     /// The width is in pixels. A sigma is at least half of how far the halves' values differ.
     std::vector<SpinProportion> proportions;
     const SpinProportion& width() const { return proportions.front(); }
     TurningCamera camera;
     std::vector<SpinFrameResult> frames;
     Halves halves;  ///< every other frame against the rest
-    /// With table and crown, if their edges were found: then `solid` is its.
+    /// With table and crown, if their edges were found: then `solid` has them.
     std::optional<CrownedStone> crowned;
     /// Part of the ground's grain that turns with the stone; camera and turns are the ground's if
     /// it is large enough (ground_texture.h).

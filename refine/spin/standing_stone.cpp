@@ -1,7 +1,10 @@
 #include "refine/spin/standing_stone.h"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <map>
 
+#include "refine/spin/half_turn.h"
 #include "refine/spin/surface_edges.h"
 #include "stone/numbers/units.h"
 
@@ -11,10 +14,53 @@ namespace {
 
 constexpr int k_attitudes = 3;
 constexpr double k_level_table = radians(0.2);
+constexpr double k_edge_on = 0.05;   // sine of an angle
 constexpr std::size_t k_swept = 64;  // frames in which edges are looked for, at most
 // As halves of a real series differ.
+constexpr const char* k_ground = "G";
 constexpr double k_ground_tilt = radians(0.05);
 constexpr double k_same_as_ground = radians(12.0);
+
+// Seen from both sides of its plane by more than `k_edge_on`.
+bool turns_edge_on(const Vec3& normal, const TurningSeries& series) {
+    double least = 1, most = -1;
+    for (const double turn : series.turns) {
+        const PictureAxes at = picture_axes(series.camera, turn);
+        const double to_camera = glm::dot(normal, glm::normalize(glm::cross(at.across, at.along)));
+        least = std::min(least, to_camera);
+        most = std::max(most, to_camera);
+    }
+    return least < -k_edge_on && most > k_edge_on;
+}
+
+// What lies on the turntable, by the stone's symmetry.
+void complete(StandingStone& stone, const TurningFit& fit) {
+    std::vector<bool> shown;
+    for (std::size_t f = 0; f < stone.seen.size(); ++f) {
+        const Facet& facet = stone.solid.facets[f];
+        const bool of_crown =
+            stone.crowned &&
+            std::none_of(fit.solid.facets.begin(), fit.solid.facets.end(),
+                         [&](const Facet& other) { return other.name == facet.name; });
+        shown.push_back(stone.seen[f] &&
+                        (of_crown || facet.name == k_ground ||
+                         turns_edge_on(stone.on_turntable(facet.plane.normal), fit.series)));
+    }
+    auto completed = completed_by_half_turn(stone.solid, stone.tilt_sigmas, shown);
+    if (!completed) return;
+    stone.solid = std::move(completed->solid);
+    stone.tilt_sigmas = std::move(completed->tilt_sigmas);
+    stone.copies = std::move(completed->copies);
+    stone.seen.assign(stone.solid.facets.size(), true);
+    for (const int f : stone.copies) stone.seen[std::size_t(f)] = false;
+}
+
+// x along the least width, though the girdle may have become narrower.
+void turn_to_width(StandingStone& stone) {
+    const StoneAttitude turned = attitude_about(stone.solid, {0, 0, 1});
+    stone.solid = upright(std::move(stone.solid), turned);
+    stone.at = {stone.on_turntable(turned.x), stone.on_turntable(turned.y), stone.at.z};
+}
 
 }  // namespace
 
@@ -28,14 +74,14 @@ void lay_on_ground(TurningFit& fit, double depth) {
     const Vec3 down{0, 0, -1};
     const std::vector<bool> seen = seen_facets(fit);
     std::vector<NamedPlane> planes;
-    std::map<std::string, double> sigmas{{"G", k_ground_tilt}};
+    std::map<std::string, double> sigmas{{k_ground, k_ground_tilt}};
     for (std::size_t f = 0; f < seen.size(); ++f) {
         const Facet& facet = fit.solid.facets[f];
         if (!seen[f] && angle_between(facet.plane.normal, down) < k_same_as_ground) continue;
         planes.push_back({facet.name, facet.plane});
         sigmas[facet.name] = fit.tilt_sigmas[f];
     }
-    planes.push_back({"G", {down, depth}});
+    planes.push_back({k_ground, {down, depth}});
     HalfSpaceSolid lying = intersect_half_spaces(planes);
     if (lying.solid.facets.empty()) return;
     fit.solid = std::move(lying.solid);
@@ -65,14 +111,14 @@ StandingStone standing_stone(const TurningFit& fit,
     }
     stone.tilt_sigmas = fit.tilt_sigmas;
     stone.seen = seen;
-    if (!stone.crowned) return stone;
-    // The girdle may have become narrower.
-    const StoneAttitude turned = attitude_about(stone.crowned->solid, {0, 0, 1});
-    stone.solid = upright(stone.crowned->solid, turned);
-    stone.at = {stone.on_turntable(turned.x), stone.on_turntable(turned.y), stone.at.z};
-    stone.tilt_sigmas = stone.crowned->tilt_sigmas;
-    stone.seen.assign(stone.solid.facets.size(), true);
-    for (const int f : stone.crowned->unseen) stone.seen[std::size_t(f)] = false;
+    if (stone.crowned) {
+        stone.solid = stone.crowned->solid;
+        stone.tilt_sigmas = stone.crowned->tilt_sigmas;
+        stone.seen.assign(stone.solid.facets.size(), true);
+        for (const int f : stone.crowned->unseen) stone.seen[std::size_t(f)] = false;
+    }
+    complete(stone, fit);
+    turn_to_width(stone);
     return stone;
 }
 

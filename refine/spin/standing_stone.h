@@ -15,7 +15,9 @@ struct StandingStone {
     Solid solid;
     std::vector<double> tilt_sigmas;  ///< by facet, radians
     std::vector<bool> seen;           ///< by facet: its tilt is better known than a guess
-    StoneAttitude at;                 ///< its axes in the turntable's frame
+    /// Facets that no frame shows, taken from those half a turn about z away (half_turn.h).
+    std::vector<int> copies;
+    StoneAttitude at;  ///< its axes in the turntable's frame
     /// What edges of the surface told; without them, outlines alone tell the stone.
     std::optional<CrownedStone> crowned;
 
