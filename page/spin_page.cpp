@@ -56,6 +56,7 @@ std::string spin_page(const SpinPage& page) {
                                                           {"player_json", player_json(page)},
                                                           {"rows", rows},
                                                           {"facts", facts},
+                                                          {"beside", page.beside_uri},
                                                           {"version", page.version}}));
 }
 

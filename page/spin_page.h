@@ -29,6 +29,7 @@ struct SpinPage {
     };
     std::vector<Row> proportions;
     std::vector<std::string> facts;  ///< sentences
+    std::string beside_uri;          ///< frames left out, their renders beside them; empty: none
 };
 
 std::string spin_page(const SpinPage& page);

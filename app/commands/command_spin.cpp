@@ -9,14 +9,18 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
+#include "app/commands/spin_light_json.h"
 #include "app/commands/spin_report.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
 #include "compare/photo/photo.h"
 #include "compare/turntable/turntable.h"
+#include "refine/spin/series_light.h"
 #include "refine/spin/spin.h"
+#include "stone/material/material_io.h"
 #include "stone/numbers/units.h"
 #include "stone/numbers/upper_median.h"
 #include "stone/stone.h"
@@ -33,7 +37,7 @@ using Json = nlohmann::ordered_json;
 struct SpinArguments {
     CommonOptions common;
     std::vector<std::string> frames, held_out;
-    std::string output, json, report;
+    std::string output, json, report, material;
     double step_deg = 0, width_mm = 0;
 };
 
@@ -220,6 +224,8 @@ int run_spin(const SpinArguments& a) {
     require_solid_name(a.output);
     require_writable(a.output);
     require_writable(a.json);
+    const std::optional<Material> material =
+        a.material.empty() ? std::nullopt : std::optional(material_called(a.material));
     const std::vector<SpinFrame> frames = frames_of(a);
     SpinOptions options;
     options.step = radians(a.step_deg);
@@ -227,16 +233,22 @@ int run_spin(const SpinArguments& a) {
     const SpinResult found =
         spin(frames, options, progress_line("finding the stone", a.common.quiet));
     const double px_mm = a.width_mm > 0 ? a.width_mm / found.width().value : 1;
-    const std::string json = spin_json(a, frames, found, px_mm).dump(2) + "\n";
+    Json json = spin_json(a, frames, found, px_mm);
+    SeriesLight light;
+    if (material) {
+        light = series_light(frames, found, *material, a.common.threads);
+        add_light(frames, a.material, light, json);
+    }
     write_solid(scaled(found.solid, px_mm), a.output);
-    if (!a.json.empty()) write_text(a.json, json);
+    if (!a.json.empty()) write_text(a.json, json.dump(2) + "\n");
     if (!a.report.empty()) {
-        write_spin_report(a.report, frames, found, a.width_mm);
+        write_spin_report(a.report, frames, found, light, a.width_mm);
         say(fmt::format("report: {}; next: open it in a browser",
                         (fs::path(a.report) / "report.html").string()),
             a.common.quiet);
     }
     say_result(a, frames, found);
+    if (!light.verdict.empty()) say(light.verdict, a.common.quiet);
     return found.trouble.empty() ? exit_good : exit_untrusted;
 }
 
@@ -269,6 +281,11 @@ void add_command_spin(CLI::App& program, int& exit_code) {
         ->add_option("--hold-out", a.held_out,
                      "frames of which only the turn is found, to check the stone by")
         ->type_name("FRAME...");
+    command
+        ->add_option("--material", a.material,
+                     "of the stone: estimates the light, and compares renders in it with the "
+                     "frames left out")
+        ->type_name("NAME");
     command
         ->add_option("--json", a.json,
                      "turn and projection of each frame, the camera, the facets; - is stdout")

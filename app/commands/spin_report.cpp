@@ -75,6 +75,10 @@ std::vector<std::string> facts_of(const SpinResult& found) {
     if (!unseen.empty())
         facts.push_back(
             fmt::format("The tilt of these facets is a guess: {}.", fmt::join(unseen, ", ")));
+    if (!found.copies.empty())
+        facts.push_back(fmt::format(
+            "{} facets that no frame shows are taken from the other side, half a turn away.",
+            found.copies.size()));
     return facts;
 }
 
@@ -89,7 +93,7 @@ std::string uri_of(const SpinFrame& frame) {
 }  // namespace
 
 void write_spin_report(const fs::path& folder, const std::vector<SpinFrame>& frames,
-                       const SpinResult& found, double width_mm) {
+                       const SpinResult& found, const SeriesLight& light, double width_mm) {
     SpinPage page;
     page.version = CULET_VERSION;
     page.title = "A stone from its photographs";
@@ -97,6 +101,7 @@ void write_spin_report(const fs::path& folder, const std::vector<SpinFrame>& fra
     page.solid = found.solid;
     page.seen.assign(found.solid.facets.size(), true);
     for (const int f : found.unseen) page.seen[std::size_t(f)] = false;
+    for (const int f : found.copies) page.seen[std::size_t(f)] = false;
     page.width = frames.front().picture.width;
     page.height = frames.front().picture.height;
     const std::size_t every = (frames.size() + k_most_pictures - 1) / k_most_pictures;
@@ -108,6 +113,8 @@ void write_spin_report(const fs::path& folder, const std::vector<SpinFrame>& fra
     }
     page.proportions = rows_of(found, width_mm);
     page.facts = facts_of(found);
+    if (!light.beside.empty()) page.beside_uri = png_uri(light.beside);
+    if (!light.verdict.empty()) page.facts.push_back(light.verdict);
     fs::create_directories(folder);
     write_text(folder / "report.html", spin_page(page));
 }

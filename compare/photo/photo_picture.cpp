@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
+#include "compare/photo/pixels.h"
 #include "render/image/image_exr.h"
 
 namespace culet {
@@ -58,6 +60,12 @@ Picture picture_of(Photo photo) {
     if (!photo.saturated.empty())
         picture.planes.push_back({"saturated", std::move(photo.saturated)});
     return picture;
+}
+
+std::string png_of(const Photo& photo) {
+    cv::Mat bytes;
+    encoded(colour_of(photo)).convertTo(bytes, CV_8U, 255);
+    return png_bytes(bytes);
 }
 
 }  // namespace culet

@@ -43,8 +43,8 @@ TEST_F(SpinCommand, WritesAStoneAndItsProjections) {
     const std::vector<std::string> files = written(synthetic::frames_of(truth));
     arguments.insert(arguments.end(), files.begin(), files.end());
     arguments.insert(arguments.end(),
-                     {"--hold-out", files[9], "--width", "5", "-o", file("stone.obj"), "--json",
-                      file("spin.json"), "--report", file("report")});
+                     {"--hold-out", files[9], "--width", "5", "--material", "diamond", "-o",
+                      file("stone.obj"), "--json", file("spin.json"), "--report", file("report")});
     const ProgramRun run = run_culet(arguments);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out, "");
@@ -77,6 +77,11 @@ TEST_F(SpinCommand, WritesAStoneAndItsProjections) {
         EXPECT_NEAR(left, least, 2) << f;
         EXPECT_NEAR(right, most, 2) << f;
     }
+    // Facets of any brightness are no refracting stone's: only that it is judged is asked here.
+    EXPECT_EQ(found["light"]["zones"].size(), 15u);
+    ASSERT_EQ(found["comparison"]["frames"].size(), 1u);
+    EXPECT_EQ(found["comparison"]["frames"][0]["file"], files[9]);
+    EXPECT_THAT(run.err, testing::HasSubstr(found["comparison"]["verdict"].get<std::string>()));
 }
 
 TEST_F(SpinCommand, RefusesWhatIsNoTurnOfAStone) {
