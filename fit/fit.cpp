@@ -104,7 +104,7 @@ FitResult solved(const Problem& given, std::span<const Hypothesis> hypotheses,
 }  // namespace
 
 FitInput fit_input(const Stone& drawn, const std::vector<WrittenReading>& as_written) {
-    const std::vector<WrittenReading> written = outlines_turned(drawn.file_up, as_written);
+    const std::vector<WrittenReading> written = turned_with_mesh(drawn.file_up, as_written);
     Repaired mesh = repaired(drawn, written);
     FitInput input{std::move(mesh.stone), {}, std::move(mesh.notes)};
     input.stone.solid.design = drawn.solid.design;

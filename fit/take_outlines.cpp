@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
+#include "fit/readings/seen_lines.h"
 #include "fit/silhouettes/silhouette_fit.h"
 #include "fit/uncertainty/statistics.h"
 #include "stone/text/errors.h"
@@ -77,11 +80,16 @@ void judge_outlines(const OutlineObservations& observed, FitResult& result) {
 
 }  // namespace
 
-std::vector<WrittenReading> outlines_turned(const Vec3& file_up,
-                                            std::vector<WrittenReading> written) {
+std::vector<WrittenReading> turned_with_mesh(const Vec3& file_up,
+                                             std::vector<WrittenReading> written) {
     if (file_up == Vec3{0, 0, 1}) return written;
     const glm::dmat3 turn = turn_upright(file_up);
     for (WrittenReading& reading : written) {
+        if (reading.seen_line) {
+            auto line = std::make_shared<SeenLine>(*reading.seen_line);
+            line->projection = line->projection * glm::dmat4(glm::transpose(turn));
+            reading.seen_line = std::move(line);
+        }
         if (!reading.outlines || reading.outlines->is_free) continue;
         auto set = std::make_shared<SilhouetteSet>(*reading.outlines);
         for (std::vector<Contour>* contours : {&set->contours, &set->held_out}) {

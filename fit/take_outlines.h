@@ -12,9 +12,9 @@
 
 namespace culet {
 
-/// Turns outlines given in the file's frame as the mesh was turned (Stone::file_up).
-std::vector<WrittenReading> outlines_turned(const Vec3& file_up,
-                                            std::vector<WrittenReading> written);
+/// Turns outlines and projections given in the file's frame as the mesh was (Stone::file_up).
+std::vector<WrittenReading> turned_with_mesh(const Vec3& file_up,
+                                             std::vector<WrittenReading> written);
 
 struct TakenOutlines {
     Stone stone;                    ///< the mesh, fitted to the outlines

@@ -47,6 +47,7 @@ std::string reading_unit(const std::string& kind, const std::string& length_unit
                                   "parallel",    "rotation", "mirror"};
     if (std::find(k_angles.begin(), k_angles.end(), kind) != k_angles.end()) return "deg";
     if (kind == "weight") return "ct";
+    if (kind == "line") return "px";
     return kind == "volume" ? "mm3" : length_unit;
 }
 
@@ -58,7 +59,7 @@ std::string reading_words(const Json& reading) {
         return is_number(of) ? what + " at " + of + "°" : what + " along " + of;
     }
     if (kind == "dihedral") return "angle between " + of;
-    if (kind == "edge" || kind == "distance") return kind + " between " + of;
+    if (kind == "edge" || kind == "distance" || kind == "line") return kind + " between " + of;
     return kind + " of " + of;
 }
 

@@ -197,7 +197,7 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
 }
 
 StoneFile stone_of(const TomlTable& root) {
-    root.refuse_unknown({"stone", "material", "reading", "silhouette", "fit"});
+    root.refuse_unknown({"stone", "material", "reading", "silhouette", "line", "fit"});
     const auto table = root.table("stone");
     if (!table) root.fail("", "there is no [stone] table");
     table->refuse_unknown({"name", "mesh", "unit", "material", "density", "optic_axis",

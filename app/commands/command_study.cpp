@@ -40,10 +40,11 @@ void refuse(const StudyCommand& command, const CLI::Option* given, const char* k
 
 void refuse_outlines(const std::vector<Reading>& readings) {
     for (const Reading& reading : readings) {
-        if (reading.kind != ReadingKind::silhouette) continue;
+        if (reading.kind != ReadingKind::silhouette && reading.kind != ReadingKind::line) continue;
         throw InputError(reading.file, reading.line,
-                         "a study simulates readings, which it cannot do for outlines: take the "
-                         "[[silhouette]] tables out; hold_out tells how well outlines fit");
+                         "a study simulates readings, which it cannot do for outlines and lines: "
+                         "take the [[silhouette]] and [[line]] tables out; hold_out tells how well "
+                         "outlines fit");
     }
 }
 

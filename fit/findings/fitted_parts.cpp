@@ -1,5 +1,7 @@
 // Writes the parts of a result: solid, facets, readings, meets.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -7,6 +9,8 @@
 #include "fit/findings/blunder.h"
 #include "fit/findings/describe.h"
 #include "fit/model/enclosed.h"
+#include "fit/readings/seen_lines.h"
+#include "fit/uncertainty/statistics.h"
 #include "stone/solid/checks.h"
 
 namespace culet {
@@ -93,9 +97,51 @@ void fill_in_facets(const FitModel& model, const Shape& shape, const Diagnosis& 
     }
 }
 
-void fill_in_readings(const FitModel& model, const std::vector<Reading>& as_read,
-                      const Diagnosis& diagnosis, const std::vector<double>& weights,
-                      FitResult& result) {
+LineFinding line_finding(const Reading& reading, const Vec3& picture, double pixels) {
+    const SeenLine& line = *reading.seen_line;
+    LineFinding finding;
+    finding.points = int(line.points.size());
+    for (const glm::dvec2& p : line.points) {
+        const glm::dvec2 d = p - line.middle;
+        const double along = glm::dot(line.along, d),
+                     across = line.along.x * d.y - line.along.y * d.x,
+                     off = std::abs(picture.x * along + picture.y * across + picture.z * pixels);
+        finding.rms += off * off / finding.points;
+        if (!(off < finding.worst)) {
+            finding.worst = off;
+            finding.u = p.x;
+            finding.v = p.y;
+        }
+    }
+    finding.rms = std::sqrt(finding.rms);
+    return finding;
+}
+
+// Says whose points are farther from a straight line than chance would have it.
+std::string scatter_words(const std::vector<Reading>& readings, double significance) {
+    int count = 0;
+    double most = 0;
+    std::string worst;
+    for (const Reading& r : readings) {
+        if (!r.seen_line) continue;
+        const double points = double(r.seen_line->points.size());
+        const double chi2 = r.seen_line->scatter / (points * r.sigma * r.sigma), dof = points - 2;
+        if (!(dof > 0) || chi2 <= chi2_quantile(significance, dof)) continue;
+        ++count;
+        if (chi2 / dof <= most) continue;
+        most = chi2 / dof;
+        worst = r.id;
+    }
+    if (count == 0) return {};
+    return fmt::format(
+        "the points of {} line{} lie farther from a straight one than their sigma says, most those "
+        "of {} ({:.1f} times)",
+        count, count == 1 ? "" : "s", worst, std::sqrt(most));
+}
+
+void fill_in_readings(const FitModel& model, const Shape& shape,
+                      const std::vector<Reading>& as_read, const Diagnosis& diagnosis,
+                      const std::vector<double>& weights, FitResult& result) {
     for (std::size_t r = 0; r < model.readings().size(); ++r) {
         const Reading& reading = model.readings()[r];
         const ReadingCheck& c = diagnosis.readings[r];
@@ -111,9 +157,15 @@ void fill_in_readings(const FitModel& model, const std::vector<Reading>& as_read
         fitted.redundancy = c.redundancy;
         fitted.detectable = c.detectable;
         fitted.suspect = c.suspect;
+        if (const LineView* view = model.lines().of(r)) {
+            fitted.line =
+                line_finding(reading, picture_of(*view, shape), model.frame().unit_of(reading));
+        }
         if (!weights.empty()) fitted.weight = weights[r];
         result.readings.push_back(std::move(fitted));
     }
+    std::string scatter = scatter_words(as_read, result.log.options.significance);
+    if (!scatter.empty()) result.log.notes.push_back(std::move(scatter));
     for (int s : diagnosis.suspects) {
         result.findings.suspects.push_back(model.readings()[std::size_t(s)].id);
     }
@@ -142,7 +194,7 @@ void fill_in(const FitModel& model, const std::vector<Reading>& as_read, const S
                                    s[2] * model.frame().scale(), s[3] * model.frame().scale()};
     }
     fill_in_facets(model, shape, diagnosis, pose, result);
-    fill_in_readings(model, as_read, diagnosis, weights, result);
+    fill_in_readings(model, shape, as_read, diagnosis, weights, result);
 }
 
 }  // namespace culet

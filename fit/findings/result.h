@@ -45,6 +45,13 @@ struct SilhouetteFinding {
     std::optional<SilhouetteMisfit> held_out;  ///< of outlines that were not used in the fit
 };
 
+/// How far the points of a [[line]] lie from the picture of the fitted edge, in pixels.
+struct LineFinding {
+    double rms = 0, worst = 0;
+    int points = 0;
+    double u = 0, v = 0;  ///< the worst point
+};
+
 /// How a photograph of the stone in known light agrees with the fitted stone (compare/refine).
 struct PhotographFinding {
     double rms_before = 0,
@@ -72,6 +79,7 @@ struct FittedReading {
     double rounding = 0;   ///< step of the instrument; 0: none
     double weight = 1;     ///< weight that a robust loss leaves it
     std::string left_out;  ///< why it takes no part; empty if it does
+    std::optional<LineFinding> line;
     std::optional<SilhouetteFinding> silhouette;
     std::optional<PhotographFinding> photograph;
 };

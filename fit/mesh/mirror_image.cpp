@@ -28,8 +28,8 @@ std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
     double ways[2][2] = {{0, 0}, {0, 0}};
     int count = 0;
     for (const Reading& r : readings) {
-        // Outlines and photographs have already shown the handedness.
-        if (r.outline_observations || r.photograph) return std::nullopt;
+        // Outlines, lines and photographs have already shown the handedness.
+        if (r.outline_observations || r.seen_line || r.photograph) return std::nullopt;
         if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
         const Vec3& n = stone.solid.facets[r.facets[0]].plane.normal;
         const double drawn = std::atan2(glm::dot(n, frame.y), glm::dot(n, frame.x));

@@ -29,6 +29,9 @@ struct ShapeConstants {
     double tight = 1e6;
     /// Weight in the metric of a released meet's point, relative to other points.
     double loose_point = 0.08;
+    /// Sigma that holds the motions of lines where nothing tells them, far above any real one, and
+    /// their weight in the metric, so that they never count as undetermined.
+    double motion_sigma = 10, loose_motion = 1e-3;
     /// Exact meets show as edges of about rounding error; real edges are far longer than this.
     double rounding_edge = 1e-10;
     /// Sigma of released incidences: planes come apart this far before the meet's point lags.

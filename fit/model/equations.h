@@ -15,11 +15,12 @@ namespace culet {
 struct Equation {
     enum class Role {
         reading,
-        relation,     ///< of symmetry, parallel and coplanar readings
-        incidence,    ///< a plane passes through a meet
-        released,     ///< the same, held only so that the meet's point has a position
-        expected,     ///< the prior of the facets (prior.h)
-        known_planes  ///< what outlines or a photograph tell of the planes
+        relation,      ///< of symmetry, parallel and coplanar readings
+        incidence,     ///< a plane passes through a meet
+        released,      ///< the same, held only so that the meet's point has a position
+        expected,      ///< the prior of the facets (prior.h)
+        known_planes,  ///< what outlines or a photograph tell of the planes
+        placed         ///< holds the motion of lines (line_views.h) where nothing tells it
     };
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
@@ -42,7 +43,7 @@ struct Equation {
 
     int readings() const { return replicates.empty() ? 1 : static_cast<int>(replicates.size()); }
     /// Counts in chi-square and in the redundancy.
-    bool is_counted() const { return !exact && role != Role::released; }
+    bool is_counted() const { return !exact && role != Role::released && role != Role::placed; }
 };
 
 /// All equations except hinges, for the corners that carry them at this shape.
@@ -63,11 +64,14 @@ struct MergedReadings {
 };
 MergedReadings merged_readings(const FitModel& model, const Shape& shape);
 
-/// Parts of these: one symmetry, parallel or coplanar reading; the prior; the planes known from
-/// outlines and photographs. `base` carries the reading's index and sigma.
+/// Parts of these: one symmetry, parallel or coplanar reading; one line; the prior; the motions of
+/// lines; the planes known from outlines and photographs. `base` carries the reading's index and
+/// sigma.
 std::vector<Equation> relation_equations(const FitModel& model, const Shape& shape,
                                          const Equation& base);
+std::vector<Equation> line_equations(const LineView& view, const Equation& base);
 std::vector<Equation> prior_equations(const PriorModel& prior);
+std::vector<Equation> motion_equations(const LineViews& lines);
 std::vector<Equation> known_plane_equations(
     const std::vector<std::shared_ptr<const KnownPlanes>>& all_known);
 

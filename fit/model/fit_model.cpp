@@ -43,6 +43,7 @@ FitModel::FitModel(const Stone& stone, const std::vector<Reading>& readings,
       meets_(list_meets(frame_, edges_, readings, options, mesh_shape_)),
       known_planes_(list_known_planes(frame_, readings, !stone.azimuth_from_mesh)),
       symmetries_(stone, frame_, readings, meets_.splits, mesh_shape_),
+      lines_(frame_, readings, mesh_shape_),
       has_outlines_(std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
           return r.outline_observations != nullptr;
       })) {

@@ -8,6 +8,7 @@
 
 #include "fit/model/frame.h"
 #include "fit/model/known_planes.h"
+#include "fit/model/line_views.h"
 #include "fit/model/meets.h"
 #include "fit/model/options.h"
 #include "fit/model/prior.h"
@@ -35,6 +36,7 @@ public:
     const std::vector<std::vector<int>>& replicated() const { return replicated_; }
     const Meets& meets() const { return meets_; }
     const Symmetries& symmetries() const { return symmetries_; }
+    const LineViews& lines() const { return lines_; }
     const PriorModel& prior() const { return prior_; }
     const std::vector<std::shared_ptr<const KnownPlanes>>& known_planes() const {
         return known_planes_;
@@ -62,6 +64,7 @@ private:
     Meets meets_;
     std::vector<std::shared_ptr<const KnownPlanes>> known_planes_;
     Symmetries symmetries_;
+    LineViews lines_;
     PriorModel prior_;
     bool has_outlines_ = false;
 };

@@ -162,6 +162,8 @@ double Frame::unit_of(const Reading& reading) const {
         case ReadingKind::weight:
             return carat(std::pow(scale_ * mm_per(stone_.unit), 3),
                          stone_.material.density_g_cm3.value_or(1));
+        case ReadingKind::line:
+            return reading.pixels * scale_ / mesh_scale_;
         default:
             return scale_;
     }

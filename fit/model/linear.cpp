@@ -68,16 +68,25 @@ std::vector<Eigen::VectorXd> rigid_motions(const FitModel& model, const Shape& s
                 if (turn && !reading.has_direction) g(layout.extra(extra) + 1) = axis.z;
             }
         }
+        for (const int motion : model.lines().motions()) {
+            const auto step = following(shape, motion, turn, axis);
+            for (int i = 0; i < LineViews::k_unknowns; ++i) {
+                g(layout.extra(motion + i)) = step[std::size_t(i)];
+            }
+        }
         motions.push_back(std::move(g));
     }
     return motions;
 }
 
-// Whether no equation changes along the motion, to rounding error.
-bool unseen(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, const Eigen::VectorXd& g) {
+// Whether no equation changes along the motion, to rounding error. What holds the motions of lines
+// is no observation.
+bool unseen(const FunctionRows& rows, const std::vector<Equation>& equations,
+            const Eigen::VectorXd& g) {
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        if (equations[std::size_t(i)].role == Equation::Role::placed) continue;
         double sum = 0, size = 0;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
+        for (FunctionRows::InnerIterator it(rows, i); it; ++it) {
             sum += it.value() * g(it.col());
             // A level facet's normal deviates from the vertical by rounding, and a turn moves it by
             // as little: that does not count as seen.
@@ -172,10 +181,14 @@ Linearised linearise(const FitModel& model, const Shape& shape,
         if (loose[std::size_t(p)])
             linear.metric.segment(linear.layout.point(p), 3) *= k_shapes.loose_point;
     }
+    for (const int motion : model.lines().motions()) {
+        linear.metric.segment(linear.layout.extra(motion), LineViews::k_unknowns) *=
+            k_shapes.loose_motion;
+    }
     std::vector<Eigen::VectorXd> motions = rigid_motions(model, shape);
     linear.turn = motions[5];
     for (Eigen::VectorXd& g : motions) {
-        if (unseen(linear.soft_rows, g) && unseen(linear.hard_rows, g)) {
+        if (unseen(linear.soft_rows, linear.soft, g) && unseen(linear.hard_rows, linear.hard, g)) {
             linear.gauge_rows.push_back(linear.metric.cwiseProduct(g));
             linear.gauge_rows.back().normalize();
         }

@@ -6,14 +6,6 @@ namespace culet {
 
 namespace {
 
-Formula unknown_extra(int extra) {
-    return [=](const Shape& shape) {
-        Quantity q{shape.extras[std::size_t(extra)], {}};
-        q.add(Quantity::By::extra, extra, 1);
-        return q;
-    };
-}
-
 Formula plane_offset(int facet) {
     return [=](const Shape& shape) {
         Quantity q{shape.offsets[std::size_t(facet)], {}};
@@ -61,12 +53,12 @@ std::vector<Equation> prior_equations(const PriorModel& prior) {
             // Without a tier both errors add up.
             put(std::move(formula), value, ratio * std::hypot(sigma_of(tier), sigma_of(own)));
         } else {
-            put(weighted_sum({{1, std::move(formula)}, {-1, unknown_extra(term.extra)}}), value,
+            put(weighted_sum({{1, std::move(formula)}, {-1, extra_unknown(term.extra)}}), value,
                 ratio * sigma_of(own));
         }
     }
     const auto put_common = [&](const std::vector<int>& extras, PriorLevel level, double ratio) {
-        for (const int e : extras) put(unknown_extra(e), 0, ratio * sigma_of(level));
+        for (const int e : extras) put(extra_unknown(e), 0, ratio * sigma_of(level));
     };
     put_common(prior.angle_extras, PriorLevel::tier_angle, 1);
     put_common(prior.azimuth_extras, PriorLevel::tier_angle, prior.azimuth_ratio);

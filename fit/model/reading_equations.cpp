@@ -60,6 +60,9 @@ public:
 
     /// `replicates`: what this reading and others of the same quantity say together.
     void add(int r, std::optional<Replicates> replicates);
+    void append(std::vector<Equation> own) {
+        std::move(own.begin(), own.end(), std::back_inserter(all_));
+    }
     std::vector<Equation> take() { return std::move(all_); }
 
 private:
@@ -69,7 +72,6 @@ private:
     void angle_or_edge(const Reading& reading);
     void distance(const Reading& reading);
     void caliper(const Reading& reading, const Vec3& direction);
-    void relation();
 
     Formula edge_formula(int a, int b) const;
     // Corners and edges at this shape; for a missing facet, those of the mesh.
@@ -156,11 +158,13 @@ void ReadingEquations::add(int r, std::optional<Replicates> replicates) {
         case ReadingKind::silhouette:  // known_plane_equations.cpp
         case ReadingKind::photograph:
             return;
+        case ReadingKind::line:
+            return append(line_equations(*model_.lines().of(std::size_t(r)), base_));
         case ReadingKind::parallel:
         case ReadingKind::coplanar:
         case ReadingKind::rotation:
         case ReadingKind::mirror:
-            return relation();
+            return append(relation_equations(model_, shape_, base_));
     }
 }
 
@@ -258,11 +262,6 @@ void ReadingEquations::caliper(const Reading& reading, const Vec3& direction) {
     all_.back().caliper = direction;
 }
 
-void ReadingEquations::relation() {
-    std::vector<Equation> own = relation_equations(model_, shape_, base_);
-    std::move(own.begin(), own.end(), std::back_inserter(all_));
-}
-
 }  // namespace
 
 std::vector<Equation> reading_equations(const FitModel& model, const Shape& shape,
@@ -275,11 +274,10 @@ std::vector<Equation> reading_equations(const FitModel& model, const Shape& shap
         if (reduced && model.symmetries().is_kept_by_parameters(r)) continue;
         equations.add(int(r), std::move(merged.replicates[r]));
     }
-    std::vector<Equation> all = equations.take(), expected = prior_equations(model.prior()),
-                          of_planes = known_plane_equations(model.known_planes());
-    std::move(expected.begin(), expected.end(), std::back_inserter(all));
-    std::move(of_planes.begin(), of_planes.end(), std::back_inserter(all));
-    return all;
+    equations.append(prior_equations(model.prior()));
+    equations.append(known_plane_equations(model.known_planes()));
+    equations.append(motion_equations(model.lines()));
+    return equations.take();
 }
 
 }  // namespace culet

@@ -61,6 +61,14 @@ Formula weighted_sum(std::vector<std::pair<double, Formula>> terms) {
     };
 }
 
+Formula extra_unknown(int extra) {
+    return [=](const Shape& shape) {
+        Quantity q{shape.extras[std::size_t(extra)], {}};
+        q.add(By::extra, extra, 1);
+        return q;
+    };
+}
+
 Formula normal_difference(int f, int g, double sign, const Vec3& direction) {
     return [=](const Shape& shape) {
         Quantity q{glm::dot(direction, shape.normals[f] - sign * shape.normals[g]), {}};

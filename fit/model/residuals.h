@@ -116,6 +116,7 @@ Formula mirrored_normal(int f, int g, const MirrorPlane& plane, const Vec3& dire
 Formula mirrored_height(std::vector<Corner> corners, int g, const MirrorPlane& plane);
 /// m . normal: zero for a facet that is its own mirror image.
 Formula across_mirror(int f, const MirrorPlane& plane);
+Formula extra_unknown(int extra);
 /// direction . (normal f - sign * normal g)
 Formula normal_difference(int f, int g, double sign, const Vec3& direction);
 /// offset f - sign * offset g

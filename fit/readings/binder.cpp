@@ -76,6 +76,7 @@ std::vector<Reading> Binder::bind(const WrittenReading& written, const std::stri
         case Named::symmetry:
             return {of_symmetry(base)};
         case Named::unwritten:
+            if (written.seen_line) return {of_line(base)};
             break;
     }
     fail("unknown kind");

@@ -19,7 +19,8 @@ inline constexpr double k_over_upright_deg = 2;
 /// The whole text as a finite number, or nothing.
 std::optional<double> plain_number(std::string_view text);
 
-/// Whether two facets have two corners in common.
+/// Corners that two facets have in common, and whether there are two.
+std::vector<int> common_corners(const Solid& solid, int a, int b);
 bool share_edge(const Solid& solid, int a, int b);
 
 /// For one stone. Throws InputError with the place of the reading that is being bound.
@@ -68,6 +69,7 @@ private:
     Reading of_whole_stone(const Reading& base) const;
     Reading of_many_facets(const Reading& base) const;
     Reading of_symmetry(const Reading& base) const;
+    Reading of_line(const Reading& base) const;
 
     // binder_trade.cpp
     double counted(double number, const WrittenUnit& unit, const char* column,

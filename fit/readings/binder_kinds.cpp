@@ -8,6 +8,7 @@
 #include <set>
 
 #include "fit/readings/binder.h"
+#include "fit/readings/seen_lines.h"
 #include "stone/text/errors.h"
 #include "stone/upright.h"
 
@@ -228,6 +229,36 @@ Reading Binder::of_symmetry(const Reading& base) const {
             if (!seen.insert(f).second) fail(fmt::format("names facet '{}' twice", facet_name(f)));
         }
     }
+    return reading;
+}
+
+Reading Binder::of_line(const Reading& base) const {
+    need_names(2, "the two facets of an edge, such as [\"T\", \"C1\"]");
+    Reading reading = base;
+    reading.of = written_->of;
+    reading.facets = {facet(written_->of[0]), facet(written_->of[1])};
+    need_edge(reading.facets[0], reading.facets[1]);
+    reading.seen_line = written_->seen_line;
+    const SeenLine& line = *reading.seen_line;
+    reading.sigma /= std::sqrt(double(line.points.size()));
+    const glm::dmat4x3& p = line.projection;
+    const auto ends = common_corners(stone_.solid, reading.facets[0], reading.facets[1]);
+    double squares = 0;
+    for (const int end : ends) {
+        const Vec3 seen = p * glm::dvec4(stone_.solid.vertices[std::size_t(end)], 1);
+        if (!(seen.z > 0)) {
+            fail(fmt::format("the edge lies behind the eye: the projection's third row gives {:g}",
+                             seen.z));
+        }
+        // The picture's slopes by the place.
+        for (int c = 0; c < 3; ++c) {
+            for (int r = 0; r < 2; ++r) {
+                squares += std::pow((p[c][r] - seen[r] / seen.z * p[c][2]) / seen.z, 2);
+            }
+        }
+    }
+    reading.pixels = std::sqrt(0.5 * squares / double(ends.size()));
+    if (!(reading.pixels > 0)) fail("the projection shows every place at one pixel");
     return reading;
 }
 

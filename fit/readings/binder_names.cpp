@@ -130,12 +130,17 @@ Place Binder::place(const std::string& name) const {
     return result;
 }
 
-bool share_edge(const Solid& solid, int a, int b) {
+std::vector<int> common_corners(const Solid& solid, int a, int b) {
     const std::vector<int>& other = solid.facets[std::size_t(b)].corners;
-    const std::vector<int>& corners = solid.facets[std::size_t(a)].corners;
-    return std::count_if(corners.begin(), corners.end(), [&](int corner) {
-               return std::find(other.begin(), other.end(), corner) != other.end();
-           }) >= 2;
+    std::vector<int> corners = solid.facets[std::size_t(a)].corners;
+    std::erase_if(corners, [&](int corner) {
+        return std::find(other.begin(), other.end(), corner) == other.end();
+    });
+    return corners;
+}
+
+bool share_edge(const Solid& solid, int a, int b) {
+    return common_corners(solid, a, b).size() >= 2;
 }
 
 void Binder::need_edge(int a, int b) const {

@@ -6,6 +6,7 @@
 
 #include "fit/readings/reading_words.h"
 #include "fit/readings/readings_csv.h"
+#include "fit/readings/seen_lines.h"
 #include "fit/readings/silhouette_tables.h"
 #include "stone/text/errors.h"
 #include "stone/text/toml_file.h"
@@ -70,6 +71,7 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
         }
     }
     for (WrittenReading& reading : read_silhouettes(root)) readings.push_back(std::move(reading));
+    for (WrittenReading& reading : read_lines(root)) readings.push_back(std::move(reading));
     return readings;
 }
 

@@ -30,10 +30,12 @@ enum class ReadingKind {
     coplanar,
     rotation,
     mirror,
+    line,        ///< an edge in a photograph, from a [[line]] table
     silhouette,  ///< outlines, from a [[silhouette]] table
     photograph,  ///< of the stone in known light: from culet refine, in no file
 };
 
+struct SeenLine;
 struct SilhouetteSet;
 struct OutlineObservations;
 struct PlaneObservations;
@@ -41,8 +43,8 @@ struct PlaneObservations;
 const char* name_of(ReadingKind kind);
 std::optional<ReadingKind> reading_kind(std::string_view name);
 
-/// Kinds that relate facets and have no value (meet, parallel, coplanar, rotation, mirror,
-/// silhouette, photograph).
+/// Kinds that have no value (meet, parallel, coplanar, rotation, mirror, line, silhouette,
+/// photograph).
 bool is_relation(ReadingKind kind);
 /// Kinds whose value is an angle.
 bool is_angle(ReadingKind kind);
@@ -61,12 +63,13 @@ struct WrittenReading {
     WrittenUnit value_unit, sigma_unit, rounding_unit;
     bool skipped = false;  ///< a row of a form without a value: it takes no part
     std::shared_ptr<const SilhouetteSet> outlines;  ///< of a [[silhouette]] table, else null
+    std::shared_ptr<const SeenLine> seen_line;      ///< of a [[line]] table, else null
 };
 
 std::size_t skipped_readings(const std::vector<WrittenReading>& written);
 
 /// Reads the [[reading]] tables of a stone file, the rows of its `readings` file, then the
-/// [[silhouette]] tables. Throws InputError with file and line.
+/// [[silhouette]] and [[line]] tables. Throws InputError with file and line.
 std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
                                           const std::vector<std::string>& overrides = {});
 
@@ -110,14 +113,18 @@ struct Reading {
     /// value counts from that side, and may be slightly over 90 degrees.
     int side = 0;
     double value = 0;  ///< radians, length, mm3 or carat; 0 for relations
-    /// In the same unit; of relations: length (meet, coplanar) or radians. 0 for a meet that is
-    /// neither exact nor released: estimated.
+    /// In the same unit; of relations: length (meet, coplanar), radians, or pixels (of a line: of
+    /// the one through its points, at their middle). 0 for a meet that is neither exact nor
+    /// released: estimated.
     double sigma = 0;
     double rounding = 0;  ///< step to which the instrument rounds, in the same unit; 0 if none
     bool exact = false, released = false;
     std::string note;
     std::filesystem::path file;
     long line = 0;
+    /// Line (seen_lines.h), and how many pixels a length of one has there.
+    std::shared_ptr<const SeenLine> seen_line;
+    double pixels = 1;
     /// Silhouette: its outlines, the set's number, and the plane observations of all sets together
     /// (silhouettes/silhouette_fit.h).
     std::shared_ptr<const SilhouetteSet> outlines;

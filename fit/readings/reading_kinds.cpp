@@ -10,7 +10,7 @@ namespace {
 using Of = WrittenUnit::Of;
 
 // In the order of ReadingKind.
-constexpr std::array<KindOfReading, 17> k_kinds{{
+constexpr std::array<KindOfReading, 18> k_kinds{{
     {ReadingKind::inclination, "inclination", Named::one_facet, Of::angle, true},
     {ReadingKind::azimuth, "azimuth", Named::one_facet, Of::angle, true},
     {ReadingKind::dihedral, "dihedral", Named::two_facets, Of::angle, true},
@@ -26,6 +26,7 @@ constexpr std::array<KindOfReading, 17> k_kinds{{
     {ReadingKind::coplanar, "coplanar", Named::many_facets, Of::length, false},
     {ReadingKind::rotation, "rotation", Named::symmetry, Of::angle, false},
     {ReadingKind::mirror, "mirror", Named::symmetry, Of::angle, false},
+    {ReadingKind::line, "line", Named::unwritten, Of::length, false},
     {ReadingKind::silhouette, "silhouette", Named::unwritten, Of::length, false},
     {ReadingKind::photograph, "photograph", Named::unwritten, Of::length, false},
 }};

@@ -8,7 +8,8 @@
 
 namespace culet {
 
-/// What `of` names. `unwritten`: no [[reading]] has this kind.
+/// What `of` names. `unwritten`: no [[reading]] has this kind, and tables of
+/// their own have its data.
 enum class Named {
     one_facet,
     two_facets,

@@ -110,6 +110,12 @@ Json readings_json(const std::vector<FittedReading>& readings, bool is_weighted)
              {"redundancy", json_number(r.redundancy)},
              {"detectable", r.detectable > 0 ? json_number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
+        if (r.line) {
+            json.back().update({{"points", r.line->points},
+                                {"rms", json_number(r.line->rms)},
+                                {"worst", json_number(r.line->worst)},
+                                {"worst_point", {r.line->u, r.line->v}}});
+        }
         if (r.silhouette) add_silhouette(*r.silhouette, json.back());
         if (r.photograph) add_photograph(*r.photograph, json.back());
         if (!r.left_out.empty()) json.back()["left_out"] = r.left_out;

@@ -29,7 +29,7 @@ std::vector<Relaxation::Term> Relaxation::terms(const PenaltyScale& penalty,
         Term& term = all.emplace_back(
             Term{[&e, &penalty](const Shape& shape) { return misfit_of(e, shape, penalty); },
                  variance_of(e, penalty)});
-        if (e.exact) continue;
+        if (!e.is_counted()) continue;
         term.chi2_weight = 1 / (e.sigma * e.sigma);
         term.scatter = e.scatter;
     }

@@ -17,8 +17,8 @@ bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
     }
     const FitModel model(stone, readings, options);
     // A symmetry within a sigma makes more equations than it adds information.
-    const auto values = std::count_if(readings.begin(), readings.end(),
-                                      [](const Reading& r) { return r.is_measured(); });
+    std::ptrdiff_t values = 0;
+    for (const Reading& r : readings) values += r.seen_line ? 2 : r.is_measured();
     const Parameters parameters = model.parameters();
     const Relaxation::Counts counts = Relaxation(model, parameters).counts();
     const int free = std::min(counts.free, int(model.edges().edges.size()) + k_needed.shape);

@@ -17,17 +17,17 @@ constexpr double k_same = radians(4.0);
 const double k_median_length = std::sqrt(2 * std::log(2.0));
 constexpr double k_small = 0.25 / 49, k_large = 2.0 / 49;  // of the width's square
 
-struct Pair {
+struct SameFacet {
     int facet = 0;                // of the first
     double apart = 0, sigma = 0;  // the larger sigma
 };
 
-std::vector<Pair> same_facets(const std::vector<Vec3>& one, const std::vector<double>& sigmas,
-                              const std::vector<Vec3>& other,
-                              const std::vector<double>& other_sigmas) {
-    std::vector<Pair> pairs;
+std::vector<SameFacet> same_facets(const std::vector<Vec3>& one, const std::vector<double>& sigmas,
+                                   const std::vector<Vec3>& other,
+                                   const std::vector<double>& other_sigmas) {
+    std::vector<SameFacet> pairs;
     for (std::size_t f = 0; f < one.size(); ++f) {
-        Pair pair{int(f), k_same, HUGE_VAL};
+        SameFacet pair{int(f), k_same, HUGE_VAL};
         for (std::size_t g = 0; g < other.size(); ++g) {
             const double angle = angle_between(one[f], other[g]);
             if (angle < pair.apart) pair = {int(f), angle, std::max(sigmas[f], other_sigmas[g])};
@@ -50,9 +50,9 @@ std::vector<Vec3> normals_of(const StandingStone& stone) {
     return normals;
 }
 
-ComparedFacets from_size(const std::vector<Pair>& pairs, const Solid& solid, double least) {
+ComparedFacets from_size(const std::vector<SameFacet>& pairs, const Solid& solid, double least) {
     std::vector<double> tilts;
-    for (const Pair& pair : pairs) {
+    for (const SameFacet& pair : pairs) {
         if (area(solid, solid.facets[std::size_t(pair.facet)]) >= least)
             tilts.push_back(pair.apart);
     }
@@ -64,7 +64,7 @@ ComparedFacets from_size(const std::vector<Pair>& pairs, const Solid& solid, dou
 
 double factor_of_halves(const TurningFit& one, const TurningFit& other) {
     std::vector<double> parts;
-    for (const Pair& pair :
+    for (const SameFacet& pair :
          same_facets(normals_of(one), one.tilt_sigmas, normals_of(other), other.tilt_sigmas))
         parts.push_back(pair.apart / (std::sqrt(2.0) * pair.sigma));
     return parts.empty() ? 1 : std::max(1.0, upper_median(parts) / k_median_length);

@@ -34,6 +34,9 @@ public:
     /// A text, a number or a list of either, as texts (numbers in their shortest form).
     std::optional<std::vector<std::string>> words(std::string_view key) const;
     std::optional<std::vector<glm::dvec3>> vectors(std::string_view key) const;
+    /// Lists of `size` numbers each, up to four.
+    std::optional<std::vector<std::vector<double>>> rows(std::string_view key,
+                                                         std::size_t size) const;
     std::optional<TomlTable> table(std::string_view key) const;
     std::vector<TomlTable> tables(std::string_view key) const;  ///< `[[key]]`; empty when missing
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <array>
 #include <cmath>
 
 #include "stone/text/errors.h"
@@ -60,14 +61,17 @@ const toml::array& list_of(const std::filesystem::path& file, const toml::node& 
     return *node.as_array();
 }
 
-glm::dvec3 vector_of(const std::filesystem::path& file, const toml::node& node,
-                     std::string_view key) {
-    const toml::array& list = list_of(file, node, key, "three numbers");
-    if (list.size() != 3) {
-        fail_at(file, node, fmt::format("{} must have three numbers, found {}", key, list.size()));
+std::vector<double> row_of(const std::filesystem::path& file, const toml::node& node,
+                           std::string_view key, std::size_t size) {
+    static constexpr std::array<const char*, 5> words{"no", "one", "two", "three", "four"};
+    const toml::array& list = list_of(file, node, key, fmt::format("{} numbers", words.at(size)));
+    if (list.size() != size) {
+        fail_at(file, node,
+                fmt::format("{} must have {} numbers, found {}", key, words.at(size), list.size()));
     }
-    return {finite_number(file, list[0], key), finite_number(file, list[1], key),
-            finite_number(file, list[2], key)};
+    std::vector<double> row;
+    for (const toml::node& entry : list) row.push_back(finite_number(file, entry, key));
+    return row;
 }
 
 }  // namespace
@@ -156,7 +160,8 @@ const std::string* TomlTable::held_file(std::string_view key) const {
 std::optional<glm::dvec3> TomlTable::vector(std::string_view key) const {
     const toml::node* node = as_table(node_).get(key);
     if (node == nullptr) return std::nullopt;
-    return vector_of(file(), *node, key);
+    const std::vector<double> row = row_of(file(), *node, key, 3);
+    return glm::dvec3{row[0], row[1], row[2]};
 }
 
 std::optional<std::vector<double>> TomlTable::numbers(std::string_view key) const {
@@ -206,13 +211,22 @@ std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) c
     return values;
 }
 
-std::optional<std::vector<glm::dvec3>> TomlTable::vectors(std::string_view key) const {
+std::optional<std::vector<std::vector<double>>> TomlTable::rows(std::string_view key,
+                                                                std::size_t size) const {
     const toml::node* node = as_table(node_).get(key);
     if (node == nullptr) return std::nullopt;
-    std::vector<glm::dvec3> values;
-    for (const toml::node& entry : list_of(file(), *node, key, "vectors")) {
-        values.push_back(vector_of(file(), entry, key));
+    std::vector<std::vector<double>> values;
+    for (const toml::node& entry : list_of(file(), *node, key, "lists of numbers")) {
+        values.push_back(row_of(file(), entry, key, size));
     }
+    return values;
+}
+
+std::optional<std::vector<glm::dvec3>> TomlTable::vectors(std::string_view key) const {
+    const auto all = rows(key, 3);
+    if (!all) return std::nullopt;
+    std::vector<glm::dvec3> values;
+    for (const std::vector<double>& row : *all) values.emplace_back(row[0], row[1], row[2]);
     return values;
 }
 
