@@ -122,7 +122,7 @@ Vec3 picture_of(const LineView& view, const Shape& shape) {
 }
 
 LineViews::LineViews(const Frame& frame, const std::vector<Reading>& readings, Shape& shape)
-    : view_of_(readings.size(), -1) {
+    : know_up_(frame.up_facet() < 0), view_of_(readings.size(), -1) {
     std::map<std::string, int> motion_of;
     for (std::size_t r = 0; r < readings.size(); ++r) {
         if (!readings[r].seen_line) continue;
@@ -171,6 +171,7 @@ std::vector<Equation> motion_equations(const LineViews& lines) {
             Equation e;
             e.role = Equation::Role::placed;
             e.sigma = k_shapes.motion_sigma;
+            e.exact = lines.know_up() && i < 2;
             e.formula = extra_unknown(first + i);
             all.push_back(std::move(e));
         }

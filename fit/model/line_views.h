@@ -40,8 +40,12 @@ public:
     /// its axis), the shift, and the logarithm of the size: x becomes size * turn * x + shift.
     const std::vector<int>& motions() const { return motions_; }
     static constexpr int k_unknowns = 7;
+    /// Without a facet that defines up, up is a direction before the cameras too: no motion tilts
+    /// it.
+    bool know_up() const { return know_up_; }
 
 private:
+    bool know_up_ = false;
     std::vector<LineView> views_;
     std::vector<int> view_of_;  // by reading, or -1
     std::vector<int> motions_;

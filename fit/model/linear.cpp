@@ -84,7 +84,8 @@ std::vector<Eigen::VectorXd> rigid_motions(const FitModel& model, const Shape& s
 bool unseen(const FunctionRows& rows, const std::vector<Equation>& equations,
             const Eigen::VectorXd& g) {
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        if (equations[std::size_t(i)].role == Equation::Role::placed) continue;
+        const Equation& e = equations[std::size_t(i)];
+        if (e.role == Equation::Role::placed && !e.exact) continue;
         double sum = 0, size = 0;
         for (FunctionRows::InnerIterator it(rows, i); it; ++it) {
             sum += it.value() * g(it.col());

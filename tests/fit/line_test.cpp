@@ -93,11 +93,11 @@ std::vector<WrittenReading> lines_of(const Solid& solid, const Photographs& take
 }
 
 FitResult fitted(const Solid& mesh, std::vector<WrittenReading> written,
-                 const std::vector<WrittenReading>& others) {
+                 const std::vector<WrittenReading>& others, const std::string& up = "T") {
     written.insert(written.end(), others.begin(), others.end());
     FitOptions options;
     options.findings = false;
-    return fit_stone(fit_input(test::stone_of(mesh), written), options);
+    return fit_stone(fit_input(test::stone_of(mesh, up), written), options);
 }
 
 void expect_similar(const Solid& found, const Solid& to, double size, double within) {
@@ -159,6 +159,23 @@ TEST(SeenLines, TheMeshNeedNotStandAsItWasSeen) {
         fitted(test::cube(), lines_of(truth(), taken), {length("depth", 2, 0.01)});
     EXPECT_EQ(fit.status, FitStatus::converged) << fit.message;
     expect_similar(fit.solid, truth(), 1, 1e-7);
+}
+
+// The cameras know where a direction is, but not where a facet faces.
+TEST(SeenLines, UpAsADirectionIsTheCameras) {
+    std::vector<NamedPlane> planes;
+    for (const Facet& f : truth().facets) planes.push_back({f.name, f.plane});
+    planes[0].plane.normal = test::direction(1, 30);
+    const Solid solid = test::enclosed(planes);
+    const FitResult fit = fitted(test::cube(), lines_of(solid),
+                                 {length("depth", width_along(solid, {0, 0, 1}), 0.01)}, "");
+    EXPECT_EQ(fit.status, FitStatus::converged) << fit.message;
+    EXPECT_EQ(fit.statistics.rank_defect, 0);
+    expect_similar(fit.solid, solid, 1, 1e-7);
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+        EXPECT_NEAR(fit.facets[f].plane.normal.z, planes[f].plane.normal.z, 1e-7);
+        EXPECT_GT(fit.facets[f].sigma_inclination, 0);
+    }
 }
 
 // One line tells less than how the mesh stands: that is nobody's question.
