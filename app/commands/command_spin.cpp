@@ -148,8 +148,10 @@ Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
     for (const int f : found.unseen)
         json["unseen"].push_back(found.solid.facets[std::size_t(f)].name);
     json["half_turn"] = Json::array();
-    for (const int f : found.copies)
-        json["half_turn"].push_back(found.solid.facets[std::size_t(f)].name);
+    if (found.completed) {
+        for (const int f : found.completed->copies)
+            json["half_turn"].push_back(found.completed->solid.facets[std::size_t(f)].name);
+    }
     json["facets"] = Json::array();
     for (std::size_t f = 0; f < found.solid.facets.size(); ++f) {
         const Facet& facet = found.solid.facets[f];
@@ -203,11 +205,6 @@ void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
             a.common.quiet);
     else
         say("no edges of a table were found: the stone is closed by planes that nothing shows",
-            a.common.quiet);
-    if (!found.copies.empty())
-        say(fmt::format("{} facets that no frame shows are taken from the other side, half a turn "
-                        "away (\"half_turn\" in --json)",
-                        found.copies.size()),
             a.common.quiet);
     if (!found.unseen.empty())
         say(fmt::format("no frame shows {} of the facets edge-on: they close the stone, and their "

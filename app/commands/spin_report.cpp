@@ -75,10 +75,6 @@ std::vector<std::string> facts_of(const SpinResult& found) {
     if (!unseen.empty())
         facts.push_back(
             fmt::format("The tilt of these facets is a guess: {}.", fmt::join(unseen, ", ")));
-    if (!found.copies.empty())
-        facts.push_back(fmt::format(
-            "{} facets that no frame shows are taken from the other side, half a turn away.",
-            found.copies.size()));
     return facts;
 }
 
@@ -101,7 +97,6 @@ void write_spin_report(const fs::path& folder, const std::vector<SpinFrame>& fra
     page.solid = found.solid;
     page.seen.assign(found.solid.facets.size(), true);
     for (const int f : found.unseen) page.seen[std::size_t(f)] = false;
-    for (const int f : found.copies) page.seen[std::size_t(f)] = false;
     page.width = frames.front().picture.width;
     page.height = frames.front().picture.height;
     const std::size_t every = (frames.size() + k_most_pictures - 1) / k_most_pictures;
@@ -114,7 +109,7 @@ void write_spin_report(const fs::path& folder, const std::vector<SpinFrame>& fra
     page.proportions = rows_of(found, width_mm);
     page.facts = facts_of(found);
     if (!light.beside.empty()) page.beside_uri = png_uri(light.beside);
-    if (!light.verdict.empty()) page.facts.push_back(light.verdict);
+    if (!light.verdict.empty()) page.facts.push_back(as_sentence(light.verdict));
     fs::create_directories(folder);
     write_text(folder / "report.html", spin_page(page));
 }

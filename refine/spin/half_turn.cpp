@@ -19,6 +19,8 @@ constexpr double k_copied_sigma = radians(2.5);
 // The axis is found by facets steeper than this: flat ones do not tell where it is.
 constexpr double k_steepest_normal = 0.9;
 constexpr int k_rounds = 20;
+// Of the width: pairs of few sides do not tell where the axis is across them.
+constexpr double k_off_middle = 0.1;
 constexpr double k_agreement = 0.02;  // of the stone's width
 
 struct Pair {
@@ -46,22 +48,30 @@ int facet_towards(const Solid& solid, const std::vector<bool>& shown, const Vec3
 }
 
 // The axis' place (x, y), at which difference = 2 normal . place for most pairs: least squares with
-// Cauchy's weights about `scale`.
-Eigen::Vector2d axis_of(std::vector<Pair>& pairs, double scale) {
-    Eigen::Vector2d axis(0, 0);
+// Cauchy's weights about `scale`, at first about the stone's middle.
+Eigen::Vector2d axis_of(std::vector<Pair>& pairs, double scale, const Eigen::Vector2d& middle) {
+    Eigen::Vector2d axis = middle;
     for (int round = 0; round < k_rounds; ++round) {
         Eigen::Matrix2d left = Eigen::Matrix2d::Zero();
         Eigen::Vector2d right(0, 0);
         for (Pair& pair : pairs) {
             const Eigen::Vector2d slope(2 * pair.normal.x, 2 * pair.normal.y);
-            if (round > 0)
-                pair.weight = 1 / (1 + std::pow((pair.difference - slope.dot(axis)) / scale, 2));
+            pair.weight = 1 / (1 + std::pow((pair.difference - slope.dot(axis)) / scale, 2));
             left += pair.weight * slope * slope.transpose();
             right += pair.weight * pair.difference * slope;
         }
         axis = left.ldlt().solve(right);
     }
     return axis;
+}
+
+Eigen::Vector2d middle_of(const Solid& solid) {
+    Eigen::Vector2d least(HUGE_VAL, HUGE_VAL), most = -least;
+    for (const Vec3& v : solid.vertices) {
+        least = least.cwiseMin(Eigen::Vector2d(v.x, v.y));
+        most = most.cwiseMax(Eigen::Vector2d(v.x, v.y));
+    }
+    return (least + most) / 2;
 }
 
 std::vector<Pair> pairs_of(const Solid& solid, const std::vector<bool>& shown) {
@@ -85,7 +95,9 @@ std::optional<HalfTurned> completed_by_half_turn(const Solid& solid,
     std::vector<Pair> pairs = pairs_of(solid, shown);
     const double agreement = k_agreement * width_along(solid, {1, 0, 0});
     if (int(pairs.size()) < 2 * k_least_pairs) return std::nullopt;
-    const Eigen::Vector2d axis = axis_of(pairs, agreement / 2);
+    const Eigen::Vector2d middle = middle_of(solid), axis = axis_of(pairs, agreement / 2, middle);
+    if (!((axis - middle).norm() < k_off_middle * width_along(solid, {1, 0, 0})))
+        return std::nullopt;
     std::vector<double> off;
     for (const Pair& pair : pairs)
         off.push_back(

@@ -44,7 +44,8 @@ struct SeriesLight {
     std::string beside;   ///< bytes of a PNG: the frames left out, the renders beside them
 };
 
-/// `material`: of the stone, taken as clear. The result does not depend on `threads`.
+/// The stone is drawn as completed, if it was. `material`: of the stone, taken as clear. The result
+/// does not depend on `threads`.
 SeriesLight series_light(const std::vector<SpinFrame>& frames, const SpinResult& found,
                          const Material& material, int threads = 0);
 

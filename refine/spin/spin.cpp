@@ -261,8 +261,8 @@ private:
             if (!frame.turn) continue;
             std::vector<double> sizes;
             double squares = 0;
-            for (const double d : outline_distances(fit_.solid.vertices, fit_.series.camera,
-                                                    *frame.turn, edges_[f])) {
+            for (const double d :
+                 outline_distances(corners_, fit_.series.camera, *frame.turn, edges_[f])) {
                 squares += d * d;
                 sizes.push_back(std::abs(d));
             }
@@ -300,10 +300,10 @@ private:
         result_.solid = stone.solid;
         result_.tilt_sigmas = stone.tilt_sigmas;
         result_.crowned = stone.crowned;
-        result_.copies = stone.copies;
+        result_.completed = stone.completed;
+        for (const Vec3& v : stone.solid.vertices) corners_.push_back(stone.on_turntable(v));
         for (std::size_t f = 0; f < stone.seen.size(); ++f) {
-            const bool is_copy = std::count(stone.copies.begin(), stone.copies.end(), int(f)) > 0;
-            if (!stone.seen[f] && !is_copy) result_.unseen.push_back(int(f));
+            if (!stone.seen[f]) result_.unseen.push_back(int(f));
         }
         for (std::size_t f = 0; f < frames_.size(); ++f) {
             SpinFrameResult& frame = result_.frames[f];
@@ -346,6 +346,7 @@ private:
     bool has_ground_ = false;
     TurningFit fit_;
     std::array<TurningFit, 2> halves_;
+    std::vector<Vec3> corners_;  // of the stone that is written, in the turntable's frame
     SpinResult result_;
 };
 

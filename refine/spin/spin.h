@@ -34,7 +34,7 @@ struct SpinFrameResult {
     /// Of the stone, counter-clockwise from above, radians; without one: no outline was found.
     std::optional<double> turn;
     double turn_sigma = 0;
-    /// Of the edge's places from the stone's outline.
+    /// Of the edge's places from the outline of the stone that is written.
     double rms_px = 0, median_px = 0;
     std::string trouble;  ///< why it was not used, for people
     Projection projection{};
@@ -46,8 +46,9 @@ struct SpinResult {
     Solid solid;
     std::vector<double> tilt_sigmas;  ///< by facet, radians
     std::vector<int> unseen;          ///< facets whose tilt is hardly more than a guess
-    /// Facets that no frame shows, taken from those half a turn about z away (half_turn.h).
-    std::vector<int> copies;
+    /// The same stone, what no frame shows taken from half a turn about z away. It looks more like
+    /// the photographs; outlines contradict it somewhat.
+    std::optional<HalfTurned> completed;
     /// The width is in pixels. A sigma is at least half of how far the halves' values differ.
     std::vector<SpinProportion> proportions;
     const SpinProportion& width() const { return proportions.front(); }

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "refine/spin/half_turn.h"
 #include "refine/spin/surface_edges.h"
 #include "stone/numbers/units.h"
 
@@ -34,7 +33,7 @@ bool turns_edge_on(const Vec3& normal, const TurningSeries& series) {
 }
 
 // What lies on the turntable, by the stone's symmetry.
-void complete(StandingStone& stone, const TurningFit& fit) {
+std::optional<HalfTurned> completed(const StandingStone& stone, const TurningFit& fit) {
     std::vector<bool> shown;
     for (std::size_t f = 0; f < stone.seen.size(); ++f) {
         const Facet& facet = stone.solid.facets[f];
@@ -42,17 +41,11 @@ void complete(StandingStone& stone, const TurningFit& fit) {
             stone.crowned &&
             std::none_of(fit.solid.facets.begin(), fit.solid.facets.end(),
                          [&](const Facet& other) { return other.name == facet.name; });
-        shown.push_back(stone.seen[f] &&
-                        (of_crown || facet.name == k_ground ||
-                         turns_edge_on(stone.on_turntable(facet.plane.normal), fit.series)));
+        shown.push_back(
+            stone.seen[f] &&
+            (of_crown || turns_edge_on(stone.on_turntable(facet.plane.normal), fit.series)));
     }
-    auto completed = completed_by_half_turn(stone.solid, stone.tilt_sigmas, shown);
-    if (!completed) return;
-    stone.solid = std::move(completed->solid);
-    stone.tilt_sigmas = std::move(completed->tilt_sigmas);
-    stone.copies = std::move(completed->copies);
-    stone.seen.assign(stone.solid.facets.size(), true);
-    for (const int f : stone.copies) stone.seen[std::size_t(f)] = false;
+    return completed_by_half_turn(stone.solid, stone.tilt_sigmas, shown);
 }
 
 // x along the least width, though the girdle may have become narrower.
@@ -117,8 +110,8 @@ StandingStone standing_stone(const TurningFit& fit,
         stone.seen.assign(stone.solid.facets.size(), true);
         for (const int f : stone.crowned->unseen) stone.seen[std::size_t(f)] = false;
     }
-    complete(stone, fit);
     turn_to_width(stone);
+    stone.completed = completed(stone, fit);
     return stone;
 }
 

@@ -7,6 +7,7 @@
 #include "compare/turntable/edge_points.h"
 #include "fit/silhouettes/turning_fit.h"
 #include "refine/spin/crowned_stone.h"
+#include "refine/spin/half_turn.h"
 #include "refine/spin/stone_attitude.h"
 
 namespace culet {
@@ -15,8 +16,8 @@ struct StandingStone {
     Solid solid;
     std::vector<double> tilt_sigmas;  ///< by facet, radians
     std::vector<bool> seen;           ///< by facet: its tilt is better known than a guess
-    /// Facets that no frame shows, taken from those half a turn about z away (half_turn.h).
-    std::vector<int> copies;
+    /// The same stone, what no frame shows taken from half a turn about z away.
+    std::optional<HalfTurned> completed;
     StoneAttitude at;  ///< its axes in the turntable's frame
     /// What edges of the surface told; without them, outlines alone tell the stone.
     std::optional<CrownedStone> crowned;
