@@ -26,7 +26,6 @@ constexpr double k_agreement = 0.02;  // of the stone's width
 struct Pair {
     Vec3 normal{0};
     double difference = 0;  // of the facets' offsets
-    double weight = 1;
 };
 
 Vec3 half_turned(const Vec3& v) {
@@ -49,16 +48,18 @@ int facet_towards(const Solid& solid, const std::vector<bool>& shown, const Vec3
 
 // The axis' place (x, y), at which difference = 2 normal . place for most pairs: least squares with
 // Cauchy's weights about `scale`, at first about the stone's middle.
-Eigen::Vector2d axis_of(std::vector<Pair>& pairs, double scale, const Eigen::Vector2d& middle) {
+Eigen::Vector2d axis_of(const std::vector<Pair>& pairs, double scale,
+                        const Eigen::Vector2d& middle) {
     Eigen::Vector2d axis = middle;
     for (int round = 0; round < k_rounds; ++round) {
         Eigen::Matrix2d left = Eigen::Matrix2d::Zero();
         Eigen::Vector2d right(0, 0);
-        for (Pair& pair : pairs) {
+        for (const Pair& pair : pairs) {
             const Eigen::Vector2d slope(2 * pair.normal.x, 2 * pair.normal.y);
-            pair.weight = 1 / (1 + std::pow((pair.difference - slope.dot(axis)) / scale, 2));
-            left += pair.weight * slope * slope.transpose();
-            right += pair.weight * pair.difference * slope;
+            const double weight =
+                1 / (1 + std::pow((pair.difference - slope.dot(axis)) / scale, 2));
+            left += weight * slope * slope.transpose();
+            right += weight * pair.difference * slope;
         }
         axis = left.ldlt().solve(right);
     }
@@ -92,7 +93,7 @@ std::vector<Pair> pairs_of(const Solid& solid, const std::vector<bool>& shown) {
 std::optional<HalfTurned> completed_by_half_turn(const Solid& solid,
                                                  const std::vector<double>& tilt_sigmas,
                                                  const std::vector<bool>& shown) {
-    std::vector<Pair> pairs = pairs_of(solid, shown);
+    const std::vector<Pair> pairs = pairs_of(solid, shown);
     const double agreement = k_agreement * width_along(solid, {1, 0, 0});
     if (int(pairs.size()) < 2 * k_least_pairs) return std::nullopt;
     const Eigen::Vector2d middle = middle_of(solid), axis = axis_of(pairs, agreement / 2, middle);

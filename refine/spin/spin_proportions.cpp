@@ -20,7 +20,6 @@ constexpr double k_one_tier = radians(6.0);
 
 struct Rims {
     std::optional<double> upper, lower;  // mean heights of the girdle's corners
-    bool seen = true;
 };
 
 // Where crown and pavilion meet the girdle, or each other.

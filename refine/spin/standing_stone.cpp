@@ -15,8 +15,8 @@ constexpr int k_attitudes = 3;
 constexpr double k_level_table = radians(0.2);
 constexpr double k_edge_on = 0.05;   // sine of an angle
 constexpr std::size_t k_swept = 64;  // frames in which edges are looked for, at most
-// As halves of a real series differ.
 constexpr const char* k_ground = "G";
+// As halves of a real series differ.
 constexpr double k_ground_tilt = radians(0.05);
 constexpr double k_same_as_ground = radians(12.0);
 
@@ -88,14 +88,16 @@ StandingStone standing_stone(const TurningFit& fit,
     const std::vector<bool> seen = seen_facets(fit);
     stone.at = attitude_of(fit.solid, seen, {0, 0, 1});
     const std::size_t every = (pictures.size() + k_swept - 1) / k_swept;
+    std::vector<SweptFrame> swept;
+    for (std::size_t k = 0; k < pictures.size(); k += every)
+        swept.push_back(swept_frame(*pictures[k]));
     // Edges are looked for across the way up: the table tells it better than the outlines.
     for (int i = 0; i < k_attitudes; ++i) {
         stone.solid = upright(fit.solid, stone.at);
-        std::vector<SweptFrame> swept;
-        for (std::size_t k = 0; k < pictures.size(); k += every)
-            swept.push_back(swept_frame(
-                *pictures[k], projection_of(picture_axes(fit.series.camera, fit.series.turns[k]),
-                                            stone.at, *pictures[k])));
+        for (std::size_t s = 0; s < swept.size(); ++s)
+            swept[s].projection =
+                projection_of(picture_axes(fit.series.camera, fit.series.turns[s * every]),
+                              stone.at, *pictures[s * every]);
         stone.crowned = crowned(stone.solid, seen, fit.tilt_sigmas, swept);
         if (!stone.crowned || stone.crowned->table_tilt < k_level_table) break;
         if (i + 1 < k_attitudes)

@@ -88,7 +88,7 @@ SurfaceEdge sharpened(const std::vector<SweptFrame>& frames, const SweptSide& si
 
 }  // namespace
 
-SweptFrame swept_frame(const LevelPicture& picture, const Projection& projection) {
+SweptFrame swept_frame(const LevelPicture& picture) {
     const cv::Mat levels(picture.height, picture.width, CV_8UC3,
                          const_cast<std::uint8_t*>(picture.rgb.data()));
     cv::Mat grey;
@@ -98,7 +98,6 @@ SweptFrame swept_frame(const LevelPicture& picture, const Projection& projection
     SweptFrame frame;
     cv::Sobel(grey, frame.along_x, CV_32F, 1, 0, 3, 1 / 8.0);
     cv::Sobel(grey, frame.along_y, CV_32F, 0, 1, 3, 1 / 8.0);
-    frame.projection = projection;
     return frame;
 }
 

@@ -17,7 +17,8 @@ struct SweptFrame {
     cv::Mat along_x, along_y;
     Projection projection{};
 };
-SweptFrame swept_frame(const LevelPicture& picture, const Projection& projection);
+/// Without a projection.
+SweptFrame swept_frame(const LevelPicture& picture);
 
 /// One side of the upright stone: edges across `azimuth`, seen over `half_length` on both sides of
 /// `middle`, which counts counter-clockwise. Lengths in pixels.
