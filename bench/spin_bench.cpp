@@ -1,5 +1,5 @@
 // Makes spin series of off-standard stones with known facets, and measures what `spin` finds.
-//     bench_spin [--stones 10] [--first 0] [--frames 64] [--size 600] [--write FOLDER]
+//     bench_spin [--stones 10] [--first 0] [--frames 64] [--size 600] [--cut] [--write FOLDER]
 
 #include <fmt/format.h>
 
@@ -15,6 +15,8 @@
 
 #include "bench/spin_error.h"
 #include "stone/cuts/cuts.h"
+#include "stone/design/drawn_symmetry.h"
+#include "stone/design/tiers.h"
 #include "stone/numbers/units.h"
 #include "stone/text/errors.h"
 #include "tests/cpu_time.h"
@@ -26,6 +28,7 @@ namespace {
 
 struct Options {
     int stones = 10, first = 0, frames = 64, size = 600;
+    bool cut = false;
     std::string folder;
 };
 
@@ -83,6 +86,13 @@ struct Sums {
     int facets = 0, found = 0, within = 0;
 };
 
+std::optional<CutSymmetry> symmetry_of(const Solid& cut) {
+    const Vec3 up{0, 0, 1};
+    const AxisGroup group = drawn_symmetry(cut, up, table_facet(cut, up)).near;
+    if (group.is_trivial()) return std::nullopt;
+    return CutSymmetry{group.order, group.mirrors};
+}
+
 void measure(const Options& o, int k, Sums& sums) {
     const Kind& kind = k_kinds[std::size_t(k)];
     const Solid stone =
@@ -98,7 +108,9 @@ void measure(const Options& o, int k, Sums& sums) {
     const Clocks begin = clocks();
     SpinResult found;
     try {
-        found = spin(frames);
+        SpinOptions options;
+        if (o.cut) options.symmetry = symmetry_of(make_cut(kind.cut, kind.values));
+        found = spin(frames, options);
     } catch (const InputError& error) {
         fmt::print("| {} | {} |\n", kind.name, error.what());
         return;
@@ -146,6 +158,7 @@ int main(int argc, char** argv) {
     program.add_option("--first", o.first)->capture_default_str();
     program.add_option("--frames", o.frames)->capture_default_str();
     program.add_option("--size", o.size)->capture_default_str();
+    program.add_flag("--cut", o.cut, "the symmetry of the cut is given");
     program.add_option("--write", o.folder, "where to leave the frames");
     CLI11_PARSE(program, argc, argv);
     return culet::bench::run(o);

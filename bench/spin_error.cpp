@@ -99,12 +99,14 @@ void compare_facets(const SpinResult& found, const synthetic::SpinTruth& truth,
 
 void compare_table(const SpinResult& found, const synthetic::SpinTruth& truth,
                    const Eigen::Matrix3d& turn, SpinError& error) {
-    if (!found.crowned) return;
+    const int mine = find_facet(found.solid, "T");
+    if (mine < 0) return;
     const Facet& table = truth.solid.facets[std::size_t(find_facet(truth.solid, "T"))];
-    const Eigen::Vector3d n = turn * eigen(found.crowned->solid.facets[0].plane.normal),
+    const Eigen::Vector3d n = turn * eigen(found.solid.facets[std::size_t(mine)].plane.normal),
                           x = turn.col(0);
     error.table = angle_between({n.x(), n.y(), n.z()}, table.plane.normal);
-    error.table_part = found.crowned->table_part;
+    if (const SpinProportion* part = proportion(found.proportions, "table_pct"))
+        error.table_part = part->value / 100;
     const Vec3 across(x.x(), x.y(), x.z());
     double least = HUGE_VAL, most = -HUGE_VAL;
     for (const int c : table.corners) {

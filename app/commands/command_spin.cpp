@@ -12,8 +12,9 @@
 #include <optional>
 #include <set>
 
-#include "app/commands/spin_light_json.h"
+#include "app/commands/spin_json.h"
 #include "app/commands/spin_report.h"
+#include "app/input/cut_symmetry.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
 #include "compare/photo/photo.h"
@@ -32,12 +33,11 @@ namespace culet {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct SpinArguments {
     CommonOptions common;
     std::vector<std::string> frames, held_out;
-    std::string output, json, report, material;
+    std::string output, json, report, material, cut;
     double step_deg = 0, width_mm = 0;
 };
 
@@ -95,76 +95,6 @@ std::vector<SpinFrame> frames_of(const SpinArguments& a) {
     return frames;
 }
 
-Json frame_json(const SpinFrame& frame, const SpinFrameResult& found, double px_mm) {
-    Json json{{"file", frame.name}, {"used", found.used}, {"held_out", frame.held_out}};
-    if (!found.trouble.empty()) json["trouble"] = found.trouble;
-    if (!found.turn) return json;
-    json["angle_deg"] = degrees(*found.turn);
-    json["sigma_deg"] = degrees(found.turn_sigma);
-    json["outline_rms_px"] = found.rms_px;
-    json["outline_median_px"] = found.median_px;
-    Json rows = Json::array();
-    for (const auto& row : found.projection)
-        rows.push_back({row[0] / px_mm, row[1] / px_mm, row[2] / px_mm, row[3]});
-    json["projection"] = std::move(rows);
-    return json;
-}
-
-Json spin_json(const SpinArguments& a, const std::vector<SpinFrame>& frames,
-               const SpinResult& found, double px_mm) {
-    Json json{{"schema", 1}, {"unit", a.width_mm > 0 ? "mm" : "px"}, {"frames", Json::array()}};
-    for (std::size_t f = 0; f < frames.size(); ++f)
-        json["frames"].push_back(frame_json(frames[f], found.frames[f], px_mm));
-    json["camera"] = {{"elevation_deg", degrees(found.camera.elevation)},
-                      {"roll_deg", degrees(found.camera.roll)},
-                      {"axis_px", found.camera.axis},
-                      {"perspective", found.camera.perspective * found.width().value}};
-    for (const SpinProportion& p : found.proportions) {
-        const double scale = p.name == "width" ? px_mm : 1;
-        json["proportions"][p.name] = {
-            {"value", p.value * scale}, {"sigma", p.sigma * scale}, {"read", p.read}};
-    }
-    if (const auto& crown = found.crowned) {
-        json["crown"] = {{"edges", crown->edges},
-                         {"edge_sigma_px", crown->edge_sigma},
-                         {"table_tilt_deg", degrees(crown->table_tilt)}};
-    }
-    const Halves& halves = found.halves;
-    json["halves"] = {{"facets", halves.facets.count},
-                      {"facet_deg", degrees(halves.facets.tilt)},
-                      {"large_facets", halves.large_facets.count},
-                      {"large_facet_deg", degrees(halves.large_facets.tilt)},
-                      {"sigmas_times", halves.factor},
-                      {"up_deg", degrees(halves.up)},
-                      {"elevation_deg", degrees(halves.elevation)}};
-    for (const auto& [name, difference] : halves.proportions)
-        json["halves"]["proportions"][name] = difference * (name == "width" ? px_mm : 1);
-    json["ground_agreement"] = found.ground_agreement;
-    json["tangent_rms_px"] = found.tangent_px;
-    json["scatter_px"] = found.scatter_px;
-    json["notes"] = found.notes;
-    if (!found.trouble.empty()) json["trouble"] = found.trouble;
-    json["unseen"] = Json::array();
-    for (const int f : found.unseen)
-        json["unseen"].push_back(found.solid.facets[std::size_t(f)].name);
-    json["half_turn"] = Json::array();
-    if (found.completed) {
-        for (const int f : found.completed->copies)
-            json["half_turn"].push_back(found.completed->solid.facets[std::size_t(f)].name);
-    }
-    json["facets"] = Json::array();
-    for (std::size_t f = 0; f < found.solid.facets.size(); ++f) {
-        const Facet& facet = found.solid.facets[f];
-        const Vec3& n = facet.plane.normal;
-        json["facets"].push_back({{"name", facet.name},
-                                  {"normal", {n.x, n.y, n.z}},
-                                  {"offset", facet.plane.offset * px_mm},
-                                  {"area", area(found.solid, facet) * px_mm * px_mm},
-                                  {"sigma_deg", degrees(found.tilt_sigmas[f])}});
-    }
-    return json;
-}
-
 Solid scaled(Solid solid, double scale) {
     for (Vec3& v : solid.vertices) v *= scale;
     for (Facet& f : solid.facets) f.plane.offset *= scale;
@@ -195,21 +125,24 @@ void say_result(const SpinArguments& a, const std::vector<SpinFrame>& frames,
     say(fmt::format("the stone is {:.1f} px wide{}", found.width().value,
                     a.width_mm > 0 ? "" : "; --width MM gives its lengths in mm"),
         a.common.quiet);
-    if (found.crowned)
-        say(fmt::format("table and crown by {} edges of the surface{}", found.crowned->edges,
-                        found.crowned->table_part > 0
-                            ? fmt::format(": the table is {:.1f} \u00b1 {:.1f} % of the width",
-                                          100 * found.crowned->table_part,
-                                          100 * found.crowned->table_part_sigma)
-                            : ""),
+    if (const SpinProportion* table = proportion(found.proportions, "table_pct"))
+        say(fmt::format("table and crown by {} edges of the surface: the table is {:.1f} \u00b1 "
+                        "{:.1f} % of the width",
+                        found.edges, table->value, table->sigma),
             a.common.quiet);
     else
         say("no edges of a table were found: the stone is closed by planes that nothing shows",
             a.common.quiet);
-    if (!found.unseen.empty())
+    if (found.symmetry)
+        say(fmt::format("facets repeat {}: {} are alike within {:.2f} degrees; {} that no frame "
+                        "shows are copies",
+                        words_of(found.tried), found.symmetry->pairs,
+                        degrees(found.symmetry->tilt_sigma), found.copies.size()),
+            a.common.quiet);
+    if (found.unseen.size() > found.copies.size())
         say(fmt::format("no frame shows {} of the facets edge-on: they close the stone, and their "
                         "tilt is a guess (\"unseen\" in --json)",
-                        found.unseen.size()),
+                        found.unseen.size() - found.copies.size()),
             a.common.quiet);
     if (!found.width().read)
         say("such facets bound the width: the scale is not to be trusted", a.common.quiet);
@@ -227,10 +160,11 @@ int run_spin(const SpinArguments& a) {
     SpinOptions options;
     options.step = radians(a.step_deg);
     options.threads = a.common.threads;
+    if (!a.cut.empty()) options.symmetry = symmetry_of_cut(a.cut);
     const SpinResult found =
         spin(frames, options, progress_line("finding the stone", a.common.quiet));
     const double px_mm = a.width_mm > 0 ? a.width_mm / found.width().value : 1;
-    Json json = spin_json(a, frames, found, px_mm);
+    auto json = spin_json(frames, found, a.width_mm);
     SeriesLight light;
     if (material) {
         light = series_light(frames, found, *material, a.common.threads);
@@ -264,6 +198,11 @@ void add_command_spin(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("STONE");
     command
+        ->add_option("--cut", a.cut,
+                     "that the stone has: a standard cut, a mesh or a design; facets that it "
+                     "repeats about its axis are taken as nearly alike")
+        ->type_name("NAME|MESH|DESIGN");
+    command
         ->add_option("--step", a.step_deg,
                      "degrees from one frame to the next, either way (default: one turn in all)")
         ->check(CLI::Range(0.01, 120.0))
@@ -296,6 +235,7 @@ void add_command_spin(CLI::App& program, int& exit_code) {
     command->footer(
         "Examples:\n"
         "  culet spin turn-*.jpg -o stone.obj --json spin.json\n"
+        "  culet spin turn-*.jpg --cut asscher -o stone.obj --report report\n"
         "  culet spin f0*.jpg --hold-out f010.jpg f020.jpg --width 6.98 -o stone.obj\n"
         "Exit codes: 0 found; 1 found, not to be trusted; 2 could not be done.");
     command->callback([arguments, &exit_code] { exit_code = run_spin(*arguments); });

@@ -67,7 +67,7 @@ std::vector<std::string> facts_of(const SpinResult& found) {
                     "within {:.2f}.",
                     found.halves.large_facets.count, degrees(found.halves.large_facets.tilt),
                     found.halves.facets.count, degrees(found.halves.facets.tilt))};
-    if (!found.crowned)
+    if (found.edges == 0)
         facts.emplace_back(
             "No edges of a table were found: nothing shows the planes that close the stone above.");
     std::vector<std::string> unseen;

@@ -30,8 +30,10 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
         while (result.steps < most_steps && !result.converged && damping < k_most_damping) {
             const std::vector<double> scales = solver.scales(state);
             const auto weights = solver.weights(state, scales);
-            const double before = solver.cost(state, weights, scales);
-            const PlaneSolver::Equations equations = solver.equations(state, weights, scales, true);
+            std::vector<double> sigmas = scales;
+            for (double& s : sigmas) s *= problem.shared_errors;
+            const double before = solver.cost(state, weights, sigmas);
+            const PlaneSolver::Equations equations = solver.equations(state, weights, sigmas, true);
             bool better = false;
             while (!better && damping < k_most_damping && result.steps < most_steps) {
                 ++result.steps;
@@ -46,7 +48,7 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
                 if (length > k_longest) step *= k_longest / length;
                 PlaneState next = solver.moved(state, step);
                 const bool closes = factor.good() && solver.look(next);
-                const double after = closes ? solver.cost(next, weights, scales) : 1e300;
+                const double after = closes ? solver.cost(next, weights, sigmas) : 1e300;
                 better = after < before;
                 if (!better) {
                     damping *= 10;
@@ -98,6 +100,7 @@ PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFi
         information.sigmas.push_back(
             is_stated ? problem.stated_sigmas[s]
                       : std::max(std::sqrt(squares[s] / dof), least * scales[s]));
+        information.sigmas.back() *= problem.shared_errors;
         if (!is_stated) continue;
         information.chi2 += squares[s] / std::pow(problem.stated_sigmas[s], 2);
         information.chi2_dof += count[s] - own;

@@ -12,6 +12,7 @@
 
 #include "fit/silhouettes/outline_distances.h"
 #include "fit/silhouettes/plane_body.h"
+#include "fit/silhouettes/plane_condition.h"
 
 namespace culet {
 
@@ -25,6 +26,9 @@ struct PlaneFitProblem {
     double width = 1;                   ///< of the stone
     OutlierRule outliers;
     ExpectedSeries expected;  ///< of a turntable
+    std::vector<PlaneCondition> conditions;
+    /// Times a point's sigma, since neighbouring points share errors.
+    double shared_errors = 1;
 };
 
 struct PlaneFit {

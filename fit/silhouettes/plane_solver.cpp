@@ -54,6 +54,17 @@ Slopes slopes_of_corner(const std::vector<Plane>& planes, const PlaneBody& body,
     return all;
 }
 
+Slopes slopes_of(const PlaneCondition& condition, const std::vector<Plane>& planes) {
+    Slopes all;
+    for (const PlaneCondition::Part& part : condition.parts) {
+        const auto [t, u] = tilts_of(planes[std::size_t(part.plane)].normal);
+        all.add(3 * part.plane, glm::dot(t, part.by_normal));
+        all.add(3 * part.plane + 1, glm::dot(u, part.by_normal));
+        all.add(3 * part.plane + 2, part.by_offset);
+    }
+    return all;
+}
+
 void add_products(Eigen::MatrixXd& matrix, const Slopes& a, const Slopes& b, double weight) {
     if (weight == 0) return;
     for (int i = 0; i < a.count; ++i) {
@@ -79,6 +90,15 @@ struct EdgeSums {
 };
 
 }  // namespace
+
+double residual(const PlaneCondition& condition, const std::vector<Plane>& planes) {
+    double sum = -condition.value;
+    for (const PlaneCondition::Part& part : condition.parts) {
+        const Plane& plane = planes[std::size_t(part.plane)];
+        sum += glm::dot(part.by_normal, plane.normal) + part.by_offset * plane.offset;
+    }
+    return sum;
+}
 
 PlaneSolver::PlaneSolver(const PlaneFitProblem& problem)
     : problem_(problem), planes_(int(problem.start.size())), size_(3 * planes_) {
@@ -140,6 +160,8 @@ double PlaneSolver::cost(const PlaneState& state, const Weights& weights,
         sum += glm::dot(tilt, tilt) / std::pow(problem_.start_tilts[p], 2) +
                std::pow((mine.offset - its.offset) / (k_start_offset * problem_.width), 2);
     }
+    for (const PlaneCondition& condition : problem_.conditions)
+        sum += std::pow(residual(condition, state.planes) / condition.sigma, 2);
     const std::vector<double>& turns = state.from.series.turns;
     for (std::size_t c = 0; c < turns.size(); ++c)
         sum += std::pow((turns[c] - problem_.expected.turns[c]) / problem_.expected.turn_sigma, 2);
@@ -243,6 +265,12 @@ PlaneSolver::Equations PlaneSolver::equations(const PlaneState& state, const Wei
         }
         all.matrix(3 * p + 2, 3 * p + 2) += offset;
         all.gradient(3 * p + 2) += offset * (mine.offset - its.offset);
+    }
+    for (const PlaneCondition& condition : problem_.conditions) {
+        const Slopes slopes = slopes_of(condition, state.planes);
+        const double weight = 1 / (condition.sigma * condition.sigma);
+        add_products(all.matrix, slopes, slopes, weight);
+        add_gradient(all.gradient, slopes, weight * residual(condition, state.planes));
     }
     const std::vector<double>& turns = state.from.series.turns;
     for (std::size_t c = 0; c < turns.size(); ++c) {

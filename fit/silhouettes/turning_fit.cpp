@@ -22,7 +22,7 @@ constexpr double k_ring = 0.85;  // their inclination, as part of the most that 
 // Facets brighter than the ground seem larger in a photograph, darker ones smaller, along whole
 // sides: what most points say counts.
 constexpr OutlierRule k_outliers{1, 0};
-constexpr int k_turn_steps = 20;
+constexpr int k_turn_steps = 20, k_refit_steps = 40;
 constexpr double k_still = 1e-7;  // radians: the turn moves no more
 
 FlatContour flat(const PicturePoints& points) {
@@ -102,24 +102,42 @@ std::vector<double> tilt_sigmas_of(const PlaneInformation& information) {
     return sigmas;
 }
 
+// Sigmas are `factor` times those of the fit.
+TurningFit result_of(const PlaneFitProblem& problem, const PlaneFit& fit, double factor) {
+    const PlaneInformation information = plane_information(problem, fit);
+    const std::vector<double> sigmas = tilt_sigmas_of(information);
+    TurningFit result;
+    result.solid = fit.body.solid;
+    for (Facet& facet : result.solid.facets) {
+        const int plane = std::stoi(facet.name);
+        facet.name = fmt::format("F{}", plane + 1);
+        result.tilt_sigmas.push_back(std::min(k_turning_tilt, factor * sigmas[std::size_t(plane)]));
+    }
+    result.series = fit.from.series;
+    result.scatter = fit.scales[0];
+    for (const double sigma : information.turn_sigmas)
+        result.turn_sigmas.push_back(std::min(problem.expected.turn_sigma, factor * sigma));
+    return result;
+}
+
 }  // namespace
 
 TurningFit fit_turning(const TurningOutlines& given) {
     PlaneFitProblem problem = problem_of(given);
     const FoundPlanes found = find_planes(Stone{}, problem);
-    const PlaneInformation information = plane_information(problem, found.fit);
-    TurningFit result;
-    result.solid = found.fit.body.solid;
-    for (Facet& facet : result.solid.facets)
-        facet.name = fmt::format("F{}", std::stoi(facet.name) + 1);
-    result.series = found.fit.from.series;
-    result.scatter = found.fit.scales[0];
-    const double factor = factor_of_shared_errors(found.fit.distances, result.scatter);
-    for (const double sigma : information.turn_sigmas)
-        result.turn_sigmas.push_back(std::min(given.expected.turn_sigma, factor * sigma));
-    for (const double sigma : tilt_sigmas_of(information))
-        result.tilt_sigmas.push_back(std::min(k_turning_tilt, factor * sigma));
-    return result;
+    return result_of(problem, found.fit,
+                     factor_of_shared_errors(found.fit.distances, found.fit.scales[0]));
+}
+
+TurningFit refit_turning(const TurningOutlines& given) {
+    PlaneFitProblem problem = problem_of(given);
+    problem.conditions = given.conditions;
+    PlaneFit fit = fit_planes(problem, problem.start, 0);
+    if (!fit.body.closed) throw InputError("the planes enclose no stone");
+    problem.shared_errors =
+        given.sigmas_times * factor_of_shared_errors(fit.distances, fit.scales[0]);
+    fit = fit_planes(problem, problem.start, k_refit_steps);
+    return result_of(problem, fit, 1);
 }
 
 PicturePoints outline_in_picture(std::span<const Vec3> corners, const TurningCamera& camera,
@@ -134,12 +152,14 @@ PicturePoints outline_in_picture(std::span<const Vec3> corners, const TurningCam
     return polygon;
 }
 
-std::vector<double> outline_distances(std::span<const Vec3> corners, const TurningCamera& camera,
-                                      double turn, const PicturePoints& points) {
+std::vector<FromOutline> outline_distances(std::span<const Vec3> corners,
+                                           const TurningCamera& camera, double turn,
+                                           const PicturePoints& points) {
     const std::vector<FlatContour> contours{flat(points)};
     const OutlineDistances at = outline_distances(corners, contours, {{}, {camera, {turn}}});
-    std::vector<double> distances;
-    for (const auto& nearest : at.nearest[0]) distances.push_back(nearest.distance);
+    std::vector<FromOutline> distances;
+    for (const auto& [edge, distance] : at.nearest[0])
+        distances.push_back({distance, at.outlines[0].edges[std::size_t(edge)].length});
     return distances;
 }
 

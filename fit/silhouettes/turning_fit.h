@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fit/silhouettes/plane_condition.h"
 #include "fit/silhouettes/turning_camera.h"
 
 namespace culet {
@@ -17,6 +18,9 @@ struct TurningOutlines {
     TurningSeries start;  ///< a turn for each outline
     ExpectedSeries expected;
     std::vector<Plane> planes;  ///< where facets may be; empty: the outlines alone tell
+    std::vector<PlaneCondition> conditions;  ///< for `refit_turning`
+    /// For `refit_turning`: by how much errors of whole sides make the sigmas of points larger.
+    double sigmas_times = 1;
 };
 
 struct TurningFit {
@@ -35,12 +39,20 @@ inline constexpr double k_turning_tilt = 0.17;
 /// Throws InputError if the outlines enclose no stone.
 TurningFit fit_turning(const TurningOutlines& outlines);
 
+/// Keeps to the given planes and adds none; facets are named by their planes: F1 is the first.
+TurningFit refit_turning(const TurningOutlines& outlines);
+
 /// The corners of a convex body's outline in a picture, counter-clockwise.
 PicturePoints outline_in_picture(std::span<const Vec3> corners, const TurningCamera& camera,
                                  double turn);
-/// Of points from that outline, positive outside.
-std::vector<double> outline_distances(std::span<const Vec3> corners, const TurningCamera& camera,
-                                      double turn, const PicturePoints& points);
+struct FromOutline {
+    double distance = 0;  ///< positive outside
+    double side = 0;      ///< length of the outline's side that is nearest
+};
+/// Of points from that outline.
+std::vector<FromOutline> outline_distances(std::span<const Vec3> corners,
+                                           const TurningCamera& camera, double turn,
+                                           const PicturePoints& points);
 /// The turn near `start` that brings the body's outline closest to the points. Its sigma: if a
 /// point's is `scatter`.
 struct FittedTurn {

@@ -198,13 +198,13 @@ std::optional<Crown> crown_of(const std::vector<std::vector<SurfaceEdge>>& edges
     const Table table = strongest_table(edges, std::max(k_level * edge_sigma, k_flat * width));
     if (table.edges.empty()) return std::nullopt;
     Crown crown;
-    crown.table_edges = table.edges;
+    crown.table.edges = table.edges;
     double radii = 0;
-    for (const SurfaceEdge& e : crown.table_edges) radii += e.radius;
-    const double count = double(crown.table_edges.size());
-    crown.table.plane = plane_through(crown.table_edges);
+    for (const SurfaceEdge& e : crown.table.edges) radii += e.radius;
+    const double count = double(crown.table.edges.size());
+    crown.table.plane = plane_through(crown.table.edges);
     crown.table.tilt_sigma = edge_sigma / (radii / count) / std::sqrt(count / 2);
-    for (const SurfaceEdge& e : crown.table_edges) {
+    for (const SurfaceEdge& e : crown.table.edges) {
         for (const auto& side : edges) {
             if (side.empty() || side[0].azimuth != e.azimuth) continue;
             const std::vector<SurfaceEdge> chain = chain_from(e, side, k_apart * width);
@@ -217,7 +217,9 @@ std::optional<Crown> crown_of(const std::vector<std::vector<SurfaceEdge>>& edges
                                   down / length * std::sin(e.azimuth), out / length};
                 const double offset =
                     down / length * chain[i].radius + out / length * chain[i].height;
-                crown.facets.push_back({{normal, offset}, std::sqrt(2.0) * edge_sigma / length});
+                crown.facets.push_back({{normal, offset},
+                                        std::sqrt(2.0) * edge_sigma / length,
+                                        {chain[i - 1], chain[i]}});
             }
         }
     }

@@ -10,13 +10,13 @@ namespace culet {
 
 struct CrownFacet {
     Plane plane;
-    double tilt_sigma = 0;  ///< radians
+    double tilt_sigma = 0;           ///< radians
+    std::vector<SurfaceEdge> edges;  ///< that bound it, and are across its azimuth
 };
 
 struct Crown {
+    /// Its edge on each side that shows one, away from the axis.
     CrownFacet table;
-    /// The table's edge on each side that shows one, away from the axis.
-    std::vector<SurfaceEdge> table_edges;
     std::vector<CrownFacet> facets;      ///< further down, on each side from the table outwards
     std::vector<SurfaceEdge> outermost;  ///< the last edge of each such side
 };

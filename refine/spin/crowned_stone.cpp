@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
 
 #include "refine/spin/crown.h"
 #include "stone/numbers/units.h"
@@ -44,9 +43,20 @@ double edge_sigma(const std::vector<SweptSide>& sides,
     return std::max(k_least_sigma, 1.4826 * upper_median(apart) / 2);
 }
 
+// A girdle that no outline shows is taken as upright, below the crown's outermost edge.
+std::optional<CrownFacet> girdle_below(const Crown& crown, const Plane& guess) {
+    if (std::abs(guess.normal.z) > k_upright) return std::nullopt;
+    for (const SurfaceEdge& e : crown.outermost) {
+        const Vec3 out{std::cos(e.azimuth), std::sin(e.azimuth), 0};
+        if (angle_between(out, guess.normal) < k_opposite)
+            return CrownFacet{{out, e.radius}, 0, {e}};
+    }
+    return std::nullopt;
+}
+
 // Whether the plane cuts off corners at which only seen facets meet.
-bool contradicts(const Plane& plane, const Solid& solid, const std::vector<bool>& seen,
-                 double most) {
+bool contradicts(const Plane& plane, const Solid& solid, const std::vector<bool>& seen) {
+    const double most = k_cut_off * width_along(solid, {1, 0, 0});
     std::vector<bool> is_seen(solid.vertices.size(), true);
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         for (const int c : solid.facets[f].corners)
@@ -56,34 +66,6 @@ bool contradicts(const Plane& plane, const Solid& solid, const std::vector<bool>
         if (is_seen[c] && height_above(plane, solid.vertices[c]) > most) return true;
     }
     return false;
-}
-
-// A girdle that no outline shows is taken as upright, below the crown's outermost edge.
-std::optional<Plane> girdle_below(const Crown& crown, const Plane& guess) {
-    if (std::abs(guess.normal.z) > k_upright) return std::nullopt;
-    for (const SurfaceEdge& e : crown.outermost) {
-        const Vec3 out{std::cos(e.azimuth), std::sin(e.azimuth), 0};
-        if (angle_between(out, guess.normal) < k_opposite) return Plane{out, e.radius};
-    }
-    return std::nullopt;
-}
-
-// Between the two opposite sides nearest to x, along which the stone is narrowest.
-void measure_table(const Crown& crown, double sigma, CrownedStone& stone) {
-    double nearest = HUGE_VAL;
-    for (const SurfaceEdge& a : crown.table_edges) {
-        for (const SurfaceEdge& b : crown.table_edges) {
-            const double off = std::abs(std::remainder(a.azimuth, 2 * std::numbers::pi));
-            const double opposite = std::abs(
-                std::remainder(a.azimuth - b.azimuth - std::numbers::pi, 2 * std::numbers::pi));
-            if (opposite > k_opposite || off >= nearest) continue;
-            nearest = off;
-            const double width =
-                width_along(stone.solid, {std::cos(a.azimuth), std::sin(a.azimuth), 0});
-            stone.table_part = (a.radius + b.radius) / width;
-            stone.table_part_sigma = std::sqrt(2.0) * sigma / width;
-        }
-    }
 }
 
 }  // namespace
@@ -98,16 +80,17 @@ std::optional<CrownedStone> crowned(const Solid& solid, const std::vector<bool>&
     CrownedStone stone;
     stone.edge_sigma = edge_sigma(sides, edges, frames);
     const std::optional<Crown> crown = crown_of(edges, width, stone.edge_sigma);
-    if (!crown || contradicts(crown->table.plane, solid, seen, k_cut_off * width))
-        return std::nullopt;
+    if (!crown || contradicts(crown->table.plane, solid, seen)) return std::nullopt;
     std::vector<NamedPlane> planes{{"T", crown->table.plane}};
     std::map<std::string, double> sigmas{{"T", crown->table.tilt_sigma}};
+    stone.edges_of["T"] = crown->table.edges;
     for (const CrownFacet& f : crown->facets) {
-        if (contradicts(f.plane, solid, seen, k_cut_off * width)) continue;
+        if (contradicts(f.plane, solid, seen)) continue;
         planes.push_back({fmt::format("C{}", planes.size()), f.plane});
         sigmas[planes.back().name] = f.tilt_sigma;
+        stone.edges_of[planes.back().name] = f.edges;
     }
-    stone.edges = int(crown->table_edges.size() + planes.size() - 1);
+    stone.edges = int(crown->table.edges.size() + planes.size() - 1);
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         // Guessed planes that close the stone below stay; above, table and crown are known now.
         const Vec3& normal = solid.facets[f].plane.normal;
@@ -115,8 +98,10 @@ std::optional<CrownedStone> crowned(const Solid& solid, const std::vector<bool>&
         if (angle_between(normal, crown->table.plane.normal) < k_table) continue;
         planes.push_back({solid.facets[f].name, solid.facets[f].plane});
         if (const auto girdle =
-                seen[f] ? std::nullopt : girdle_below(*crown, solid.facets[f].plane))
-            planes.back() = {fmt::format("C{}", planes.size()), *girdle};
+                seen[f] ? std::nullopt : girdle_below(*crown, solid.facets[f].plane)) {
+            planes.back() = {fmt::format("C{}", planes.size()), girdle->plane};
+            stone.edges_of[planes.back().name] = girdle->edges;
+        }
         sigmas[planes.back().name] = tilt_sigmas[f];
     }
     HalfSpaceSolid body = intersect_half_spaces(planes);
@@ -130,7 +115,6 @@ std::optional<CrownedStone> crowned(const Solid& solid, const std::vector<bool>&
         const auto found = is_seen.find(name);
         if (found != is_seen.end() && !found->second) stone.unseen.push_back(int(f));
     }
-    measure_table(*crown, stone.edge_sigma, stone);
     stone.table_tilt = angle_between(crown->table.plane.normal, Vec3(0, 0, 1));
     return stone;
 }

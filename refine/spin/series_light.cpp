@@ -135,8 +135,7 @@ SeriesLight series_light(const std::vector<SpinFrame>& frames, const SpinResult&
         return ShrunkFrame{&frames[f].picture, found.frames[f].projection, shrink, rays};
     };
     const auto shares = [&](const ShrunkFrame& of) {
-        return zone_shares(found.completed ? found.completed->solid : found.solid, material,
-                           found.camera, of, threads);
+        return zone_shares(found.solid, material, found.camera, of, threads);
     };
 
     SeriesLight result;

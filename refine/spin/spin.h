@@ -12,6 +12,7 @@
 #include "compare/turntable/edge_points.h"
 #include "fit/silhouettes/turning_fit.h"
 #include "refine/spin/halves.h"
+#include "refine/spin/joint_fit.h"
 #include "refine/spin/spin_proportions.h"
 #include "stone/progress/progress.h"
 
@@ -26,6 +27,8 @@ struct SpinFrame {
 struct SpinOptions {
     /// Radians from one frame to the next, in any sense; 0: one turn over all frames.
     double step = 0;
+    /// That the stone was cut with; without it, a stone may repeat its facets after half a turn.
+    std::optional<CutSymmetry> symmetry = {};
     int threads = 0;  ///< 0: all; the result does not depend on it
 };
 
@@ -36,7 +39,8 @@ struct SpinFrameResult {
     double turn_sigma = 0;
     /// Of the edge's places from the outline of the stone that is written.
     double rms_px = 0, median_px = 0;
-    std::string trouble;  ///< why it was not used, for people
+    double line_median_px = 0;  ///< on sides of at least `k_long_side` of the stone's width
+    std::string trouble;        ///< why it was not used, for people
     Projection projection{};
 };
 
@@ -46,17 +50,18 @@ struct SpinResult {
     Solid solid;
     std::vector<double> tilt_sigmas;  ///< by facet, radians
     std::vector<int> unseen;          ///< facets whose tilt is hardly more than a guess
-    /// The same stone, what no frame shows taken from half a turn about z away. It looks more like
-    /// the photographs; outlines contradict it somewhat.
-    std::optional<HalfTurned> completed;
+    std::vector<int> copies;          ///< facets that are taken from where the cut repeats them
     /// The width is in pixels. A sigma is at least half of how far the halves' values differ.
     std::vector<SpinProportion> proportions;
     const SpinProportion& width() const { return proportions.front(); }
     TurningCamera camera;
     std::vector<SpinFrameResult> frames;
     Halves halves;  ///< every other frame against the rest
-    /// With table and crown, if their edges were found: then `solid` has them.
-    std::optional<CrownedStone> crowned;
+    CutSymmetry tried;
+    std::optional<FoundSymmetry> symmetry;  ///< nothing: the stone does not repeat its facets so
+    /// Edges of the surface that tell table and crown; 0: none were found, and no facet is T.
+    int edges = 0;
+    double edge_sigma_px = 0;
     /// Part of the ground's grain that turns with the stone; camera and turns are the ground's if
     /// it is large enough (ground_texture.h).
     double ground_agreement = 0;
@@ -73,5 +78,6 @@ SpinResult spin(const std::vector<SpinFrame>& frames, const SpinOptions& options
                 const Progress& progress = {});
 
 inline constexpr int k_least_frames = 8;
+inline constexpr double k_long_side = 0.125;
 
 }  // namespace culet

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <set>
 
@@ -16,7 +17,7 @@ namespace {
 
 const Vec3 k_up{0, 0, 1};
 constexpr std::size_t k_least_mains = 3;
-constexpr double k_one_tier = radians(6.0);
+constexpr double k_one_tier = radians(6.0), k_same_side = radians(20.0);
 
 struct Rims {
     std::optional<double> upper, lower;  // mean heights of the girdle's corners
@@ -81,14 +82,47 @@ void add_heights(const StandingStone& stone, double width, double length_sigma,
         bottom = std::min(bottom, v.z);
     }
     const double sigma = 100 * length_sigma / width;
-    const bool read = stone.crowned && ends_are_seen(stone.solid, stone.seen, k_up);
+    const bool read = stone.edges > 0 && ends_are_seen(stone.solid, stone.seen, k_up);
     all.push_back({"depth_pct", 100 * (top - bottom) / width, sigma, read});
     const Rims rims = rims_of(stone);
     if (!rims.upper || !rims.lower) return;
-    all.push_back(
-        {"crown_height_pct", 100 * (top - *rims.upper) / width, sigma, stone.crowned.has_value()});
+    all.push_back({"crown_height_pct", 100 * (top - *rims.upper) / width, sigma, stone.edges > 0});
     all.push_back({"girdle_pct", 100 * (*rims.upper - *rims.lower) / width, sigma, true});
     all.push_back({"pavilion_depth_pct", 100 * (*rims.lower - bottom) / width, sigma, read});
+}
+
+// Whether a crown facet that is seen bounds the table at its end towards `way`.
+bool end_is_seen(const StandingStone& stone, const Facet& table, const Vec3& way) {
+    const std::vector<Vec3>& all = stone.solid.vertices;
+    const int end =
+        *std::max_element(table.corners.begin(), table.corners.end(), [&](int a, int b) {
+            return glm::dot(all[std::size_t(a)], way) < glm::dot(all[std::size_t(b)], way);
+        });
+    for (std::size_t f = 0; f < stone.seen.size(); ++f) {
+        const Facet& facet = stone.solid.facets[f];
+        const Vec3 out{facet.plane.normal.x, facet.plane.normal.y, 0};
+        if (stone.seen[f] && facet.name != table.name && angle_between(out, way) < k_same_side &&
+            std::count(facet.corners.begin(), facet.corners.end(), end) > 0)
+            return true;
+    }
+    return false;
+}
+
+// Along the stone's least width.
+void add_table(const StandingStone& stone, const Vec3& across, double width, double length_sigma,
+               std::vector<SpinProportion>& all) {
+    for (const Facet& table : stone.solid.facets) {
+        if (table.name != k_table_name) continue;
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (const int c : table.corners) {
+            const double at = glm::dot(across, stone.solid.vertices[std::size_t(c)]);
+            least = std::min(least, at);
+            most = std::max(most, at);
+        }
+        all.push_back({"table_pct", 100 * (most - least) / width,
+                       100 * std::sqrt(2.0) * length_sigma / width,
+                       end_is_seen(stone, table, across) && end_is_seen(stone, table, -across)});
+    }
 }
 
 }  // namespace
@@ -104,9 +138,7 @@ std::vector<SpinProportion> proportions_of(const StandingStone& stone, double le
                                     {"length_to_width", calipers.length / width,
                                      std::hypot(1.0, calipers.length / width) * part,
                                      width_seen && ends_are_seen(stone.solid, stone.seen, along)}};
-    if (stone.crowned && stone.crowned->table_part > 0)
-        all.push_back({"table_pct", 100 * stone.crowned->table_part,
-                       100 * stone.crowned->table_part_sigma, true});
+    add_table(stone, across, width, length_sigma, all);
     add_heights(stone, width, length_sigma, all);
     add_angle(stone, true, all);
     add_angle(stone, false, all);

@@ -15,9 +15,6 @@ constexpr int k_attitudes = 3;
 constexpr double k_level_table = radians(0.2);
 constexpr double k_edge_on = 0.05;   // sine of an angle
 constexpr std::size_t k_swept = 64;  // frames in which edges are looked for, at most
-constexpr const char* k_ground = "G";
-// As halves of a real series differ.
-constexpr double k_ground_tilt = radians(0.05);
 constexpr double k_same_as_ground = radians(12.0);
 
 // Seen from both sides of its plane by more than `k_edge_on`.
@@ -32,20 +29,19 @@ bool turns_edge_on(const Vec3& normal, const TurningSeries& series) {
     return least < -k_edge_on && most > k_edge_on;
 }
 
-// What lies on the turntable, by the stone's symmetry.
-std::optional<HalfTurned> completed(const StandingStone& stone, const TurningFit& fit) {
-    std::vector<bool> shown;
-    for (std::size_t f = 0; f < stone.seen.size(); ++f) {
-        const Facet& facet = stone.solid.facets[f];
-        const bool of_crown =
-            stone.crowned &&
-            std::none_of(fit.solid.facets.begin(), fit.solid.facets.end(),
-                         [&](const Facet& other) { return other.name == facet.name; });
-        shown.push_back(
-            stone.seen[f] &&
-            (of_crown || turns_edge_on(stone.on_turntable(facet.plane.normal), fit.series)));
+void place_edges(const CrownedStone& crowned, StandingStone& stone) {
+    for (const auto& [facet, edges] : crowned.edges_of) {
+        for (const SurfaceEdge& e : edges) {
+            const double x = std::cos(e.azimuth), y = std::sin(e.azimuth);
+            const Vec3 place = stone.on_turntable({e.radius * x, e.radius * y, e.height});
+            std::vector<PlacedEdge>& all = stone.placed_edges;
+            auto known = std::find_if(all.begin(), all.end(),
+                                      [&](const PlacedEdge& p) { return p.place == place; });
+            if (known == all.end())
+                known = all.insert(known, {place, stone.on_turntable({-y, x, 0}), {}});
+            known->facets.push_back(facet);
+        }
     }
-    return completed_by_half_turn(stone.solid, stone.tilt_sigmas, shown);
 }
 
 // x along the least width, though the girdle may have become narrower.
@@ -59,7 +55,10 @@ void turn_to_width(StandingStone& stone) {
 
 std::vector<bool> seen_facets(const TurningFit& fit) {
     std::vector<bool> seen;
-    for (const double sigma : fit.tilt_sigmas) seen.push_back(sigma <= k_turning_tilt / 2);
+    for (std::size_t f = 0; f < fit.tilt_sigmas.size(); ++f)
+        seen.push_back(fit.solid.facets[f].name == k_ground_name ||
+                       (fit.tilt_sigmas[f] <= k_turning_tilt / 2 &&
+                        turns_edge_on(fit.solid.facets[f].plane.normal, fit.series)));
     return seen;
 }
 
@@ -67,14 +66,14 @@ void lay_on_ground(TurningFit& fit, double depth) {
     const Vec3 down{0, 0, -1};
     const std::vector<bool> seen = seen_facets(fit);
     std::vector<NamedPlane> planes;
-    std::map<std::string, double> sigmas{{k_ground, k_ground_tilt}};
+    std::map<std::string, double> sigmas{{k_ground_name, k_ground_tilt}};
     for (std::size_t f = 0; f < seen.size(); ++f) {
         const Facet& facet = fit.solid.facets[f];
         if (!seen[f] && angle_between(facet.plane.normal, down) < k_same_as_ground) continue;
         planes.push_back({facet.name, facet.plane});
         sigmas[facet.name] = fit.tilt_sigmas[f];
     }
-    planes.push_back({k_ground, {down, depth}});
+    planes.push_back({k_ground_name, {down, depth}});
     HalfSpaceSolid lying = intersect_half_spaces(planes);
     if (lying.solid.facets.empty()) return;
     fit.solid = std::move(lying.solid);
@@ -91,6 +90,7 @@ StandingStone standing_stone(const TurningFit& fit,
     std::vector<SweptFrame> swept;
     for (std::size_t k = 0; k < pictures.size(); k += every)
         swept.push_back(swept_frame(*pictures[k]));
+    std::optional<CrownedStone> with_crown;
     // Edges are looked for across the way up: the table tells it better than the outlines.
     for (int i = 0; i < k_attitudes; ++i) {
         stone.solid = upright(fit.solid, stone.at);
@@ -98,22 +98,25 @@ StandingStone standing_stone(const TurningFit& fit,
             swept[s].projection =
                 projection_of(picture_axes(fit.series.camera, fit.series.turns[s * every]),
                               stone.at, *pictures[s * every]);
-        stone.crowned = crowned(stone.solid, seen, fit.tilt_sigmas, swept);
-        if (!stone.crowned || stone.crowned->table_tilt < k_level_table) break;
+        with_crown = crowned(stone.solid, seen, fit.tilt_sigmas, swept);
+        if (!with_crown || with_crown->table_tilt < k_level_table) break;
         if (i + 1 < k_attitudes)
-            stone.at = attitude_about(
-                fit.solid, stone.on_turntable(stone.crowned->solid.facets[0].plane.normal));
+            stone.at = attitude_about(fit.solid,
+                                      stone.on_turntable(with_crown->solid.facets[0].plane.normal));
     }
     stone.tilt_sigmas = fit.tilt_sigmas;
     stone.seen = seen;
-    if (stone.crowned) {
-        stone.solid = stone.crowned->solid;
-        stone.tilt_sigmas = stone.crowned->tilt_sigmas;
+    if (with_crown) {
+        place_edges(*with_crown, stone);
+        stone.edges = with_crown->edges;
+        stone.edge_sigma = with_crown->edge_sigma;
+        stone.solid = std::move(with_crown->solid);
+        stone.tilt_sigmas = std::move(with_crown->tilt_sigmas);
         stone.seen.assign(stone.solid.facets.size(), true);
-        for (const int f : stone.crowned->unseen) stone.seen[std::size_t(f)] = false;
+        for (const int f : with_crown->unseen) stone.seen[std::size_t(f)] = false;
     }
     turn_to_width(stone);
-    stone.completed = completed(stone, fit);
+    stone.is_copy.assign(stone.seen.size(), false);
     return stone;
 }
 

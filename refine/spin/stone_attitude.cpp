@@ -133,11 +133,18 @@ bool ends_are_seen(const Solid& solid, const std::vector<bool>& seen, const Vec3
         const auto end = std::max_element(
             all.begin(), all.end(),
             [&](const Vec3& a, const Vec3& b) { return glm::dot(a, way) < glm::dot(b, way); });
+        std::size_t bounding = 0;
+        double most = -1;
         for (std::size_t f = 0; f < solid.facets.size(); ++f) {
             const std::vector<int>& corners = solid.facets[f].corners;
-            if (!seen[f] && std::count(corners.begin(), corners.end(), int(end - all.begin())) > 0)
-                return false;
+            const double facing = glm::dot(solid.facets[f].plane.normal, way);
+            if (std::count(corners.begin(), corners.end(), int(end - all.begin())) == 0 ||
+                facing <= most)
+                continue;
+            most = facing;
+            bounding = f;
         }
+        if (!seen[bounding]) return false;
     }
     return true;
 }

@@ -23,7 +23,7 @@ StoneAttitude attitude_of(const Solid& solid, const std::vector<bool>& seen, con
 /// With z as given.
 StoneAttitude attitude_about(const Solid& solid, const Vec3& up);
 
-/// Whether facets that were `seen` alone meet at the furthest corners on both sides.
+/// Whether the facets that bound the stone on both sides were `seen`.
 bool ends_are_seen(const Solid& solid, const std::vector<bool>& seen, const Vec3& along);
 
 Solid upright(Solid solid, const StoneAttitude& attitude);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "refine/spin/stone_attitude.h"
+#include "refine/spin/surface_edge.h"
 
 namespace culet {
 
@@ -25,11 +26,6 @@ SweptFrame swept_frame(const LevelPicture& picture);
 struct SweptSide {
     double azimuth = 0, middle = 0, half_length = 0;
     double least_radius = 0, most_radius = 0, least_height = 0, most_height = 0;
-};
-
-struct SurfaceEdge {
-    double azimuth = 0, radius = 0, height = 0;
-    double strength = 0;  ///< robust standard deviations above the rest of the sweep
 };
 
 /// The strongest first.

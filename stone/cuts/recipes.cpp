@@ -141,17 +141,19 @@ Solid brilliant_in(Outline (*outline)(double length, double width), const CutVal
     return brilliant(outline(w * v.at("ratio"), w), proportions_of(v, w));
 }
 
-const std::vector<CutParameter> k_step_parameters{
-    width_parameter(),
-    length_width(1.4),
-    {"corner", 25, 1, 45, "%", "what each corner takes of its sides, of the width"},
-    {"table", 60, 20, 90, "%", "table, across the width"},
-    {"crown-angle", 37, 10, 65, "deg", "of the middle crown step"},
-    {"crown-spread", 9, 0.5, 20, "deg", "between crown steps"},
-    {"pavilion-angle", 47, 15, 70, "deg", "of the middle pavilion step"},
-    {"pavilion-spread", 8, 0.5, 15, "deg", "between pavilion steps"},
-    k_girdle,
-    k_azimuth};
+std::vector<CutParameter> step_parameters(double ratio, double corner, double crown_deg,
+                                          double crown_spread_deg) {
+    return {width_parameter(),
+            length_width(ratio),
+            {"corner", corner, 1, 45, "%", "what each corner takes of its sides, of the width"},
+            {"table", 60, 20, 90, "%", "table, across the width"},
+            {"crown-angle", crown_deg, 10, 65, "deg", "of the middle crown step"},
+            {"crown-spread", crown_spread_deg, 0.5, 20, "deg", "between crown steps"},
+            {"pavilion-angle", 47, 15, 70, "deg", "of the middle pavilion step"},
+            {"pavilion-spread", 8, 0.5, 15, "deg", "between pavilion steps"},
+            k_girdle,
+            k_azimuth};
+}
 
 const std::vector<CutParameter> k_princess_parameters{
     width_parameter(),
@@ -174,7 +176,10 @@ const std::vector<CutRecipe>& cut_recipes() {
              return elliptic_brilliant(v, d, d, static_cast<int>(v.at("mains")));
          }},
         {{"step", "emerald cut: eight sides, three crown and three pavilion steps, a keel",
-          k_step_parameters},
+          step_parameters(1.4, 25, 37, 9)},
+         step_of},
+        {{"asscher", "a square step cut with wide corners and a high crown",
+          step_parameters(1, 28, 42, 12)},
          step_of},
         {{"princess", "a square with sharp corners: chevrons that fan out from them",
           k_princess_parameters},

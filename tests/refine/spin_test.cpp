@@ -157,14 +157,14 @@ void expect_outlines_from_projections(const SpinSeries& series) {
 // camera's elevation; its width three times its sigma and that of the stone's width, half a pixel
 // on both sides.
 void expect_table(const SpinSeries& series) {
-    ASSERT_TRUE(series.found.crowned);
-    const CrownedStone& crowned = *series.found.crowned;
+    const int mine = find_facet(series.found.solid, "T");
+    ASSERT_GE(mine, 0);
     const Facet& table = series.truth.solid.facets[0];
     ASSERT_EQ(table.name, "T");
-    ASSERT_EQ(crowned.solid.facets[0].name, "T");
     const double off = degrees(angle_between(
-        series.on_turntable(crowned.solid.facets[0].plane.normal), table.plane.normal));
-    EXPECT_LT(off, 4 * std::hypot(degrees(crowned.tilt_sigmas[0]), 0.05));
+        series.on_turntable(series.found.solid.facets[std::size_t(mine)].plane.normal),
+        table.plane.normal));
+    EXPECT_LT(off, 4 * std::hypot(degrees(series.found.tilt_sigmas[std::size_t(mine)]), 0.05));
     double least = HUGE_VAL, most = -HUGE_VAL;
     const Vec3 across = series.on_turntable({1, 0, 0});
     for (const int c : table.corners) {
@@ -173,13 +173,15 @@ void expect_table(const SpinSeries& series) {
         most = std::max(most, x);
     }
     const double width = width_along(series.truth.solid, across);
-    EXPECT_NEAR(crowned.table_part, (most - least) / width,
-                3 * std::hypot(crowned.table_part_sigma, 1 / width));
+    const SpinProportion* part = proportion(series.found.proportions, "table_pct");
+    ASSERT_TRUE(part);
+    EXPECT_NEAR(part->value, 100 * (most - least) / width,
+                3 * std::hypot(part->sigma, 100 / width));
 }
 
-// Within three times their sigmas, if they were read.
+// Within three times their sigmas, if they were read; else by half a turn: its facets are off by
+// 0.3 degrees, which moves edges of flat facets by up to 1 % of the width.
 void expect_proportions(const SpinSeries& series) {
-    EXPECT_TRUE(series.found.width().read);
     const Solid& solid = series.truth.solid;
     const CaliperWidths calipers = caliper_widths(solid, solid.facets[0].plane.normal);
     const std::pair<const char*, double> expected[] = {
@@ -189,9 +191,9 @@ void expect_proportions(const SpinSeries& series) {
     for (const auto& [name, value] : expected) {
         const SpinProportion* found = proportion(series.found.proportions, name);
         ASSERT_TRUE(found) << name;
-        if (found->read) {
-            EXPECT_NEAR(found->value, value, 3 * found->sigma) << name;
-        }
+        EXPECT_NEAR(found->value, value,
+                    found->read ? 3 * found->sigma : std::max(3 * found->sigma, 0.01 * value))
+            << name;
     }
 }
 
@@ -207,7 +209,7 @@ TEST(Spin, FindsTheStoneWithWhichFramesWereDrawn) {
 // The same bytes from any number of threads.
 TEST(Spin, DoesNotDependOnThreads) {
     const auto frames = synthetic::frames_of(synthetic::lying_step_cut(8));
-    const SpinResult all = spin(frames), one = spin(frames, {0, 1});
+    const SpinResult all = spin(frames), one = spin(frames, {0, {}, 1});
     ASSERT_EQ(one.solid.vertices.size(), all.solid.vertices.size());
     for (std::size_t i = 0; i < one.solid.vertices.size(); ++i)
         EXPECT_EQ(one.solid.vertices[i], all.solid.vertices[i]);

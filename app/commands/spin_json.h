@@ -1,5 +1,5 @@
 #pragma once
-// The light of a series and the comparison of renders in it, as `culet spin --json` writes them.
+// What `culet spin --json` writes.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -8,6 +8,10 @@
 #include "refine/spin/series_light.h"
 
 namespace culet {
+
+/// `width_mm`: 0: lengths are in pixels.
+nlohmann::ordered_json spin_json(const std::vector<SpinFrame>& frames, const SpinResult& found,
+                                 double width_mm);
 
 /// Adds `light`, and `comparison` if frames were left out.
 void add_light(const std::vector<SpinFrame>& frames, const std::string& material,

@@ -1,0 +1,29 @@
+#include "app/input/cut_symmetry.h"
+
+#include <fmt/format.h>
+
+#include "app/program/file_kinds.h"
+#include "stone/cuts/cuts.h"
+#include "stone/design/drawn_symmetry.h"
+#include "stone/design/tiers.h"
+#include "stone/solid_input.h"
+#include "stone/text/errors.h"
+
+namespace culet {
+
+CutSymmetry symmetry_of_cut(const std::string& cut) {
+    const Solid solid = is_solid_file(cut) ? load_solid(cut).solid : make_cut(cut);
+    const Vec3 up{0, 0, 1};
+    const AxisGroup group = drawn_symmetry(solid, up, table_facet(solid, up)).near;
+    if (group.is_trivial())
+        throw InputError(cut, "this cut repeats no facet about its axis; leave --cut out");
+    return {group.order, group.mirrors};
+}
+
+std::string words_of(const CutSymmetry& symmetry) {
+    const std::string mirrored = symmetry.mirrors ? " and mirrored" : "";
+    if (symmetry.order == 1) return "mirrored";
+    return fmt::format("{} times around the axis{}", symmetry.order, mirrored);
+}
+
+}  // namespace culet

@@ -1,0 +1,17 @@
+#pragma once
+// The symmetry of the cut that a stone is said to have.
+
+#include <string>
+
+#include "refine/spin/repeated_facets.h"
+
+namespace culet {
+
+/// `cut`: the name of a standard cut, or a mesh or design, upright. Throws InputError if it repeats
+/// no facet about its axis.
+CutSymmetry symmetry_of_cut(const std::string& cut);
+
+/// "four times around, with mirrors"
+std::string words_of(const CutSymmetry& symmetry);
+
+}  // namespace culet
