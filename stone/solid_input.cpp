@@ -76,21 +76,13 @@ void turn_table_up(SolidInput& input) {
         {"mesh turned upright", why, before, off_up(), "degrees of the table off +z"});
 }
 
-bool is_cut(const std::string& extension) {
-    return extension == "asc" || extension == "gem";
-}
-
 // `held`: the file's bytes; null: read them.
 SolidInput solid_in(const std::filesystem::path& file, const std::string* held,
                     const CutReading& how, Orientation standing) {
     SolidInput input;
     input.format = extension_of(file);
-    if (is_cut(input.format)) {
-        const bool asc = input.format == "asc";
-        ReadCut cut = held == nullptr
-                          ? (asc ? read_gemcad_asc(file, how) : read_gemcad_gem(file, how))
-                      : asc ? parse_gemcad_asc(*held, how, file)
-                            : parse_gemcad_gem(*held, how, file);
+    if (is_cut(file)) {
+        ReadCut cut = held == nullptr ? read_cut(file, how) : parse_cut(*held, how, file);
         input.solid = std::move(cut.solid);
         input.notes = std::move(cut.notes);
         input.details = std::move(cut.details);
@@ -108,7 +100,7 @@ SolidInput solid_in(const std::filesystem::path& file, const std::string* held,
             throw InputError(file, other);
         throw InputError(file,
                          "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, "
-                         ".stl, .gltf, .glb, .asc or .gem");
+                         ".stl, .gltf, .glb, .asc, .gem or .gcs");
     }
     ReadSolid mesh = held != nullptr ? parse_mesh(*held, *format, file)
                      : is_gltf(file) ? solid_of_gltf(file)
@@ -130,12 +122,12 @@ SolidFile solid_file(SolidInput input) {
 }  // namespace
 
 bool is_solid_file(const std::filesystem::path& file) {
-    return mesh_format(file).has_value() || is_gltf(file) || is_cut(extension_of(file));
+    return mesh_format(file).has_value() || is_gltf(file) || is_cut(file);
 }
 
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
     SolidInput input = solid_in(file, nullptr, how, Orientation::upright);
-    if (std::string odd = doubtful_size(input.solid); !odd.empty() && !is_cut(input.format))
+    if (std::string odd = doubtful_size(input.solid); !odd.empty() && !is_cut(file))
         input.notes.push_back(std::move(odd));
     return input;
 }

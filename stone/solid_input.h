@@ -12,7 +12,7 @@ namespace culet {
 
 struct SolidInput {
     Solid solid;         ///< with its design, for a cut or for a mesh that culet wrote of one
-    std::string format;  ///< obj, off, ply, stl, asc, gem
+    std::string format;  ///< obj, off, ply, stl, asc, gem, gcs, ...
     std::vector<std::string> notes;
     std::vector<std::string> details;  ///< as in ReadCut
     std::vector<std::string> unused_planes, repeated_planes;

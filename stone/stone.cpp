@@ -5,7 +5,6 @@
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/mesh/mesh_io.h"
 #include "stone/text/errors.h"
-#include "stone/text/text_scan.h"
 
 namespace culet {
 
@@ -23,19 +22,19 @@ std::string doubtful_size(const Solid& solid) {
 }
 
 void require_solid_name(const std::filesystem::path& file) {
-    if (extension_of(file) != "asc" && !mesh_format(file)) {
-        throw InputError(file,
-                         "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
+    if (!is_cut(file) && !mesh_format(file)) {
+        throw InputError(
+            file,
+            "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, .gem "
+            "or .gcs");
     }
 }
 
-void write_solid(const Solid& solid, const std::filesystem::path& file) {
+std::vector<std::string> write_solid(const Solid& solid, const std::filesystem::path& file) {
     require_solid_name(file);
-    if (mesh_format(file)) {
-        write_mesh(solid, file);
-    } else {
-        write_gemcad_asc(solid, solid.design ? *solid.design : Design{}, file);
-    }
+    if (!mesh_format(file)) return write_cut(solid, solid.design ? *solid.design : Design{}, file);
+    write_mesh(solid, file);
+    return {};
 }
 
 }  // namespace culet

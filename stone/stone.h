@@ -62,7 +62,7 @@ std::string doubtful_size(const Solid& solid);
 /// Throws InputError when write_solid has no format for this extension. Call it before long work.
 void require_solid_name(const std::filesystem::path& file);
 
-/// Writes by extension: .obj .off .ply .stl .asc
-void write_solid(const Solid& solid, const std::filesystem::path& file);
+/// Writes by extension: .obj .off .ply .stl .asc .gem .gcs; returns notes on what is not kept.
+std::vector<std::string> write_solid(const Solid& solid, const std::filesystem::path& file);
 
 }  // namespace culet

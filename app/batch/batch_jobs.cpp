@@ -123,7 +123,7 @@ BatchList read_folder(const fs::path& folder) {
     if (list.jobs.empty())
         throw InputError(folder,
                          "has no stone in it: a batch takes stone files (.toml), cut "
-                         "designs (.asc .gem) and meshes (.obj .off .ply .stl)");
+                         "designs (.asc .gem .gcs) and meshes (.obj .off .ply .stl)");
     return list;
 }
 

@@ -59,7 +59,7 @@ void say_of(const std::filesystem::path& file, const std::vector<std::string>& n
 void say_next(const ConvertOptions& options) {
     const std::string ending = extension_of(options.out), out = options.out.string();
     std::string next = fmt::format("open {} in the program that it is for", out);
-    if (ending == "asc")
+    if (is_cut(options.out))
         next = fmt::format("culet info {} --cutting-sheet sheet.html (to cut it)", out);
     else if (!options.clearance.empty())
         next = fmt::format("subtract the solid of {} from the metal in your CAD program", out);
@@ -156,8 +156,7 @@ struct ConvertInput {
 
 ConvertInput converted_input(const ConvertOptions& options) {
     ConvertInput input;
-    if (kind_of(options.in, options.common.set) == FileKind::stone &&
-        extension_of(options.out) == "asc") {
+    if (kind_of(options.in, options.common.set) == FileKind::stone && is_cut(options.out)) {
         StoneFile stone = read_stone(options.in, options.common.set);
         input.solid = std::move(stone.stone.solid);
         if (stone.has_material) input.material = std::move(stone.stone.material);
@@ -176,46 +175,48 @@ ConvertInput converted_input(const ConvertOptions& options) {
 }
 
 // The solid's design, or the one that its drawing shows, with the index of a named material.
-std::vector<std::string> write_asc(const ConvertInput& input, const std::filesystem::path& out) {
+std::vector<std::string> write_design(const ConvertInput& input, const std::filesystem::path& out) {
     Design design = cutting_design(input.solid);
     // Designs state the index to four decimals at most.
     if (input.material)
         design.refractive_index = std::round(1e4 * grade_index(&*input.material, {}).n) / 1e4;
-    std::vector<std::string> notes = write_gemcad_asc(input.solid, design, out);
-    if (!design.refractive_index)
+    std::vector<std::string> notes = write_cut(input.solid, design, out);
+    if (!design.refractive_index && extension_of(out) != "gcs")
         notes.emplace_back(
             "its refractive index is not known: 1.54, GemCad's own, is written (--material NAME)");
     return notes;
 }
 
 int convert(const ConvertOptions& options) {
-    const bool grows = !options.clearance.empty(), is_cut = extension_of(options.out) == "asc";
+    const bool grows = !options.clearance.empty(), to_cut = is_cut(options.out);
     const bool to_scene = is_scene_for_others(options.out),
                to_others = is_for_other_programs(options.out);
     if (grows && (to_scene || (!to_others && !mesh_format(options.out))))
         throw InputError("--clearance is for meshes, .glb, .gltf and .step");
     if (to_scene) return convert_scene(options);
     if (to_others || grows) return convert_for_others(options);
-    if (!options.material.empty() && !is_cut)
-        throw InputError("--material is for .asc, .glb, .gltf, .pov, .xml and .pbrt");
-    if (!options.common.set.empty() && !is_cut) {
+    if (!options.material.empty() && !to_cut)
+        throw InputError("--material is for .asc, .gem, .gcs, .glb, .gltf, .pov, .xml and .pbrt");
+    if (!options.common.set.empty() && !to_cut) {
         throw InputError(
-            "--set changes keys of a stone or scene: the output must end in .asc, .pov, .xml, "
-            ".pbrt, .glb, .gltf or .step");
+            "--set changes keys of a stone or scene: the output must end in .asc, .gem, .gcs, "
+            ".pov, .xml, .pbrt, .glb, .gltf or .step");
     }
-    if (!mesh_format(options.out) && !is_cut) {
+    if (!mesh_format(options.out) && !to_cut) {
         throw InputError(options.out,
                          "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
-                         ".glb, .gltf, .step or .stp, or for a renderer in .pov, .xml (Mitsuba) "
-                         "or .pbrt");
+                         ".gem, .gcs, .glb, .gltf, .step or .stp, or for a renderer in .pov, .xml "
+                         "(Mitsuba) or .pbrt");
     }
+    if (!options.width.empty() && extension_of(options.out) == "gcs")
+        throw InputError("--width: a .gcs has no size, Gem Cut Studio shows every stone alike");
     const ConvertInput input = converted_input(options);
     // A bent or dented mesh may still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
         find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
     std::vector<std::string> notes_on_writing;
-    if (is_cut) {
-        notes_on_writing = write_asc(input, options.out);
+    if (to_cut) {
+        notes_on_writing = write_design(input, options.out);
     } else {
         write_mesh(input.solid, options.out);
     }
@@ -237,18 +238,20 @@ int convert(const ConvertOptions& options) {
 
 void add_command_convert(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<ConvertOptions>();
-    CLI::App* command = program.add_subcommand(
-        "convert",
-        "between mesh and cut formats; to glTF and STEP; a scene to POV-Ray, Mitsuba or PBRT");
-    command
-        ->add_option("IN", options->in,
-                     "mesh (.obj .off .ply .stl), cut (.asc .gem), stone file or scene (.toml)")
-        ->required();
+    CLI::App* command =
+        program.add_subcommand("convert",
+                               "between mesh and cut formats (GemCad, Gem Cut Studio); to glTF and "
+                               "STEP; a scene to POV-Ray, Mitsuba or PBRT");
     command
         ->add_option(
-            "OUT", options->out,
-            ".obj, .off, .ply, .stl or .asc; for Blender and the web .glb or .gltf; for CAD "
-            ".step; for renderers .pov, .xml (Mitsuba 3) or .pbrt (PBRT-v4)")
+            "IN", options->in,
+            "mesh (.obj .off .ply .stl), cut (.asc .gem .gcs), stone file or scene (.toml)")
+        ->required();
+    command
+        ->add_option("OUT", options->out,
+                     ".obj, .off, .ply, .stl; cuts .asc, .gem, .gcs; for Blender and the web .glb "
+                     "or .gltf; for CAD "
+                     ".step; for renderers .pov, .xml (Mitsuba 3) or .pbrt (PBRT-v4)")
         ->required();
     command
         ->add_option("--meet-tolerance", options->cut.meet_tolerance,
@@ -262,11 +265,11 @@ void add_command_convert(CLI::App& program, int& exit_code) {
                      "scale the stone to this width (W of culet info): the output is in mm")
         ->type_name("6.5mm");
     command
-        ->add_option(
-            "--material", options->material,
-            "of the stone in .asc (its index), .glb, .gltf, .pov, .xml and .pbrt: a name of the "
-            "catalogue or a "
-            "material file")
+        ->add_option("--material", options->material,
+                     "of the stone in .asc, .gem and .gcs (its index), .glb, .gltf, .pov, .xml and "
+                     ".pbrt: a name of the "
+                     "catalogue or a "
+                     "material file")
         ->type_name("NAME");
     command
         ->add_option("--clearance", options->clearance,
@@ -275,11 +278,13 @@ void add_command_convert(CLI::App& program, int& exit_code) {
     add_common(*command, options->common, true);
     command->footer(
         "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
-        "faults is converted as it is, with a warning and exit code 1. What another renderer "
-        "cannot draw is named on stderr and in its file.\n"
+        "faults is converted as it is, with a warning and exit code 1. Cuts are read back before "
+        "they count as written; what their format cannot keep is named on stderr. What another "
+        "renderer cannot draw is named on stderr and in its file.\n"
         "Examples:\n"
         "  culet convert design.asc design.obj\n"
         "  culet convert --width 6.5mm design.asc stone.obj\n"
+        "  culet convert design.gcs design.asc\n"
         "  culet convert scan.stl scan.ply\n"
         "  culet convert fitted.obj recut.asc --material tourmaline\n"
         "  culet convert --width 6.5mm --material diamond design.asc stone.glb\n"

@@ -157,7 +157,7 @@ int run_cut(const std::string& name, const CutOptions& options) {
     if (mesh_format(options.out)) {
         write_design(solid, name, options.out);
     } else if (!options.out.empty()) {
-        write_solid(solid, options.out);
+        say_notes(options.out, write_solid(solid, options.out), options.common.quiet);
     }
     if (!options.json.empty()) write_text(options.json, proportions);
     say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm³", name,
@@ -208,7 +208,7 @@ void add_cut(CLI::App& command, const CutKind& kind, int& exit_code) {
     auto options = std::make_shared<CutOptions>();
     CLI::App* cut = command.add_subcommand(kind.name, kind.summary);
     if (kind.name == "step") cut->alias("emerald");
-    cut->add_option("-o,--output", options->out, "mesh: .obj .off .ply .stl .asc")
+    cut->add_option("-o,--output", options->out, "mesh or cut: .obj .off .ply .stl .asc .gem .gcs")
         ->type_name("MESH");
     cut->add_option("--json", options->json, "the resulting proportions (- is stdout)")
         ->type_name("FILE");

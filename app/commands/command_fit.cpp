@@ -81,7 +81,7 @@ int run_fit(const FitCommand& command) {
             throw InputError(file.mesh_file, error.what());
         }
     }();
-    write_solid(result.solid, command.output);
+    say_notes(command.output, write_solid(result.solid, command.output), command.common.quiet);
     const std::string report = fit_report(result);
     if (!command.report.empty()) write_text(command.report, report);
     if (!command.drawing.empty()) {
@@ -110,7 +110,8 @@ void add_command_fit(CLI::App& program, int& exit_code) {
     fit->add_option("stone", command->stone, "stone file with its readings")
         ->required()
         ->type_name("STONE.toml");
-    fit->add_option("-o,--output", command->output, "fitted mesh (.obj .off .ply .stl .asc)")
+    fit->add_option("-o,--output", command->output,
+                    "fitted mesh (.obj .off .ply .stl .asc .gem .gcs)")
         ->required()
         ->type_name("FITTED");
     fit->add_option("--report,--json", command->report,

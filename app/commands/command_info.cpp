@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     CommonOptions common;
     DescribeOptions describe;
-    std::filesystem::path json;
+    std::filesystem::path json, other;
     FormOptions form;
     std::string width;
     SheetOptions sheet;
@@ -90,7 +90,9 @@ int info(InfoOptions options) {
     if (options.describe.cutting_list && !is_solid_file(options.describe.file)) {
         throw InputError(options.describe.file, "--cutting-list is of a mesh or a cut design");
     }
-    const Description about = describe_file(options.describe);
+    const Description about = options.other.empty()
+                                  ? describe_file(options.describe)
+                                  : describe_difference(options.describe, options.other);
     Json object{{"schema", 1}, {"file", options.describe.file.string()}};
     object.update(about.object);
     object["notes"] = about.notes;
@@ -115,7 +117,8 @@ int info(InfoOptions options) {
         }
         std::fflush(stdout);
     }
-    return about.faults.empty() ? exit_good : exit_untrusted;
+    const bool alike = options.other.empty() || about.object["differences"].empty();
+    return about.faults.empty() && alike ? exit_good : exit_untrusted;
 }
 
 Description describe_job_file(const TomlTable& root) {
@@ -161,7 +164,7 @@ Description describe_file(const DescribeOptions& options) {
         throw InputError(options.file, other);
     throw InputError(options.file,
                      "is of an unknown kind: info reads meshes and cuts (.obj .off .ply .stl .asc "
-                     ".gem), stones, scenes and materials (.toml), pictures (.exr .hdr .png "
+                     ".gem .gcs), stones, scenes and materials (.toml), pictures (.exr .hdr .png "
                      ".jpg), and ray tables (.rays)");
 }
 
@@ -235,11 +238,20 @@ void add_command_info(CLI::App& program, int& exit_code) {
     command->add_option("--json", options->json, "write one object there (-: stdout)")
         ->type_name("FILE");
     add_solid_options(*command, *options);
+    CLI::Option* diff = command
+                            ->add_option("--diff", options->other,
+                                         "compare with this mesh or cut design: gear, tiers, "
+                                         "angles, index settings, depths, notes")
+                            ->type_name("DESIGN");
+    for (const char* other : {"--width", "--cutting-list", "--cutting-sheet", "--gear",
+                              "--goniometer", "--readings", "--material", "--may-be-concave"})
+        diff->excludes(other);
     add_common(*command, options->common, true);
     command->footer(
-        "-v lists every facet. Exit code 1 when there are faults.\n"
+        "-v lists every facet. Exit code 1 when there are faults, or with --diff differences.\n"
         "Examples:\n"
         "  culet info design.asc\n"
+        "  culet info old.asc --diff new.gcs\n"
         "  culet info --materials garnet\n"
         "  culet info --materials -o materials.html --json materials.json\n"
         "  culet info hand.obj -v --json hand.json\n"

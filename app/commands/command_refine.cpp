@@ -89,7 +89,7 @@ int run_refine(const RefineArguments& a) {
     scene.settings.seed = a.common.seed;
     const RefineResult result =
         refine(input, photographs_of(a), scene, options, progress_line("refining", a.common.quiet));
-    write_solid(result.after.solid, a.output);
+    say_notes(a.output, write_solid(result.after.solid, a.output), a.common.quiet);
     if (!a.report.empty()) write_text(a.report, fit_report(result.after));
     std::string prefix = fmt::format("{}: ", name_of(result.after.status));
     for (const std::string& sentence : fit_summary(result.after)) {
@@ -125,7 +125,9 @@ void add_command_refine(CLI::App& program, int& exit_code) {
         ->required()
         ->expected(1, 1000)
         ->type_name("STONE.toml PHOTO... SCENE.toml");
-    command->add_option("-o,--output", arguments->output, "refined mesh (.obj .off .ply .stl .asc)")
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "refined mesh (.obj .off .ply .stl .asc .gem .gcs)")
         ->required()
         ->type_name("REFINED");
     command

@@ -170,7 +170,7 @@ int run_spin(const SpinArguments& a) {
         light = series_light(frames, found, *material, a.common.threads);
         add_light(frames, a.material, light, json);
     }
-    write_solid(scaled(found.solid, px_mm), a.output);
+    say_notes(a.output, write_solid(scaled(found.solid, px_mm), a.output), a.common.quiet);
     if (!a.json.empty()) write_text(a.json, json.dump(2) + "\n");
     if (!a.report.empty()) {
         write_spin_report(a.report, frames, found, light, a.width_mm);

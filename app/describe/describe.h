@@ -42,6 +42,9 @@ Description describe_material_file(const DescribeOptions& options);
 Description describe_image_file(const DescribeOptions& options);
 Description describe_ray_table(const DescribeOptions& options);
 
+/// Two meshes or cut designs: what differs, in `differences`.
+Description describe_difference(const DescribeOptions& options, const std::filesystem::path& other);
+
 /// Adds a solid's figures, facets and faults. `must_be_convex` is the stone's.
 void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, Description& about);
 void describe_material(const Material& material, Description& about);

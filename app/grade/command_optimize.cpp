@@ -169,8 +169,10 @@ void print_losses(const Optimized& result, const OptimizeOptions& options) {
 }
 
 int run_optimize(OptimizeCommand command) {
-    if (fs::path(command.out).extension() != ".asc")
-        throw InputError(command.out, "is written as a cut design: give it the ending .asc");
+    if (!is_cut(command.out)) {
+        throw InputError(command.out,
+                         "is written as a cut design: give it the ending .asc, .gem or .gcs");
+    }
     command.choices.command = "culet optimize";
     command.choices.index = command.index;
     command.choices.overrides = command.common.set;
@@ -193,10 +195,11 @@ int run_optimize(OptimizeCommand command) {
     const fs::path before = fs::path(command.page) / "before.asc";
     if (!command.page.empty()) {
         fs::create_directories(command.page);
-        write_gemcad_asc(result.start, design, before);
+        write_cut(result.start, design, before);
     }
     design.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
-    write_gemcad_asc(about_its_axis(result), design, command.out);
+    say_notes(command.out, write_cut(about_its_axis(result), design, command.out),
+              command.common.quiet);
     if (!command.json.empty()) write_text(command.json, json_of(result, names, options, command));
     if (command.json != "-") {
         print_result(result, names, command);

@@ -22,7 +22,7 @@ struct KindWords {
 KindWords words_of(FileKind kind) {
     switch (kind) {
         case FileKind::solid:
-            return {"a mesh or cut (.obj .off .ply .stl .asc .gem)",
+            return {"a mesh or cut (.obj .off .ply .stl .asc .gem .gcs)",
                     "culet info and culet convert take it, and a stone file names it: [stone] mesh "
                     "= \"...\""};
         case FileKind::stone:

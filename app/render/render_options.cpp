@@ -92,7 +92,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command
         .add_option("scene", options.scene,
                     "scene or stone file, or a mesh (.obj .off .ply .stl) or cut design (.asc "
-                    ".gem), which is shown face up")
+                    ".gem .gcs), which is shown face up")
         ->required()
         ->type_name("SCENE.toml|STONE");
     command

@@ -34,7 +34,7 @@ TEST(OutsideDesigns, HaveThePublishedCountsAndRatios) {
     for (const auto& design : designs) {
         SCOPED_TRACE(design.filename());
         const auto& known = metrics.at(design.filename().string());
-        const ReadCut cut = read_gemcad_asc(design);
+        const ReadCut cut = read_cut(design);
         const Solid& solid = cut.solid;
         EXPECT_EQ(solid.facets.size(), known["facets"].get<std::size_t>());
         EXPECT_EQ(solid.vertices.size(), known["vertices"].get<std::size_t>());
@@ -66,8 +66,8 @@ TEST(OutsideDesigns, GemAndAscAgree) {
     const std::filesystem::path folder = outside::folder() / "designs";
     for (const char* name : {"SRB", "Turkey", "Compear125", "CubeIllusionTri"}) {
         SCOPED_TRACE(name);
-        const ReadCut asc = read_gemcad_asc(folder / (std::string(name) + ".asc"));
-        const ReadCut gem = read_gemcad_gem(folder / (std::string(name) + ".gem"));
+        const ReadCut asc = read_cut(folder / (std::string(name) + ".asc"));
+        const ReadCut gem = read_cut(folder / (std::string(name) + ".gem"));
         EXPECT_EQ(asc.solid.facets.size(), gem.solid.facets.size());
         EXPECT_EQ(asc.solid.vertices.size(), gem.solid.vertices.size());
         EXPECT_EQ(edge_count(asc.solid), edge_count(gem.solid));
@@ -90,12 +90,12 @@ TEST(OutsideDesigns, RoundTripAsMeshesAndDesigns) {
     ASSERT_FALSE(designs.empty());
     for (const auto& design : designs) {
         SCOPED_TRACE(design.filename());
-        const Solid solid = read_gemcad_asc(design).solid;
+        const Solid solid = read_cut(design).solid;
         for (const MeshFormat format : {MeshFormat::obj, MeshFormat::off, MeshFormat::ply})
             EXPECT_LT(plane_difference(solid, parse_mesh(mesh_text(solid, format), format).solid),
                       1e-12);
-        write_gemcad_asc(solid, {}, scratch / "a.asc");
-        EXPECT_LT(plane_difference(solid, read_gemcad_asc(scratch / "a.asc").solid), 1e-12);
+        write_cut(solid, {}, scratch / "a.asc");
+        EXPECT_LT(plane_difference(solid, read_cut(scratch / "a.asc").solid), 1e-12);
     }
 }
 

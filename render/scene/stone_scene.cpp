@@ -33,7 +33,7 @@ InputKind input_kind_of(const std::filesystem::path& file) {
     if (extension != "toml") {
         throw InputError(file,
                          "is not a scene, stone (.toml), mesh (.obj .off .ply .stl .glb) or cut "
-                         "design (.asc .gem)");
+                         "design (.asc .gem .gcs)");
     }
     const TomlTable root = read_toml(file);
     if (root.kind("stone") == TomlTable::Kind::table) return InputKind::stone;

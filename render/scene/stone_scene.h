@@ -28,9 +28,9 @@ struct StoneScene {
 };
 
 /// Reads any file that shows a stone: a scene, a stone file, a mesh (.obj .off .ply .stl, in mm) or
-/// a cut design (.asc .gem). A stone without size (has_size) gets the usual width, with a note.
-/// `overrides` are a scene's keys. Throws InputError: unknown kinds, no material, a width for a
-/// scene with its own camera.
+/// a cut design (.asc .gem .gcs). A stone without size (has_size) gets the usual width, with a
+/// note. `overrides` are a scene's keys. Throws InputError: unknown kinds, no material, a width for
+/// a scene with its own camera.
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices);
 

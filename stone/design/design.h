@@ -3,6 +3,7 @@
 // instruction. A solid finds its facets in its design by name, so a fitted, recut or converted
 // stone keeps the tier and index of every facet.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ struct DesignTier {
     CutSetting setting;       ///< of all its facets, except for the index
     std::string instruction;  ///< such as "Meet 1-2-G1"; empty: none
     std::vector<DesignFacet> facets;
+    double frosting = 0;  ///< 0: polished; Gem Cut Studio writes 0.5. Only its files hold it
+    bool hidden = false;  ///< only in the design: not cut. Likewise
+    bool guide = false;   ///< Gem Cut Studio's mark, which changes no shape. Likewise
 };
 
 struct Design {
@@ -42,6 +46,8 @@ struct Design {
     std::optional<double> refractive_index;
     std::vector<std::string> headings, footnotes;
     std::vector<DesignTier> tiers;  ///< in the order of cutting
+    /// What else a .gcs says, by element and attribute: `render.material`. Written back to .gcs.
+    std::map<std::string, std::string> studio;
 };
 
 /// n = (sin a sin t, sin a cos t, +-cos a) with t = 2 pi (index - offset) / gear. Exact at whole

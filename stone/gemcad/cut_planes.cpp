@@ -9,6 +9,8 @@
 
 #include "stone/mesh/face_soup.h"
 #include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 
@@ -33,6 +35,12 @@ std::vector<std::string> tier_labels(const Design& design) {
         labels.push_back(own.size() == 1 ? *own.begin() : std::string());
     }
     return labels;
+}
+
+double without_noise(double setting) {
+    constexpr double k_step = 1e-4, k_noise = 1e-6;
+    const double near = k_step * std::round(setting / k_step);
+    return std::abs(near - setting) < k_noise ? near : setting;
 }
 
 void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& planes,
@@ -119,6 +127,23 @@ void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& plane
     for (const std::string& place : cut.unused_planes) {
         cut.notes.push_back(fmt::format("plane that bounds nothing left out: {}", place));
     }
+}
+
+bool is_cut(const std::filesystem::path& file) {
+    const std::string format = extension_of(file);
+    return format == "asc" || format == "gem" || format == "gcs";
+}
+
+ReadCut parse_cut(std::string_view bytes, const CutReading& how,
+                  const std::filesystem::path& file) {
+    const std::string format = extension_of(file);
+    return format == "gem"   ? parse_gemcad_gem(bytes, how, file)
+           : format == "gcs" ? parse_gcs(bytes, how, file)
+                             : parse_gemcad_asc(bytes, how, file);
+}
+
+ReadCut read_cut(const std::filesystem::path& file, const CutReading& how) {
+    return parse_cut(read_text(file, std::size_t{16} << 20), how, file);
 }
 
 }  // namespace culet

@@ -21,6 +21,10 @@ struct CutPlane {
 /// single facets; the tier has none then.
 std::vector<std::string> tier_labels(const Design& design);
 
+/// An angle or index without the rounding of a file that gives planes: designs have four decimals
+/// at most.
+double without_noise(double setting);
+
 /// Fills in the solid with its design, notes and lists of planes. Throws InputError.
 void build_solid(ReadCut& cut, Design design, const std::vector<CutPlane>& planes,
                  const CutReading& how, const std::filesystem::path& file);

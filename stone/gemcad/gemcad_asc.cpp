@@ -10,7 +10,6 @@
 #include "stone/design/repeating_gear.h"
 #include "stone/gemcad/cut_planes.h"
 #include "stone/text/errors.h"
-#include "stone/text/output_file.h"
 #include "stone/text/text_decoding.h"
 #include "stone/text/text_scan.h"
 
@@ -20,7 +19,9 @@ namespace {
 
 class AscParser {
 public:
-    /// In a mesh's lines, `N NAME` gives the name of a facet that is not called by its label.
+    /// In a mesh's lines, `N NAME` gives the name of a facet that is not called by its label, and
+    /// of a .gcs `S KEY VALUE` its words, `R` a tier's frosting, `X` that it is hidden, `Y` a
+    /// guide.
     AscParser(std::string_view text, const std::filesystem::path& file, bool of_a_mesh = false)
         : lines_(text), file_(file), of_a_mesh_(of_a_mesh) {}
 
@@ -62,6 +63,9 @@ private:
             design.refractive_index = number(values, 0, "the refractive index after I");
         } else if (keyword == "y") {
             read_symmetry(values);
+        } else if (keyword == "S" && of_a_mesh_ && words.size() > 1) {
+            design.studio[std::string(words[1])] =
+                trimmed(rest.substr(std::min(rest.size(), words[1].size())));
         } else if (keyword == "a") {
             read_tier(values, line);
         } else if (keyword == "g") {
@@ -190,9 +194,16 @@ private:
                     facets.back().label = planes.back().name = word;
                 }
             } else if (awaits_facet_) {
-                awaits_facet_ = false;
+                awaits_facet_ = false, awaits_frosting_ = false;
                 if (!design.tiers.back().facets.empty())
                     design.tiers.back().facets.back().facet = word;
+            } else if (awaits_frosting_) {
+                awaits_frosting_ = false;
+                design.tiers.back().frosting = number_in(word).value_or(0);
+            } else if (of_a_mesh_ && (word == "R" || word == "X" || word == "Y")) {
+                awaits_frosting_ = word == "R";
+                design.tiers.back().hidden |= word == "X";
+                design.tiers.back().guide |= word == "Y";
             } else if (word == "n") {
                 awaits_name_ = true;
             } else if (word == "N" && of_a_mesh_) {
@@ -252,7 +263,7 @@ private:
     int tier_number_ = 0;
     long tier_line_ = 0;
     bool has_gear_ = false, in_tier_ = false, awaits_name_ = false, instruction_ = false,
-         awaits_facet_ = false;
+         awaits_facet_ = false, awaits_frosting_ = false;
 };
 
 }  // namespace
@@ -272,14 +283,10 @@ Design design_in(std::string_view text) {
     parser.parse();
     for (DesignTier& tier : parser.design.tiers) {
         for (DesignFacet& facet : tier.facets) {
-            if (facet.facet.empty()) facet.facet = facet.label;
+            if (facet.facet.empty() && !tier.hidden) facet.facet = facet.label;
         }
     }
     return std::move(parser.design);
-}
-
-ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how) {
-    return parse_gemcad_asc(read_text(file, std::size_t{16} << 20), how, file);
 }
 
 }  // namespace culet

@@ -11,7 +11,6 @@
 
 #include "stone/gemcad/cut_planes.h"
 #include "stone/text/errors.h"
-#include "stone/text/output_file.h"
 #include "stone/text/text_decoding.h"
 #include "stone/text/text_scan.h"
 
@@ -113,24 +112,20 @@ private:
         const double offset = number();
         if (std::isfinite(offset) && std::abs(offset) <= 1e6) design.gear_offset = offset;
         for (int i = 0; i < 8; ++i) {
-            std::string line = utf8_from_windows1252(text());
-            if (line.empty()) continue;
-            (i < 4 ? design.headings : design.footnotes).push_back(std::move(line));
+            (i < 4 ? design.headings : design.footnotes).push_back(utf8_from_windows1252(text()));
+        }
+        for (std::vector<std::string>* lines : {&design.headings, &design.footnotes}) {
+            while (!lines->empty() && lines->back().empty()) lines->pop_back();
         }
     }
 
     /// Call it once the gear is known. Removes the planes' rounding error.
     void settle_tiers() {
-        constexpr double k_step = 1e-4, k_rounding = 1e-6;
-        const auto plain = [](double value) {
-            const double near = k_step * std::round(value / k_step);
-            return std::abs(near - value) < k_rounding ? near : value;
-        };
         for (const CutPlane& plane : planes) {
             CutSetting setting = setting_of(plane.plane, design);
-            setting.angle_deg = plain(setting.angle_deg);
+            setting.angle_deg = without_noise(setting.angle_deg);
             DesignTier& tier = design.tiers[std::size_t(plane.tier)];
-            tier.facets[std::size_t(plane.facet)].index = plain(setting.index);
+            tier.facets[std::size_t(plane.facet)].index = without_noise(setting.index);
             if (plane.facet == 0) tier.setting = setting;
         }
     }
@@ -151,10 +146,6 @@ ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how,
     parser.parse();
     build_solid(parser.cut, std::move(parser.design), parser.planes, how, file);
     return std::move(parser.cut);
-}
-
-ReadCut read_gemcad_gem(const std::filesystem::path& file, const CutReading& how) {
-    return parse_gemcad_gem(read_text(file, std::size_t{16} << 20), how, file);
 }
 
 }  // namespace culet

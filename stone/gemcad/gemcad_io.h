@@ -1,5 +1,6 @@
 #pragma once
-// Reads and writes GemCad cut designs: .asc (text) and .gem (binary; read only).
+// Reads and writes cut designs: GemCad's .asc (text) and .gem (binary), Gem Cut Studio's .gcs
+// (XML).
 
 #include <filesystem>
 #include <string>
@@ -33,28 +34,38 @@ struct CutReading {
 /// names get .1, .2, so a tier A is A, A.1, A.2, ...; facets that the file names come before those
 /// named after their tier. Facets without a name are f0, f1, ... in file order.
 ///
-/// A facet of angle 0 needs no index. Without a `g` line the gear is guessed, with a note. Throws
-/// InputError with the line of a record that is not understood, and when the planes leave the stone
-/// open or empty.
-ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how = {});
-ReadCut read_gemcad_gem(const std::filesystem::path& file, const CutReading& how = {});
+/// A facet of angle 0 needs no index. Without a `g` line the gear is guessed, with a note. Of a
+/// .gcs the facets' normals and the tiers' depths count, not corners; hidden tiers are not cut; the
+/// symmetry is that of the stone. Throws InputError with the line of a record that is not
+/// understood, and when the planes leave the stone open or empty.
+ReadCut read_cut(const std::filesystem::path& file, const CutReading& how = {});
 
-/// The same from memory; `file` is for messages.
+/// True for .asc, .gem and .gcs, by the extension.
+bool is_cut(const std::filesystem::path& file);
+
+/// The same from memory; `file` is for messages, and for `parse_cut` names the format.
+ReadCut parse_cut(std::string_view bytes, const CutReading& how, const std::filesystem::path& file);
 ReadCut parse_gemcad_asc(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.asc");
 ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.gem");
+ReadCut parse_gcs(std::string_view bytes, const CutReading& how = {},
+                  const std::filesystem::path& file = "design.gcs");
 
 /// Writes the solid in the design's order: tier by tier, with labels, index settings, instructions
 /// and all else that it says, also about facets that bound nothing. Planes read back to 1e-12.
 /// Facets of a tier that differ in angle or distance get successive lines. Facets that the design
 /// lacks follow; those of one angle and distance share a line, and a name if they are A, A.1, A.2,
-/// ... Blanks in names become `_`. The default refractive index is GemCad's 1.54.
+/// ... Blanks in names become `_` in .asc. GemCad's default refractive index is 1.54.
 ///
-/// The format measures distances from a point inside: if the origin is outside, the stone's
-/// centroid is moved to it. Returns notes on changes. Throws InputError for a solid that is not
-/// convex, which the format cannot hold.
-std::vector<std::string> write_gemcad_asc(const Solid& solid, const Design& design,
-                                          const std::filesystem::path& file);
+/// GemCad measures distances from a point inside: if the origin is outside, the stone's centroid is
+/// moved to it. Gem Cut Studio has no sizes: the stone is scaled to its square, and its middle
+/// height is 0. It has one name a tier, and no index offset.
+///
+/// What is written is read back first: every plane to 1e-9 of the width (else InternalError), and
+/// the design, of which the notes say what the format could not keep (design_difference.h). Throws
+/// InputError for a solid that is not convex, which no format of cuts can hold.
+std::vector<std::string> write_cut(const Solid& solid, const Design& design,
+                                   const std::filesystem::path& file);
 
 }  // namespace culet

@@ -44,16 +44,21 @@ std::string gemcad_feet(const Design& design) {
 
 std::string design_text(const Design& design) {
     std::string out = gemcad_head(design, design.refractive_index);
+    for (const auto& [key, value] : design.studio) out += gemcad_line('S', key + " " + value);
     for (const DesignTier& tier : design.tiers) {
         const CutSetting& cut = tier.setting;
         out += fmt::format("a {}{} {}", cut.pavilion ? "-" : "", cut.angle_deg,
                            std::max(0.0, cut.distance));
         for (const DesignFacet& facet : tier.facets) {
             out += fmt::format(" {}", facet.index);
-            if (facet.facet.empty()) continue;
+            if (facet.facet.empty() && !tier.hidden) continue;
             if (!facet.label.empty()) out += " n " + gemcad_word(facet.label);
-            if (facet.label != facet.facet) out += " N " + gemcad_word(facet.facet);
+            if (!facet.facet.empty() && facet.label != facet.facet)
+                out += " N " + gemcad_word(facet.facet);
         }
+        if (tier.frosting > 0) out += fmt::format(" R {}", tier.frosting);
+        if (tier.hidden) out += " X";
+        if (tier.guide) out += " Y";
         out += tier.instruction.empty() ? "\n" : " " + gemcad_line('G', tier.instruction);
     }
     return utf8_from_windows1252(out + gemcad_feet(design));

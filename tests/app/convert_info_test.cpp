@@ -20,7 +20,7 @@ class ConvertInfo : public test::ProgramTest {};
 
 TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
     std::string from = k_design;
-    for (const char* extension : {"obj", "off", "ply", "stl", "asc"}) {
+    for (const char* extension : {"obj", "gcs", "off", "ply", "gem", "stl", "asc"}) {
         const std::string to = file(std::string("stone.").append(extension));
         const ProgramRun run = run_culet({"convert", from, to, "-q"});
         EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -122,9 +122,34 @@ TEST_F(ConvertInfo, BrokenMeshIsConvertedWithAWarning) {
     EXPECT_FALSE(std::filesystem::exists(file("open.asc")));
 }
 
+// Another program's file of the same stone is no difference; an angle is, and another name.
+TEST_F(ConvertInfo, DiffSaysWhatIsSetOtherwise) {
+    EXPECT_EQ(run_culet({"convert", k_design, file("same.gcs"), "-q"}).exit_code, 0);
+    const ProgramRun same = run_culet({"info", k_design, "--diff", file("same.gcs")});
+    EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+    EXPECT_NE(same.out.find("are cut alike"), std::string::npos) << same.out;
+    const std::string head = "GemCad 5.0\ng 96 0.0\ny 4 y\nI 1.54\n";
+    const std::string rest = "a -90 1 96 n G 24 48 72\na 0 0.5 96 n T\n";
+    write("a.asc", head + "a -45 1.2 96 n P 24 48 72\n" + rest);
+    write("b.asc", head + "a -46 1.2 96 n P 24 48 72\n" + rest);
+    const ProgramRun run = run_culet({"info", file("a.asc"), "--diff", file("b.asc")});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.out, "P: angle: 45, then 46\n");
+    const ProgramRun told =
+        run_culet({"info", file("a.asc"), "--diff", file("b.asc"), "--json", "-"});
+    EXPECT_EQ(told.exit_code, 1);
+    const auto object = nlohmann::json::parse(told.out);
+    EXPECT_EQ(object.at("against"), file("b.asc"));
+    ASSERT_EQ(object.at("differences").size(), 1u);
+    EXPECT_EQ(object["differences"][0],
+              (nlohmann::json{{"what", "angle"}, {"tier", "P"}, {"a", "45"}, {"b", "46"}}));
+    refusal({"info", file("a.asc"), "--diff", file("b.asc"), "--width", "6mm"});
+    refusal({"info", file("a.asc"), "--diff", file("none.asc")});
+}
+
 TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
     refusal({"convert", k_design, file("a.3mf")});
-    refusal({"convert", k_design, file("a.gem")});
+    refusal({"convert", k_design, file("a.gcs"), "--width", "6mm"});
     refusal({"convert", file("missing.obj"), file("a.obj")});
     refusal({"convert", k_design, file("no/such/folder.obj")});
     refusal({"convert", k_design});

@@ -44,6 +44,10 @@ std::vector<Format> formats() {
                    read_text(committed_designs().front())});
     all.push_back({"gem", [](const std::string& bytes) { return parse_gemcad_gem(bytes).solid; },
                    gem_bytes(cube(), 96, 1.54)});
+    const ScratchFolder folder;
+    write_cut(cube(), {}, folder / "cube.gcs");
+    all.push_back({"gcs", [](const std::string& bytes) { return parse_gcs(bytes).solid; },
+                   read_text(folder / "cube.gcs")});
     return all;
 }
 
@@ -258,7 +262,7 @@ TEST(BadSize, AStoneOfNoUnitIsRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, BadFile,
-                         testing::Values("obj", "off", "ply", "stl", "asc", "gem"),
+                         testing::Values("obj", "off", "ply", "stl", "asc", "gem", "gcs"),
                          [](const auto& format) { return std::string(format.param); });
 
 }  // namespace

@@ -50,7 +50,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(Design, KeepsEveryLineThroughItsFile) {
     const ScratchFolder folder;
     const ReadCut cut = parse_gemcad_asc(k_design);
-    write_gemcad_asc(cut.solid, *cut.solid.design, folder / "a.asc");
+    write_cut(cut.solid, *cut.solid.design, folder / "a.asc");
     const std::string text = read_text(folder / "a.asc");
     // Numbers have only the digits that they need; all words stay as they were.
     for (const char* part :
@@ -61,8 +61,8 @@ TEST(Design, KeepsEveryLineThroughItsFile) {
         EXPECT_THAT(text, HasSubstr(part));
     }
     EXPECT_EQ(lines_of(text).size(), lines_of(k_design).size());
-    const ReadCut again = read_gemcad_asc(folder / "a.asc");
-    write_gemcad_asc(again.solid, *again.solid.design, folder / "b.asc");
+    const ReadCut again = read_cut(folder / "a.asc");
+    write_cut(again.solid, *again.solid.design, folder / "b.asc");
     EXPECT_EQ(read_text(folder / "b.asc"), text);
 }
 
@@ -106,10 +106,10 @@ TEST(Design, HasNoOtherLabelsAfterAMesh) {
     write_mesh(cut.solid, folder / "a.obj");
     const Solid solid = read_mesh(folder / "a.obj").solid;
     EXPECT_EQ(labels(*solid.design), labels(*cut.solid.design));
-    write_gemcad_asc(cut.solid, *cut.solid.design, folder / "a.asc");
-    write_gemcad_asc(solid, *solid.design, folder / "b.asc");
-    EXPECT_EQ(labels(*read_gemcad_asc(folder / "b.asc").solid.design),
-              labels(*read_gemcad_asc(folder / "a.asc").solid.design));
+    write_cut(cut.solid, *cut.solid.design, folder / "a.asc");
+    write_cut(solid, *solid.design, folder / "b.asc");
+    EXPECT_EQ(labels(*read_cut(folder / "b.asc").solid.design),
+              labels(*read_cut(folder / "a.asc").solid.design));
 }
 
 TEST(Design, IsCutInItsAuthorsOrderAndWords) {
@@ -155,8 +155,8 @@ TEST(Design, OfAFittedStoneHasWholeTeethAndOwnAngles) {
     };
     EXPECT_EQ(a_words(fitted), "24 at 30.4, 72 96, 48 (cheater +0.40)");
     // Written as a design it needs a line per facet; read back it is one tier again.
-    write_gemcad_asc(fitted, design, folder / "fitted.asc");
-    const Solid again = read_gemcad_asc(folder / "fitted.asc").solid;
+    write_cut(fitted, design, folder / "fitted.asc");
+    const Solid again = read_cut(folder / "fitted.asc").solid;
     EXPECT_EQ(tier_titles(*again.design), tier_titles(design));
 }
 

@@ -151,7 +151,7 @@ TEST(GemCadDesigns, HaveTheCountsAndRatiosOfAnotherProgram) {
     for (const auto& design : designs) {
         SCOPED_TRACE(design.filename());
         const auto& known = metrics.at(design.filename().string());
-        const ReadCut cut = read_gemcad_asc(design);
+        const ReadCut cut = read_cut(design);
         const Solid& solid = cut.solid;
         EXPECT_EQ(solid.facets.size(), known["facets"].get<std::size_t>());
         EXPECT_EQ(solid.vertices.size(), known["vertices"].get<std::size_t>());
@@ -182,7 +182,7 @@ TEST(GemCadDesigns, HaveTheCountsAndRatiosOfAnotherProgram) {
 TEST(GemCadDesigns, GemAndAscAgree) {
     for (const auto& design : committed_designs()) {
         SCOPED_TRACE(design.filename());
-        const ReadCut asc = read_gemcad_asc(design);
+        const ReadCut asc = read_cut(design);
         const ReadCut gem =
             parse_gemcad_gem(gem_bytes(asc.solid, static_cast<int>(asc.solid.design->gear),
                                        asc.solid.design->refractive_index.value()));
@@ -199,9 +199,9 @@ TEST(GemCadWriting, SharesTiersAndWritesPlainNumbers) {
     const ScratchFolder folder;
     for (const auto& design : committed_designs()) {
         SCOPED_TRACE(design.filename());
-        const ReadCut cut = read_gemcad_asc(design);
-        write_gemcad_asc(cut.solid, *cut.solid.design, folder / "a.asc");
-        const ReadCut again = read_gemcad_asc(folder / "a.asc");
+        const ReadCut cut = read_cut(design);
+        write_cut(cut.solid, *cut.solid.design, folder / "a.asc");
+        const ReadCut again = read_cut(folder / "a.asc");
         EXPECT_LT(plane_difference(cut.solid, again.solid), 1e-12);
         EXPECT_EQ(again.solid.design->headings, cut.solid.design->headings);
         EXPECT_EQ(again.solid.design->gear, cut.solid.design->gear);
@@ -221,11 +221,11 @@ TEST(GemCadWriting, RefusesWhatTheFormatCannotHold) {
     const ScratchFolder folder;
     Solid open = cube();
     open.facets.pop_back();
-    EXPECT_THROW(write_gemcad_asc(open, {}, folder / "a.asc"), InputError);
-    EXPECT_THROW(write_gemcad_asc(turned_inside_out(cube()), {}, folder / "a.asc"), InputError);
+    EXPECT_THROW(write_cut(open, {}, folder / "a.asc"), InputError);
+    EXPECT_THROW(write_cut(turned_inside_out(cube()), {}, folder / "a.asc"), InputError);
     Design sheet;
     sheet.gear = 0;
-    EXPECT_THROW(write_gemcad_asc(cube(), sheet, folder / "a.asc"), InputError);
+    EXPECT_THROW(write_cut(cube(), sheet, folder / "a.asc"), InputError);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.asc"));
 }
 

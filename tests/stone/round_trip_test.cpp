@@ -37,7 +37,7 @@ double nearest_plane_difference(const Solid& a, const Solid& b) {
 
 void expect_round_trips(const Solid& solid) {
     const ScratchFolder folder;
-    for (const char* extension : {".obj", ".off", ".ply", ".stl", ".asc"}) {
+    for (const char* extension : {".obj", ".off", ".ply", ".stl", ".asc", ".gem"}) {
         SCOPED_TRACE(extension);
         const auto file = folder / (std::string("solid").append(extension));
         write_solid(solid, file);
@@ -189,8 +189,8 @@ TEST(RoundTrip, NotedPlanesWithoutAHash) {
 TEST(RoundTrip, AscOfAStoneAwayFromTheOriginIsMovedAndSaysSo) {
     const Solid solid = moved(random_solid(30, 3), 1, {10, 0, 0}, false);
     const ScratchFolder folder;
-    EXPECT_EQ(write_gemcad_asc(solid, {}, folder / "a.asc").size(), 1u);
-    const ReadCut read = read_gemcad_asc(folder / "a.asc");
+    EXPECT_EQ(write_cut(solid, {}, folder / "a.asc").size(), 1u);
+    const ReadCut read = read_cut(folder / "a.asc");
     EXPECT_NEAR(volume(read.solid), volume(solid), 1e-9);
     ASSERT_EQ(read.solid.design->footnotes.size(), 1u);
     EXPECT_EQ(read.solid.design->footnotes[0].substr(0, 8), "moved by");

@@ -42,7 +42,7 @@ TEST(ReadSolid, GoesByExtensionWhateverItsCase) {
         EXPECT_TRUE(find_faults(read_solid(folder / name).solid).empty()) << name;
     }
     EXPECT_THROW(read_solid(folder / "a.3ds"), InputError);
-    EXPECT_THROW(write_solid(cube(), folder / "a.gem"), InputError);
+    EXPECT_THROW(write_solid(cube(), folder / "a.glb"), InputError);
     EXPECT_THROW(write_solid(cube(), folder / "a"), InputError);
 }
 

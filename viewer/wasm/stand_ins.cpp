@@ -7,6 +7,7 @@
 #include "render/reference/light_field.h"
 #include "render/scene/engine_name.h"
 #include "stone/design/tiers.h"
+#include "stone/gemcad/gemcad_io.h"
 #include "stone/material/wavelength_table.h"
 #include "stone/mesh/surface_mesh.h"
 #include "stone/solid/half_edges.h"
@@ -29,6 +30,9 @@ std::string read_text(const std::filesystem::path& file, std::size_t) {
 }
 std::string foreign_kind_of(const std::filesystem::path&) {
     return {};
+}
+ReadCut parse_gcs(std::string_view, const CutReading&, const std::filesystem::path& file) {
+    throw InputError(file, "is not read by a page: culet convert makes an .asc of it");
 }
 // Of a design, which a page does not show.
 std::vector<FacetTier> tiers_of(const Solid&, const Vec3&) {

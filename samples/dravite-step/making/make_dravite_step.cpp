@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
     if (words.size() == 2 && words[0] == "stone") {
         const std::filesystem::path folder = words[1];
         const Solid truth = true_stone();
-        write_gemcad_asc(truth, {}, folder / "making" / "truth.asc");
+        write_cut(truth, {}, folder / "making" / "truth.asc");
         write_solid(truth, folder / "making" / "truth.obj");
         write_solid(hand_mesh(), folder / "hand.obj");
         write_readings(truth, folder / "readings.csv");

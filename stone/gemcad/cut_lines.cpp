@@ -1,4 +1,4 @@
-// Writes GemCad .asc.
+#include "stone/gemcad/cut_lines.h"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,7 @@
 #include "stone/gemcad/gemcad_lines.h"
 #include "stone/mesh/face_soup.h"
 #include "stone/solid/checks.h"
-#include "stone/text/errors.h"
-#include "stone/text/output_file.h"
-#include "stone/text/text_decoding.h"
+#include "stone/text/text_scan.h"
 
 namespace culet {
 
@@ -22,8 +20,6 @@ namespace {
 
 /// Planes must read back this well: direction in radians, distance relative to the size.
 constexpr double k_reads_back = 2e-13;
-/// Quartz, GemCad's default.
-constexpr double k_gemcads_index = 1.54;
 
 double difference(const Plane& a, const Plane& b, double size) {
     return std::max(glm::length(a.normal - b.normal), std::abs(a.offset - b.offset) / size);
@@ -39,74 +35,41 @@ std::string short_decimal(double value, int places, Good good) {
     return fmt::format("{}", value);
 }
 
-// Facets of one angle and distance.
-struct Line {
-    CutSetting setting;  // as it reads back from the text
-    std::string angle, distance;
-    std::vector<std::string> indices, labels;
-    std::vector<int> facets;  // of the solid; -1: only in the design
-    std::string instruction;
-    int named_at = -1;  // the one facet whose name is the tier's; -1: each has its own
-};
-
 double read_back(const std::string& text) {
     return number_in(text).value_or(0);
 }
 
-class AscWriter {
+class LineMaker {
 public:
-    AscWriter(const Solid& solid, const Design& design)
-        : solid_(solid), design_(design), size_(diameter(solid)) {
-        for (const Facet& facet : solid.facets) names_.push_back(gemcad_word(facet.name));
+    LineMaker(const Solid& solid, const Design& design, LineShares shares,
+              std::string (*word)(const std::string&))
+        : solid_(solid), design_(design), shares_(shares), word_(word), size_(diameter(solid)) {
+        for (const Facet& facet : solid.facets) names_.push_back(word(facet.name));
         const bool any_named = std::any_of(names_.begin(), names_.end(),
                                            [](const std::string& name) { return !name.empty(); });
         if (any_named) names_ = unique_names(std::move(names_));
-        for (std::size_t f = 0; f < names_.size(); ++f) facet_called_[names_[f]] = int(f);
+        for (std::size_t f = 0; f < names_.size(); ++f)
+            facet_called_[gemcad_word(names_[f])] = int(f);
     }
 
-    std::string text() {
+    std::vector<CutLine> lines() {
         for (const DesignTier& tier : design_.tiers) add_tier(tier);
         const std::size_t first = lines_.size();
         for (std::size_t f = 0; f < names_.size(); ++f) {
-            if (!placed_.contains(int(f))) add_facet(int(f), first);
+            if (!placed_.contains(int(f))) add_facet(int(f), first, nullptr);
         }
         if (!labels_read_back()) {
-            for (Line& line : lines_) {
+            for (CutLine& line : lines_) {
                 for (std::size_t i = 0; i < line.facets.size(); ++i) {
                     if (line.facets[i] >= 0) line.labels[i] = names_[std::size_t(line.facets[i])];
                 }
             }
         }
         name_tiers_once();
-        std::string out = gemcad_head(design_, design_.refractive_index.value_or(k_gemcads_index));
-        for (const Line& line : lines_) out += text_of(line);
-        return out + gemcad_feet(design_);
+        return std::move(lines_);
     }
 
 private:
-    static std::string text_of(const Line& tier) {
-        std::string out, line = fmt::format("a {} {}", tier.angle, tier.distance);
-        const auto add = [&](const std::string& word) {
-            // A line that begins with a number continues the tier.
-            if (line.size() + word.size() > 100) {
-                out += line + "\n";
-                line.clear();
-            }
-            line += (line.empty() ? "" : " ") + word;
-        };
-        for (std::size_t i = 0; i < tier.indices.size(); ++i) {
-            const bool named =
-                !tier.labels[i].empty() && (tier.named_at < 0 || tier.named_at == int(i));
-            add(tier.indices[i] + (named ? " n " + tier.labels[i] : std::string()));
-        }
-        if (!tier.instruction.empty()) {
-            std::string words = gemcad_line('G', tier.instruction);
-            words.pop_back();
-            line += " " + words;
-        }
-        return out + line + "\n";
-    }
-
     void add_tier(const DesignTier& tier) {
         const std::size_t first = lines_.size();
         for (const DesignFacet& own : tier.facets) {
@@ -115,18 +78,19 @@ private:
             setting.index = own.index;
             const Plane plane = plane_of(setting, design_);
             if (own.facet.empty() || known == facet_called_.end()) {
-                if (bounds_nothing(plane))
-                    add_index(line_for(plane, setting, first), own.index, own.label, -1);
+                if (tier.hidden || bounds_nothing(plane))
+                    add_index(line_for(plane, setting, first, &tier), own.index, own.label, -1);
             } else if (placed_.insert(known->second).second) {
                 const Plane& cut = solid_.facets[std::size_t(known->second)].plane;
                 if (difference(plane, cut, size_) <= k_reads_back) {
-                    add_index(line_for(plane, setting, first), own.index, own.label, known->second);
+                    add_index(line_for(plane, setting, first, &tier), own.index, own.label,
+                              known->second);
                 } else {
-                    add_facet(known->second, first, own.label);
+                    add_facet(known->second, first, &tier, own.label);
                 }
             }
         }
-        if (lines_.size() > first) lines_.back().instruction = tier.instruction;
+        if (lines_.size() > first) lines_.back().ends_tier = true;
     }
 
     // A plane outside the solid, which has no facet of it, may stay in the design.
@@ -136,40 +100,55 @@ private:
         });
     }
 
-    Line& line_for(const Plane& plane, const CutSetting& wanted, std::size_t first) {
+    CutLine& line_for(const Plane& plane, const CutSetting& wanted, std::size_t first,
+                      const DesignTier* tier) {
         for (std::size_t i = first; i < lines_.size(); ++i) {
-            CutSetting shared = lines_[i].setting;
-            shared.index = wanted.index;
-            if (difference(plane_of(shared, design_), plane, size_) <= k_reads_back)
-                return lines_[i];
+            if (fits(lines_[i], plane, wanted, tier != nullptr)) return lines_[i];
         }
-        return lines_.emplace_back(new_line(plane, wanted));
+        lines_.push_back(new_line(plane, wanted));
+        lines_.back().tier = tier;
+        return lines_.back();
     }
 
-    static void add_index(Line& line, double index, const std::string& label, int facet) {
+    bool fits(const CutLine& line, const Plane& plane, const CutSetting& wanted,
+              bool of_tier) const {
+        constexpr double k_one_angle_deg = 1e-3, k_one_distance = 2e-10;
+        if (of_tier && shares_ == LineShares::tier) return true;
+        CutSetting shared = line.setting;
+        shared.index = wanted.index;
+        if (of_tier && shares_ == LineShares::distance) {
+            return shared.pavilion == wanted.pavilion &&
+                   std::abs(shared.angle_deg - wanted.angle_deg) < k_one_angle_deg &&
+                   std::abs(shared.distance - plane.offset) <= k_one_distance * size_;
+        }
+        return difference(plane_of(shared, design_), plane, size_) <= k_reads_back;
+    }
+
+    void add_index(CutLine& line, double index, const std::string& label, int facet) {
         line.indices.push_back(fmt::format("{}", index));
-        line.labels.push_back(gemcad_word(label));
+        line.labels.push_back(word_(label));
         line.facets.push_back(facet);
     }
 
     // Searches the lines from `first` on.
-    void add_facet(int f, std::size_t first, const std::string& label = {}) {
+    void add_facet(int f, std::size_t first, const DesignTier* tier,
+                   const std::string& label = {}) {
         const Plane& plane = solid_.facets[std::size_t(f)].plane;
         const CutSetting wanted = setting_of(plane, design_);
-        Line& line = line_for(plane, wanted, first);
+        CutLine& line = line_for(plane, wanted, first, tier);
         CutSetting setting = line.setting;
         line.indices.push_back(short_decimal(wanted.index, 0, [&](const std::string& text) {
             setting.index = read_back(text);
             return setting.index > 0 &&
                    difference(plane_of(setting, design_), plane, size_) <= 2 * k_reads_back;
         }));
-        line.labels.push_back(gemcad_word(label));
+        line.labels.push_back(word_(label));
         line.facets.push_back(f);
     }
 
     bool labels_read_back() const {
         std::vector<std::string> own, of_tier, wanted;
-        for (const Line& line : lines_) {
+        for (const CutLine& line : lines_) {
             std::set<std::string> labels(line.labels.begin(), line.labels.end());
             labels.erase("");
             for (std::size_t i = 0; i < line.facets.size(); ++i) {
@@ -184,27 +163,34 @@ private:
 
     // Does as GemCad, if all names read back the same.
     void name_tiers_once() {
-        for (Line& tier : lines_) tier.named_at = named_at(tier.labels);
+        std::vector<int> at;  // the one facet whose name is the tier's; -1: each has its own
+        for (const CutLine& line : lines_) at.push_back(named_at(line.labels));
+        const auto inherits = [&](std::size_t l, std::size_t i) {
+            return at[l] >= 0 && at[l] != int(i);
+        };
         for (bool again = true; again;) {
             again = false;
             std::vector<std::string> own, of_tier;
-            for (const Line& tier : lines_) {
-                const bool once = tier.named_at >= 0;
-                for (std::size_t i = 0; i < tier.labels.size(); ++i) {
-                    const bool inherits = once && tier.named_at != int(i);
-                    own.push_back(inherits ? std::string() : tier.labels[i]);
-                    of_tier.push_back(once ? tier.labels[std::size_t(tier.named_at)]
-                                           : std::string());
+            for (std::size_t l = 0; l < lines_.size(); ++l) {
+                const std::vector<std::string>& labels = lines_[l].labels;
+                for (std::size_t i = 0; i < labels.size(); ++i) {
+                    own.push_back(inherits(l, i) ? std::string() : labels[i]);
+                    of_tier.push_back(at[l] >= 0 ? labels[std::size_t(at[l])] : std::string());
                 }
             }
             const std::vector<std::string> read = unique_names(std::move(own), of_tier);
-            std::size_t at = 0;
-            for (Line& tier : lines_) {
-                for (const std::string& label : tier.labels) {
-                    if (read[at++] == label || tier.named_at < 0) continue;
-                    tier.named_at = -1;
+            std::size_t next = 0;
+            for (std::size_t l = 0; l < lines_.size(); ++l) {
+                for (const std::string& label : lines_[l].labels) {
+                    if (read[next++] == label || at[l] < 0) continue;
+                    at[l] = -1;
                     again = true;
                 }
+            }
+        }
+        for (std::size_t l = 0; l < lines_.size(); ++l) {
+            for (std::size_t i = 0; i < lines_[l].labels.size(); ++i) {
+                if (inherits(l, i)) lines_[l].labels[i].clear();
             }
         }
     }
@@ -223,8 +209,8 @@ private:
         return static_cast<int>(base - names.begin());
     }
 
-    Line new_line(const Plane& plane, const CutSetting& wanted) const {
-        Line tier;
+    CutLine new_line(const Plane& plane, const CutSetting& wanted) const {
+        CutLine tier;
         tier.setting = wanted;
         const auto good = [&] {
             return difference(plane_of(tier.setting, design_), plane, size_) <= k_reads_back / 2;
@@ -246,54 +232,27 @@ private:
 
     const Solid& solid_;
     const Design& design_;
+    LineShares shares_;
+    std::string (*word_)(const std::string&);
     double size_ = 0;
     std::vector<std::string> names_;
     std::map<std::string, int> facet_called_;
     std::set<int> placed_;
-    std::vector<Line> lines_;
+    std::vector<CutLine> lines_;
 };
-
-bool origin_is_inside(const Solid& solid) {
-    const double margin = 1e-6 * diameter(solid);
-    return std::all_of(solid.facets.begin(), solid.facets.end(),
-                       [&](const Facet& facet) { return facet.plane.offset > margin; });
-}
 
 }  // namespace
 
-std::vector<std::string> write_gemcad_asc(const Solid& solid, const Design& design,
-                                          const std::filesystem::path& file) {
-    if (!is_closed(solid)) {
-        throw InputError(file,
-                         "cannot be written: a cut design holds a closed stone only, and this "
-                         "one is open or broken (see culet info)");
-    }
-    if (!is_convex(solid)) {
-        throw InputError(file,
-                         "cannot be written: a cut design holds a convex stone only, and this "
-                         "one is not convex or inside out (see culet info)");
-    }
-    if (!(std::abs(design.gear) >= 1)) {
-        throw InputError(file, "cannot be written: the index gear needs at least one tooth");
-    }
-    std::vector<std::string> notes;
-    if (origin_is_inside(solid)) {
-        write_text(file, AscWriter(solid, design).text());
-        return notes;
-    }
-    const Vec3 middle = centroid(solid);
-    Solid moved = solid;
-    for (Vec3& v : moved.vertices) v -= middle;
-    for (Facet& facet : moved.facets) {
-        facet.plane.offset -= glm::dot(facet.plane.normal, middle);
-    }
-    notes.push_back(
-        fmt::format("moved by ({}, {}, {}), because GemCad measures from a point inside the stone",
-                    -middle.x, -middle.y, -middle.z));
-    Design moved_design = design;
-    moved_design.footnotes.push_back(notes.back());
-    write_text(file, AscWriter(moved, moved_design).text());
-    return notes;
+Plane CutLine::plane(std::size_t facet, const Solid& solid, const Design& design) const {
+    if (facets[facet] >= 0) return solid.facets[std::size_t(facets[facet])].plane;
+    CutSetting own = tier == nullptr ? setting : tier->setting;
+    own.index = read_back(indices[facet]);
+    return plane_of(own, design);
+}
+
+std::vector<CutLine> cut_lines(const Solid& solid, const Design& design, LineShares shares,
+                               std::string (*word)(const std::string&)) {
+    return LineMaker(solid, design, shares, word).lines();
 }
 
 }  // namespace culet
