@@ -40,15 +40,19 @@ void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
 
 // glTF has metres in single precision (specification, 3.4 and 3.6.2); a stone has millimetres.
 ReadSolid solid_of_gltf(const std::filesystem::path& file) {
-    TriangleMesh mesh = read_triangle_mesh(file);
+    const TriangleMesh mesh = read_triangle_mesh(file);
     FaceSoup soup;
     for (const Vec3& v : mesh.vertices) {
         soup.vertices.push_back(mm_per(LengthUnit::m) * v);
         for (int k = 0; k < 3; ++k) soup.precision.add_single(soup.vertices.back()[k]);
     }
-    for (const auto& t : mesh.triangles) {
-        soup.faces.emplace_back();
-        soup.faces.back().corners.assign(t.begin(), t.end());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        SoupFace& face = soup.faces.emplace_back();
+        face.corners.assign(mesh.triangles[t].begin(), mesh.triangles[t].end());
+        const std::string& name = mesh.facets[t];
+        if (name.empty()) continue;
+        if (soup.names.empty() || soup.names.back() != name) soup.names.push_back(name);
+        face.name = int(soup.names.size()) - 1;
     }
     return solid_from_faces(std::move(soup));
 }

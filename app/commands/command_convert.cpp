@@ -5,22 +5,20 @@
 #include <cmath>
 #include <optional>
 
+#include "app/commands/scene_export.h"
 #include "app/input/export_input.h"
 #include "app/input/readings_form.h"
 #include "app/program/file_kinds.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
 #include "render/export/gltf_look.h"
-#include "render/export/mitsuba.h"
-#include "render/export/pbrt.h"
-#include "render/export/povray.h"
 #include "render/grade/grade.h"
-#include "render/image/image_io.h"
 #include "render/scene/stone_scene.h"
 #include "stone/design/design.h"
 #include "stone/export/export_frame.h"
 #include "stone/export/gltf_write.h"
 #include "stone/export/step.h"
+#include "stone/export/three_mf.h"
 #include "stone/file_kind.h"
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/material/material_io.h"
@@ -49,7 +47,8 @@ struct ConvertOptions {
 
 bool is_for_other_programs(const std::filesystem::path& out) {
     const std::string ending = extension_of(out);
-    return ending == "glb" || ending == "gltf" || ending == "step" || ending == "stp";
+    return ending == "glb" || ending == "gltf" || ending == "step" || ending == "stp" ||
+           ending == "3mf";
 }
 
 void say_of(const std::filesystem::path& file, const std::vector<std::string>& notes, bool quiet) {
@@ -105,6 +104,8 @@ int convert_for_others(const ConvertOptions& options) {
                       input.stone.name);
         write_text(options.out, step.text);
         notes = step.notes;
+    } else if (extension_of(options.out) == "3mf") {
+        write_text(options.out, three_mf_bytes(input.stone.solid, input.stone.name));
     } else {
         notes = write_gltf(input, options.out);
     }
@@ -116,33 +117,13 @@ int convert_for_others(const ConvertOptions& options) {
     return exit_good;
 }
 
-bool is_scene_for_others(const std::filesystem::path& out) {
-    const std::string ending = extension_of(out);
-    return ending == "pov" || ending == "xml" || ending == "pbrt";
-}
-
-ExportedScene exported(const Scene& scene, const std::filesystem::path& out) {
-    if (extension_of(out) == "xml") return mitsuba_scene(scene, out.stem().string());
-    if (extension_of(out) == "pbrt") return pbrt_scene(scene, out.stem().string());
-    return povray_scene(scene);
-}
-
-// Writes files for another renderer; the one that names the others comes last.
 int convert_scene(const ConvertOptions& options) {
     StoneScene choices;
     choices.material = options.material;
     if (!options.width.empty()) choices.width_mm = length_mm(options.width, "--width");
-    const Scene scene = read_any_scene(options.in, options.common.set, choices);
-    const ExportedScene converted = exported(scene, options.out);
-    const std::filesystem::path folder = options.out.parent_path();
-    for (const auto& [name, text] : converted.meshes) write_text(folder / name, text);
-    if (converted.environment)
-        write_picture(converted.environment->second, folder / converted.environment->first);
-    write_text(options.out, converted.text);
-    for (const std::string& note : scene.notes) say(note, options.common.quiet);
-    for (const std::string& note : converted.notes) {
-        say(fmt::format("{}: not carried: {}", options.out.string(), note), options.common.quiet);
-    }
+    for (const std::string& note :
+         export_scene(options.in, options.common.set, choices, options.out))
+        say(note, options.common.quiet);
     say_next(options);
     return exit_good;
 }
@@ -189,10 +170,10 @@ std::vector<std::string> write_design(const ConvertInput& input, const std::file
 
 int convert(const ConvertOptions& options) {
     const bool grows = !options.clearance.empty(), to_cut = is_cut(options.out);
-    const bool to_scene = is_scene_for_others(options.out),
+    const bool to_scene = is_for_renderers(options.out),
                to_others = is_for_other_programs(options.out);
     if (grows && (to_scene || (!to_others && !mesh_format(options.out))))
-        throw InputError("--clearance is for meshes, .glb, .gltf and .step");
+        throw InputError("--clearance is for meshes, .glb, .gltf, .3mf and .step");
     if (to_scene) return convert_scene(options);
     if (to_others || grows) return convert_for_others(options);
     if (!options.material.empty() && !to_cut)
@@ -203,10 +184,11 @@ int convert(const ConvertOptions& options) {
             ".pov, .xml, .pbrt, .glb, .gltf or .step");
     }
     if (!mesh_format(options.out) && !to_cut) {
-        throw InputError(options.out,
-                         "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
-                         ".gem, .gcs, .glb, .gltf, .step or .stp, or for a renderer in .pov, .xml "
-                         "(Mitsuba) or .pbrt");
+        throw InputError(
+            options.out,
+            "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
+            ".gem, .gcs, .glb, .gltf, .3mf, .step or .stp, or for a renderer in .pov, .xml "
+            "(Mitsuba) or .pbrt");
     }
     if (!options.width.empty() && extension_of(options.out) == "gcs")
         throw InputError("--width: a .gcs has no size, Gem Cut Studio shows every stone alike");
@@ -248,10 +230,11 @@ void add_command_convert(CLI::App& program, int& exit_code) {
             "mesh (.obj .off .ply .stl), cut (.asc .gem .gcs), stone file or scene (.toml)")
         ->required();
     command
-        ->add_option("OUT", options->out,
-                     ".obj, .off, .ply, .stl; cuts .asc, .gem, .gcs; for Blender and the web .glb "
-                     "or .gltf; for CAD "
-                     ".step; for renderers .pov, .xml (Mitsuba 3) or .pbrt (PBRT-v4)")
+        ->add_option(
+            "OUT", options->out,
+            ".obj, .off, .ply, .stl; cuts .asc, .gem, .gcs; for Blender and the web .glb "
+            "or .gltf; for CAD "
+            ".step; for printers .3mf; for renderers .pov, .xml (Mitsuba 3) or .pbrt (PBRT-v4)")
         ->required();
     command
         ->add_option("--meet-tolerance", options->cut.meet_tolerance,

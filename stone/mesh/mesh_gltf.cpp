@@ -94,6 +94,7 @@ private:
             if (weight != 0)
                 throw InputError(file_, "has a mesh with morph targets, which are not read");
         }
+        const std::size_t before = mesh_.triangles.size();
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES)
                 continue;  // points and lines
@@ -108,6 +109,22 @@ private:
             }
             if (mesh_.triangles.size() > k_most_triangles)
                 throw InputError(file_, fmt::format("has over {} triangles", k_most_triangles));
+        }
+        mesh_.facets.resize(mesh_.triangles.size());
+        name_facets(mesh.extras, before);
+    }
+
+    // By what gltf_bytes (stone/export/gltf_write.h) writes beside the triangles.
+    void name_facets(const tinygltf::Value& extras, std::size_t before) {
+        const tinygltf::Value list = extras.Get("facets");
+        for (std::size_t i = 0; list.IsArray() && i < list.ArrayLen(); ++i) {
+            const tinygltf::Value& facet = list.Get(int(i));
+            if (!facet.Has("name") || !facet.Get("name").IsString()) continue;
+            const int first = facet.Get("first_triangle").GetNumberAsInt(),
+                      count = facet.Get("triangles").GetNumberAsInt();
+            const std::size_t here = mesh_.facets.size() - before;
+            for (int t = std::max(first, 0); t - first < count && std::size_t(t) < here; ++t)
+                mesh_.facets[before + std::size_t(t)] = facet.Get("name").Get<std::string>();
         }
     }
 

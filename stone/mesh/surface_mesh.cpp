@@ -60,9 +60,15 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
         if (bytes.empty()) throw InputError(file, "is empty");
         mesh = triangles_of(soup_of(bytes, *format, file));
     }
-    std::erase_if(mesh.triangles, [&](const std::array<int, 3>& t) {
-        return !(glm::length(area_vector(mesh, t)) > 0);
-    });
+    mesh.facets.resize(mesh.triangles.size());
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!(glm::length(area_vector(mesh, mesh.triangles[t])) > 0)) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        mesh.facets[kept++].swap(mesh.facets[t]);
+    }
+    mesh.triangles.resize(kept);
+    mesh.facets.resize(kept);
     if (mesh.triangles.empty()) throw InputError(file, "holds no triangle");
     return mesh;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "stone/solid/solid.h"
@@ -15,6 +16,8 @@ struct TriangleMesh {
     std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise from outside
     /// Unit normals at each triangle's corners; empty: flat triangles.
     std::vector<std::array<Vec3, 3>> corner_normals;
+    /// Of a glTF that culet wrote: the facet that each triangle belongs to; "": none.
+    std::vector<std::string> facets;
 };
 
 /// True for glTF (.gltf, .glb), whose lengths are metres.

@@ -148,7 +148,7 @@ TEST_F(ConvertInfo, DiffSaysWhatIsSetOtherwise) {
 }
 
 TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
-    refusal({"convert", k_design, file("a.3mf")});
+    refusal({"convert", k_design, file("a.3ds")});
     refusal({"convert", k_design, file("a.gcs"), "--width", "6mm"});
     refusal({"convert", file("missing.obj"), file("a.obj")});
     refusal({"convert", k_design, file("no/such/folder.obj")});

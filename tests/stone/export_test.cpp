@@ -13,8 +13,13 @@
 #include "stone/export/export_frame.h"
 #include "stone/export/gltf_write.h"
 #include "stone/export/step.h"
+#include "stone/export/three_mf.h"
 #include "stone/solid/checks.h"
+#include "stone/solid_input.h"
 #include "stone/text/errors.h"
+#include "stone/text/output_file.h"
+#include "tests/scratch_folder.h"
+#include "tests/stone/synthetic_solids.h"
 
 namespace culet {
 namespace {
@@ -166,6 +171,71 @@ TEST(Gltf, KeepsTheRulesAndTheSize) {
 }
 
 // Planes move out by the clearance, so every corner of the stone is inside by as much.
+// What is exported comes back: the facets by name, in mm and single precision.
+TEST(Gltf, ComesBackWithItsNames) {
+    const test::ScratchFolder folder;
+    Stone stone;
+    stone.solid = make_cut("emerald");
+    stone = in_export_frame(stone);
+    for (const auto& [name, form] :
+         {std::pair("a.glb", GltfForm::binary), std::pair("a.gltf", GltfForm::text)}) {
+        write_text(folder / name, gltf_bytes(stone, std::nullopt, form));
+        const Solid back = load_solid(folder / name).solid;
+        EXPECT_LT(test::plane_difference(stone.solid, back), 1e-6) << name;
+    }
+}
+
+// Parts of a ZIP archive that is not compressed, found by its directory (PKWARE's APPNOTE).
+std::map<std::string, std::string> parts_of(const std::string& zip) {
+    const auto number = [&](std::size_t at, int size) {
+        std::size_t value = 0;
+        for (int i = size; i-- > 0;)
+            value = 256 * value + static_cast<unsigned char>(zip.at(at + std::size_t(i)));
+        return value;
+    };
+    std::map<std::string, std::string> parts;
+    const std::size_t end = zip.size() - 22;
+    EXPECT_EQ(number(end, 4), 0x06054b50u);
+    std::size_t at = number(end + 16, 4);
+    EXPECT_EQ(at + number(end + 12, 4), end);
+    for (std::size_t i = 0; i < number(end + 10, 2); ++i) {
+        EXPECT_EQ(number(at, 4), 0x02014b50u);
+        const std::size_t size = number(at + 24, 4), name = number(at + 28, 2);
+        const std::size_t local = number(at + 42, 4);
+        EXPECT_EQ(number(local, 4), 0x04034b50u);
+        for (const auto& [there, here] : {std::pair(14, 16), {18, 20}, {22, 24}})
+            EXPECT_EQ(number(local + there, 4), number(at + here, 4));
+        parts[zip.substr(at + 46, name)] = zip.substr(local + 30 + name, size);
+        at += 46 + name;
+    }
+    return parts;
+}
+
+TEST(ThreeMf, IsAClosedBodyOfTheSameVolume) {
+    const Solid solid = make_cut("pear");
+    const auto parts = parts_of(three_mf_bytes(solid, "A <pear> & more"));
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_NE(parts.at("_rels/.rels").find("\"/3D/3dmodel.model\""), std::string::npos);
+    const std::string& model = parts.at("3D/3dmodel.model");
+    EXPECT_NE(model.find("unit=\"millimeter\""), std::string::npos);
+    EXPECT_NE(model.find("A &lt;pear&gt; &amp; more"), std::string::npos);
+    const std::regex vertex("<vertex x=\"([^\"]+)\" y=\"([^\"]+)\" z=\"([^\"]+)\""),
+        triangle("<triangle v1=\"(\\d+)\" v2=\"(\\d+)\" v3=\"(\\d+)\"");
+    std::vector<Vec3> corners;
+    for (std::sregex_iterator i(model.begin(), model.end(), vertex), end; i != end; ++i)
+        corners.push_back({std::stod((*i)[1]), std::stod((*i)[2]), std::stod((*i)[3])});
+    EXPECT_EQ(corners, solid.vertices);
+    double six_volumes = 0;
+    for (std::sregex_iterator i(model.begin(), model.end(), triangle), end; i != end; ++i) {
+        const auto at = [&](int k) { return corners.at(std::stoul((*i)[std::size_t(k)])); };
+        six_volumes += glm::dot(at(1), glm::cross(at(2), at(3)));
+    }
+    EXPECT_NEAR(six_volumes / 6, volume(solid), 1e-12 * volume(solid));
+    Solid open = solid;
+    open.facets.pop_back();
+    EXPECT_THROW(three_mf_bytes(open, ""), InputError);
+}
+
 TEST(Clearance, GrowsEveryPlane) {
     const Solid solid = make_cut("emerald"), seat = grown_outward(solid, 0.05);
     ASSERT_EQ(seat.facets.size(), solid.facets.size());
