@@ -118,6 +118,7 @@ void describe_design(const Design& design, Description& about) {
     object["refractive_index"] = design.refractive_index ? Json(*design.refractive_index) : Json();
     object["headings"] = design.headings;
     object["footnotes"] = design.footnotes;
+    if (!design.studio.empty()) object["gem_cut_studio"] = design.studio;
     for (const std::string& line : design.headings) {
         if (!line.empty()) about.lines.push_back(line);
     }

@@ -33,6 +33,7 @@ public:
           teeth_(gear_of(solid, options)),
           shown_teeth_(options.shown_deg * teeth_ / 360),
           table_(table_facet(solid, {0, 0, 1})) {
+        std::erase_if(design_.tiers, [](const DesignTier& tier) { return tier.hidden; });
         const double factor = teeth_ / std::abs(design_.gear);
         design_.gear *= factor;
         design_.gear_offset *= factor;
@@ -107,6 +108,8 @@ private:
     CuttingStep step_of(const DesignTier& tier) const {
         CuttingStep step;
         step.instruction = tier.instruction;
+        if (tier.frosting > 0)
+            step.instruction += tier.instruction.empty() ? "frosted" : " (frosted)";
         std::vector<double> angles;
         for (const DesignFacet& own : tier.facets) {
             const int f = facet_of(own);

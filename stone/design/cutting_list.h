@@ -41,7 +41,7 @@ struct IndexSetting {
 struct CuttingStep {
     std::string tier;  ///< `tier_titles`
     StonePart part = StonePart::crown;
-    std::string instruction;  ///< the author's
+    std::string instruction;  ///< the author's, and that the tier is frosted
     std::vector<int> facets;  ///< of the solid
     CutDepth depth;
     double angle_deg = 0;  ///< from the horizontal: the design's, or the median of its facets'

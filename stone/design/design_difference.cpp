@@ -149,9 +149,11 @@ private:
     void find_scale() {
         scale_ = a_.width > 0 ? b_.width / a_.width : 1;
         shift_ = b_.middle - scale_ * a_.middle;
-        int most = agreeing();
+        constexpr std::size_t k_most_tried = 60;  // the search takes their cube
+        int most = agreeing(), all = 0;
+        for (std::size_t i = 0; i < a_.tiers.size(); ++i) all += same_angle(i);
         double scale = scale_, shift = shift_;
-        for (std::size_t i = 0; i < a_.tiers.size(); ++i) {
+        for (std::size_t i = 0; most < all && i < std::min(a_.tiers.size(), k_most_tried); ++i) {
             for (std::size_t k = 0; k < i && same_angle(i); ++k) {
                 if (!same_angle(k)) continue;
                 const TierAsCut &p = a_.tiers[i], &q = a_.tiers[k];

@@ -2,12 +2,12 @@
 // What the reader and the writer of Gem Cut Studio's .gcs share.
 //
 // Facts of the format, from its published description and files: XML; <index gear>; <tier angle
-// depth name instructions visible guide frosting> with the polar angle of its normals (0 table, 90
-// girdle, 180 flat culet) and their distance from the origin; <facet nx ny nz index_angle> with its
-// corners; <render> and <info>. The stone fills the square of half width 1 about the axis, and its
-// middle height is 0. Its y is minus GemCad's: seen from above, index settings of the crown run
-// counter-clockwise from -y in both programs. `index_angle` is the tooth in degrees, counted the
-// other way on the pavilion and the girdle, since the transfer turns the stone over.
+// depth name instructions visible guide> with the polar angle of its normals (0 table, 90
+// girdle, 180 flat culet) and their distance from the origin; <facet nx ny nz index_angle frosting>
+// with its corners; <render> and <info>. The stone fills the square of half width 1 about the axis,
+// and its middle height is 0. Its y is minus GemCad's: seen from above, index settings of the crown
+// run counter-clockwise from -y in both programs. `index_angle` is the tooth in degrees, counted
+// the other way on the pavilion and the girdle, since the transfer turns the stone over.
 
 #include <array>
 #include <cmath>

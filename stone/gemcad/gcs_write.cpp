@@ -41,6 +41,8 @@ void add_facet(Node tier, const CutLine& line, std::size_t i, const Solid& solid
     set(facet, "ny", turned.y);
     set(facet, "nz", turned.z);
     set(facet, "index_angle", gcs_index_angle(normal));
+    if (line.tier != nullptr && line.tier->frosting > 0)
+        set(facet, "frosting", line.tier->frosting);
     if (line.facets[i] < 0) return;
     for (const int corner : solid.facets[std::size_t(line.facets[i])].corners) {
         const Vec3 v = gcs_turned(solid.vertices[std::size_t(corner)]);
@@ -76,7 +78,6 @@ void add_tier(Node root, const CutLine& line, const std::string& name, const Sol
     set(node, "instructions", line.ends_tier ? tier.instruction : "");
     set(node, "visible", std::string(tier.hidden ? "false" : "true"));
     set(node, "guide", std::string(tier.guide ? "true" : "false"));
-    if (tier.frosting > 0) set(node, "frosting", tier.frosting);
     // The reader names the first facet as the tier.
     std::vector<std::size_t> order(line.facets.size());
     std::iota(order.begin(), order.end(), 0u);
