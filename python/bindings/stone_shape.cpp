@@ -110,10 +110,11 @@ void bind_stone_shape(py::class_<PythonStone>& stone) {
         .def(
             "save",
             [](const PythonStone& s, const fs::path& file) {
-                require_solid_name(file);
-                write_solid(s.stone.solid, file);
+                return write_solid(s.stone.solid, file);
             },
-            py::arg("file"), "Writes the mesh: .obj .off .ply .stl .asc, by the name's ending.");
+            py::arg("file"),
+            "Writes the mesh or cut: .obj .off .ply .stl .asc .gem .gcs, by the name's ending. "
+            "Returns notes on what the file does not keep.");
 }
 
 }  // namespace culet

@@ -17,8 +17,8 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "stone/gemcad_io.h"
-#include "stone/half_edges.h"
+#include "stone/gemcad/gemcad_io.h"
+#include "stone/solid/half_edges.h"
 #include "stone/stone.h"
 
 namespace {
