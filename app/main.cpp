@@ -57,6 +57,7 @@ int run(int argc, char** argv) {
     add_command_fit(program, exit_code);
     add_command_render(program, exit_code);
     add_command_view(program, exit_code);
+    add_command_studio(program, exit_code);
     add_command_register(program, exit_code);
     add_command_compare(program, exit_code);
     add_command_photo(program, exit_code);

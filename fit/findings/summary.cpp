@@ -139,24 +139,6 @@ std::string least_sure(const FitResult& result) {
         name_list(worst), sigmas[sigmas.size() / 2].first);
 }
 
-std::string suspect_words(const FitResult& result, const std::string& id) {
-    for (const FittedReading& r : result.readings) {
-        if (r.id != id) continue;
-        const double unit = file_unit(r.kind);
-        std::string text = fmt::format("{} ({}{}", r.id, name_of(r.kind), of_words(r.of));
-        if (!is_relation(r.kind)) text += fmt::format(": read {:.6g}", unit * r.value);
-        const auto proposal =
-            std::find_if(result.findings.proposals.begin(), result.findings.proposals.end(),
-                         [&](const Proposal& p) { return p.id == id && !is_relation(r.kind); });
-        if (proposal != result.findings.proposals.end()) {
-            text += fmt::format(", the others say {:.6g} ± {:.2g}{}", unit * proposal->estimate,
-                                unit * proposal->sigma, slip_words(*proposal));
-        }
-        return text + fmt::format(", off by {:.1f} sigma)", std::abs(r.normalized));
-    }
-    return id;
-}
-
 std::string doubtful(const FitResult& result) {
     std::vector<std::string> words;
     for (const std::string& id : result.findings.suspects) {
@@ -213,6 +195,37 @@ std::string next_reading(const FitResult& result) {
 }
 
 }  // namespace
+
+std::string suspect_words(const FitResult& result, const std::string& id) {
+    for (const FittedReading& r : result.readings) {
+        if (r.id != id) continue;
+        const double unit = file_unit(r.kind);
+        std::string text = fmt::format("{} ({}{}", r.id, name_of(r.kind), of_words(r.of));
+        if (!is_relation(r.kind)) text += fmt::format(": read {:.6g}", unit * r.value);
+        const auto proposal =
+            std::find_if(result.findings.proposals.begin(), result.findings.proposals.end(),
+                         [&](const Proposal& p) { return p.id == id && !is_relation(r.kind); });
+        if (proposal != result.findings.proposals.end()) {
+            text += fmt::format(", the others say {:.6g} ± {:.2g}{}", unit * proposal->estimate,
+                                unit * proposal->sigma, slip_words(*proposal));
+        }
+        return text + fmt::format(", off by {:.1f} sigma)", std::abs(r.normalized));
+    }
+    return id;
+}
+
+std::string next_step(const FitResult& result) {
+    for (const FittedReading& r : result.readings) {
+        if (result.findings.suspects.empty() || r.id != result.findings.suspects.front()) continue;
+        std::string text = fmt::format("Read the {}{} again", name_of(r.kind), of_words(r.of));
+        for (const Proposal& proposal : result.findings.proposals) {
+            if (proposal.id == r.id) text += slip_words(proposal);
+        }
+        return text + ".";
+    }
+    const std::string apart = disagreeing(result);
+    return apart.empty() ? next_reading(result) : apart;
+}
 
 std::vector<std::string> fit_summary(const FitResult& result) {
     const FitFindings& findings = result.findings;

@@ -1,5 +1,5 @@
 #pragma once
-// Words for findings: names, readings and slips in sentences. Private to the room.
+// Words for findings: names, readings and slips in sentences.
 
 #include <string>
 #include <vector>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fit/readings/reading_words.h"
+#include "fit/readings/readings_by_row.h"
 #include "fit/readings/readings_csv.h"
 #include "fit/readings/seen_lines.h"
 #include "fit/readings/silhouette_tables.h"
@@ -47,6 +48,27 @@ WrittenReading reading_of_table(const TomlTable& table) {
     return reading;
 }
 
+// Without `problems` the first row that is wrong throws.
+std::vector<WrittenReading> readings_of(const TomlTable& root, std::vector<RowProblem>* problems) {
+    std::vector<WrittenReading> readings;
+    const auto tables = root.tables("reading");
+    if (tables.size() > k_most_readings) {
+        throw InputError(root.file(), "more than 100000 readings");
+    }
+    for (const TomlTable& table : tables) readings.push_back(reading_of_table(table));
+    const auto stone = root.table("stone");
+    const auto csv = stone ? stone->path("readings") : std::nullopt;
+    if (csv) {
+        for (WrittenReading& reading :
+             problems == nullptr ? read_readings_csv(*csv) : read_readings_csv(*csv, *problems)) {
+            readings.push_back(std::move(reading));
+        }
+    }
+    for (WrittenReading& reading : read_silhouettes(root)) readings.push_back(std::move(reading));
+    for (WrittenReading& reading : read_lines(root)) readings.push_back(std::move(reading));
+    return readings;
+}
+
 }  // namespace
 
 std::size_t skipped_readings(const std::vector<WrittenReading>& written) {
@@ -56,23 +78,12 @@ std::size_t skipped_readings(const std::vector<WrittenReading>& written) {
 
 std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
                                           const std::vector<std::string>& overrides) {
-    const TomlTable root = read_toml(stone_file, overrides);
-    std::vector<WrittenReading> readings;
-    const auto tables = root.tables("reading");
-    if (tables.size() > k_most_readings) {
-        throw InputError(stone_file, "more than 100000 readings");
-    }
-    for (const TomlTable& table : tables) readings.push_back(reading_of_table(table));
-    const auto stone = root.table("stone");
-    const auto csv = stone ? stone->path("readings") : std::nullopt;
-    if (csv) {
-        for (WrittenReading& reading : read_readings_csv(*csv)) {
-            readings.push_back(std::move(reading));
-        }
-    }
-    for (WrittenReading& reading : read_silhouettes(root)) readings.push_back(std::move(reading));
-    for (WrittenReading& reading : read_lines(root)) readings.push_back(std::move(reading));
-    return readings;
+    return readings_of(read_toml(stone_file, overrides), nullptr);
+}
+
+std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
+                                          std::vector<RowProblem>& problems) {
+    return readings_of(read_toml(stone_file), &problems);
 }
 
 }  // namespace culet

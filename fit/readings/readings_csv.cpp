@@ -10,6 +10,7 @@
 
 #include "fit/readings/measurement.h"
 #include "fit/readings/reading_words.h"
+#include "fit/readings/readings_by_row.h"
 #include "stone/text/csv.h"
 #include "stone/text/errors.h"
 #include "stone/text/text_scan.h"
@@ -132,7 +133,11 @@ private:
 
 }  // namespace
 
-std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file) {
+namespace {
+
+// Without `problems` the first row that is wrong throws.
+std::vector<WrittenReading> read_rows(const std::filesystem::path& file,
+                                      std::vector<RowProblem>* problems) {
     const auto [rows, separator] = read_csv(file);
     if (rows.empty()) {
         throw InputError(file, "no readings: expected the header kind,of,value,sigma");
@@ -140,8 +145,34 @@ std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file)
     if (rows.size() - 1 > k_most_readings) throw InputError(file, "more than 100000 readings");
     const RowReader reader(file, rows.front(), separator);
     std::vector<WrittenReading> readings;
-    for (std::size_t r = 1; r < rows.size(); ++r) readings.push_back(reader.reading(rows[r]));
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+        try {
+            readings.push_back(reader.reading(rows[r]));
+        } catch (const InputError& error) {
+            if (problems == nullptr) throw;
+            const std::string place = fmt::format("{}:{}: ", file.string(), rows[r].line);
+            const std::string what = error.what();
+            problems->push_back(
+                {rows[r].line, what.starts_with(place) ? what.substr(place.size()) : what});
+            readings.emplace_back();
+            readings.back().file = file;
+            readings.back().line = rows[r].line;
+            readings.back().kind = name_of(ReadingKind::inclination);
+            readings.back().skipped = true;
+        }
+    }
     return readings;
+}
+
+}  // namespace
+
+std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file) {
+    return read_rows(file, nullptr);
+}
+
+std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file,
+                                              std::vector<RowProblem>& problems) {
+    return read_rows(file, &problems);
 }
 
 }  // namespace culet

@@ -6,6 +6,7 @@
 
 #include "stone/text/errors.h"
 #include "stone/text/name_suggestions.h"
+#include "stone/text/path_fence.h"
 #include "stone/text/toml_advice.h"
 #include "stone/text/toml_parse.h"
 
@@ -147,7 +148,13 @@ std::optional<std::filesystem::path> TomlTable::path(std::string_view key) const
     const auto name = text(key);
     if (!name) return std::nullopt;
     if (name->empty()) fail(key, fmt::format("{} names no file", key));
-    return file().parent_path() / *name;
+    std::filesystem::path path = file().parent_path() / *name;
+    try {
+        require_within_fence(path);
+    } catch (const InputError& error) {
+        fail(key, error.what());
+    }
+    return path;
 }
 
 const std::string* TomlTable::held_file(std::string_view key) const {

@@ -1,0 +1,72 @@
+#pragma once
+// The studio's answers to its page, without the network.
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "studio/events.h"
+#include "studio/job_queue.h"
+#include "studio/project.h"
+
+namespace culet {
+
+struct Call {
+    bool posts = false;  ///< POST; otherwise GET
+    std::string path, body;
+    std::string window;  ///< id of the window that asks
+    std::string name;    ///< of an uploaded file
+};
+
+struct Answer {
+    int status = 200;
+    std::string type, body;
+};
+
+class Answers {
+public:
+    /// `input` as in StudioOptions. Throws InputError.
+    Answers(const std::filesystem::path& input, std::string version);
+
+    /// From any thread. What is wrong in a call is an answer with `trouble`, one line for people.
+    Answer to(const Call& call);
+    Events& events() { return events_; }
+    /// A window begins to listen, or was closed: what it asked for is cancelled, unless another
+    /// window shows it too.
+    void window_opened(const std::string& window);
+    void window_closed(const std::string& window);
+    /// Looks for changes of files by other programs, and tells the windows.
+    void look_outside();
+    /// Adds work that throws, to see that the studio goes on. For tests.
+    JobQueue& jobs() { return jobs_; }
+
+private:
+    std::string state() const;
+    std::string table_json() const;
+    std::string changed(const std::string& window);
+    std::string post(const Call& call);
+    std::string begin(const Call& call);
+    std::string open(const std::filesystem::path& stone_file, const std::string& window);
+    void ask_for_fit(const std::string& window);
+    void fit_ended(int revision, const WorkEnd& end);
+
+    std::string version_;
+    mutable std::mutex mutex_;  // of all below; held while the work of a job is copied (apart.h)
+    std::filesystem::path folder_;
+    std::unique_ptr<Project> project_;
+    int opened_ = 0, uploads_ = 0;  // counts projects
+    bool outside_ = false;
+    std::string trouble_, fit_, drawings_, fitted_;  // JSON; the mesh of the last fit
+    int fit_revision_ = 0;
+    bool fit_runs_ = false;
+    Events events_;
+    JobQueue jobs_{mutex_};  // last: its thread uses the rest
+};
+
+/// Most bytes of an uploaded file, and of any other call.
+inline constexpr std::size_t k_largest_upload = 64u << 20, k_largest_call = 1u << 20;
+inline constexpr int k_most_uploads = 100;  ///< of one run
+
+}  // namespace culet

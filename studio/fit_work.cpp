@@ -1,0 +1,143 @@
+#include "studio/fit_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "fit/findings/summary.h"
+#include "fit/findings/words.h"
+#include "fit/fit.h"
+#include "page/drawing.h"
+#include "page/fit_page.h"
+#include "page/fit_paint.h"
+#include "stone/mesh/mesh_io.h"
+#include "stone/solid_input.h"
+#include "stone/text/errors.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of a reading's redundancy. Below it the fit follows whatever was read, and does not contradict
+// the first check.
+constexpr double k_checked = 0.1;
+
+// Views of a stone in one manner of colouring.
+Json drawing_json(const Solid& solid, const std::vector<FacetPaint>& paint,
+                  const PaintLegend& legend) {
+    Json json{{"views", Json::array()}, {"legend", legend.what}, {"mark", legend.mark}};
+    for (const ViewSide side : {ViewSide::crown, ViewSide::pavilion}) {
+        Json facets = Json::array();
+        for (const SeenFacet& seen : view_of(solid, side, 1).facets)
+            facets.push_back(solid.facets[std::size_t(seen.facet)].name);
+        json["views"].push_back({{"svg", draw_facets_svg(solid, side, paint)},
+                                 {"caption", caption_of(side)},
+                                 {"facets", std::move(facets)}});
+    }
+    if (!legend.what.empty()) {
+        json["gradient"] = css_gradient(legend.map);
+        json["ticks"] = {legend.from, legend.middle, legend.to};
+    }
+    return json;
+}
+
+Json drawings_json(const Solid& solid, const std::string& report) {
+    Json json;
+    for (const auto& [name, colour] :
+         {std::pair{"residual", FitColour::residual}, std::pair{"sigma", FitColour::uncertainty}}) {
+        const FitPaint paint = fit_paint(solid, report, colour);
+        json[name] = drawing_json(solid, paint.facets, paint.legend);
+    }
+    return json;
+}
+
+// Without the name of the file, which the table stands for.
+std::string in_the_table(const std::string& words, const Reading& reading) {
+    const std::string place = place_words(reading) + ": ";
+    return words.starts_with(place) ? words.substr(place.size()) : words;
+}
+
+Json flag_json(const FitResult& result, const Reading& reading) {
+    Json flag;
+    const auto& doubts = result.findings.doubts;
+    const auto told = std::find_if(doubts.begin(), doubts.end(), [&](const std::string& words) {
+        return words.starts_with(place_words(reading) + ":");
+    });
+    flag["what"] = sentence_of(told != doubts.end() ? in_the_table(*told, reading)
+                                                    : suspect_words(result, reading.id));
+    for (const Proposal& proposal : result.findings.proposals) {
+        if (proposal.id != reading.id || proposal.slip.empty()) continue;
+        flag["suggested"] = fmt::format("{:.6g}", file_unit(reading.kind) * proposal.corrected);
+        flag["slip"] = proposal.slip;
+    }
+    return flag;
+}
+
+// By line of the readings file; a row may hold several readings, of which the worst counts.
+Json rows_json(const LoadedStone& loaded, const std::vector<Reading>& bound,
+               const FitResult& result) {
+    std::map<std::string, const Reading*> by_id;
+    for (const Reading& reading : bound) {
+        if (reading.file == loaded.readings) by_id[reading.id] = &reading;
+    }
+    std::map<long, Json> rows;
+    for (const FittedReading& fitted : result.readings) {
+        const auto found = by_id.find(fitted.id);
+        if (found == by_id.end()) continue;
+        Json& row = rows[found->second->line];
+        row["line"] = found->second->line;
+        row["checked"] = row.value("checked", true) && fitted.redundancy >= k_checked;
+        const double off = std::abs(fitted.normalized);
+        if (std::isfinite(off) && fitted.left_out.empty())
+            row["off"] = std::max(row.value("off", 0.0), off);
+        if (fitted.suspect && !row.contains("flag"))
+            row["flag"] = flag_json(result, *found->second);
+    }
+    Json json = Json::array();
+    for (auto& [line, row] : rows) json.push_back(std::move(row));
+    return json;
+}
+
+}  // namespace
+
+std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
+                           const Progress& progress) {
+    const FitInput input = fit_input(loaded.file.stone, loaded.written);
+    FitOptions options = loaded.options;
+    if (!start.empty()) {
+        Solid earlier = solid_of_bytes(start, "earlier.obj").solid;
+        const auto& facets = input.stone.solid.facets;
+        const bool fits = std::all_of(facets.begin(), facets.end(), [&](const Facet& facet) {
+            return find_facet(earlier, facet.name) >= 0;
+        });
+        if (fits) options.start = std::move(earlier);
+    }
+    const FitResult result = fit_stone(input, options, progress);
+    const std::string report = fit_report(result);
+    const FitView view{report, result.solid, std::string(name_of(result.unit))};
+    Json json{{"status", name_of(result.status)},
+              {"card_html", fit_card(view)},
+              {"look_html", fit_look_section(view)},
+              {"next", next_step(result)},
+              {"rows", rows_json(loaded, input.readings, result)},
+              {"seconds", result.log.seconds},
+              {"drawings", drawings_json(result.solid, report)}};
+    if (!result.findings.help.empty()) {
+        const NextReading& help = result.findings.help.front();
+        json["next_reading"] = {{"kind", name_of(help.kind)}, {"of", help.of}};
+    }
+    if (result.status != FitStatus::not_converged)
+        json["solid"] = mesh_text(result.solid, MeshFormat::obj);
+    return json.dump();
+}
+
+std::string plain_drawings(const Solid& solid) {
+    return Json{{"mesh", drawing_json(solid, {}, {})}}.dump();
+}
+
+}  // namespace culet

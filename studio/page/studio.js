@@ -1,0 +1,166 @@
+// The studio's page: which screen is shown, and what the program tells.
+
+class StudioPage {
+  constructor() {
+    this.fit = null;
+    this.drawings = null;
+    this.screen = "";
+  }
+
+  start() {
+    this.view = new StoneView(by_id("views"), (name) => this.choose(name));
+    this.sheet = new ReadingsSheet((row) => this.enter(row));
+    this.begin = new BeginScreen();
+    const on = (id, act) => by_id(id).addEventListener("click", act);
+    on("trouble-close", () => show_trouble(""));
+    on("leave", () => call("/api/begin/leave", {}));
+    on("undo", () => this.step("undo"));
+    on("redo", () => this.step("redo"));
+    on("remove-row", () => this.sheet.remove());
+    on("cancel-fit", () => call("/api/fit/cancel", {}));
+    on("take-other", () => this.settle(true));
+    on("keep-own", () => this.settle(false));
+    on("help-button", () => by_id("help").showModal());
+    on("help-close", () => by_id("help").close());
+    document.querySelectorAll("[name=paint]").forEach((radio) => radio.addEventListener("change", () => this.paint()));
+    document.addEventListener("keydown", (event) => this.on_key(event));
+    this.listen();
+  }
+
+  listen() {
+    const events = new EventSource(`/api/events?window=${window_id}`);
+    events.addEventListener("open", () => this.look());
+    events.addEventListener("opened", () => this.look());
+    events.addEventListener("table", (event) => { if (JSON.parse(event.data).by !== window_id) this.look_at_table(); });
+    events.addEventListener("fit", () => this.look_at_fit());
+    events.addEventListener("progress", (event) => { by_id("progress").value = JSON.parse(event.data).fraction; });
+    events.addEventListener("error", () => say("The studio does not answer; trying again."));
+  }
+
+  async look() {
+    const state = await call("/api/state");
+    if (!state) return;
+    const reads = state.screen === "readings";
+    by_id("readings").hidden = !reads;
+    by_id("begin").hidden = reads;
+    for (const id of ["leave", "undo", "redo"]) by_id(id).hidden = !reads;
+    by_id("title").textContent = reads ? state.name : "culet studio";
+    document.title = reads ? `${state.name} · culet studio` : "culet studio";
+    show_trouble("");
+    if (!reads) { this.opened = undefined; return this.begin.show(); }
+    const fresh = this.opened !== state.opened;
+    this.opened = state.opened;
+    this.drawings = (await call("/api/drawings")) || this.drawings;
+    await this.look_at_table();
+    await this.look_at_fit();
+    if (fresh) this.sheet.go_to(Math.max(this.sheet.table.rows.findIndex((row) => !row.read), 0), "value");
+  }
+
+  async look_at_table() {
+    const table = await call("/api/table");
+    if (!table) return;
+    this.sheet.show(table);
+    this.table_changed();
+  }
+
+  table_changed() {
+    const table = this.sheet.table;
+    by_id("undo").disabled = !table.undo;
+    by_id("redo").disabled = !table.redo;
+    by_id("outside").hidden = !table.outside;
+    by_id("outside-file").textContent = table.file;
+    const read = table.rows.filter((row) => row.read).length;
+    by_id("sheet-note").textContent = `${read} of ${table.rows.length} rows have a value. Saved in ${table.folder}/${table.file}.`;
+    if (table.trouble) show_trouble(table.trouble);
+    this.wait_for_fit(read > 0 && !(this.fit && this.fit.revision === table.revision));
+    if (read === 0) this.show_card(null);
+  }
+
+  wait_for_fit(waits) {
+    clearTimeout(this.timer);
+    by_id("card").classList.toggle("stale", waits);
+    if (!waits) { by_id("work").hidden = true; return; }
+    // A fit that is done at once shows no bar.
+    this.timer = setTimeout(() => { by_id("progress").removeAttribute("value"); by_id("work").hidden = false; }, 700);
+  }
+
+  async look_at_fit() {
+    const fit = await call("/api/fit");
+    if (!fit || !this.sheet.table) return;
+    this.fit = fit;
+    this.sheet.show_fit(fit);
+    this.wait_for_fit(fit.runs);
+    this.show_card(fit.fit);
+    this.paint();
+  }
+
+  /** The verdict on the whole stone, what to do next, and the findings. */
+  show_card(fit) {
+    const card = by_id("card");
+    by_id("next").textContent = "";
+    by_id("looks").replaceChildren();
+    if (fit && fit.card_html) {
+      // The program's own page parts, in which it escapes all texts.
+      card.innerHTML = fit.card_html;
+      by_id("looks").innerHTML = fit.look_html;
+      by_id("next").textContent = fit.next || "nothing more is needed: the readings suffice.";
+    } else {
+      const word = fit && fit.trouble ? "No fit" : "No verdict yet";
+      const text = fit && fit.trouble ? fit.trouble : "Write what you read into the column value.";
+      card.replaceChildren(made("div", {class: "verdict none"}, made("span", {class: "symbol", "aria-hidden": "true"}, "?"),
+        made("div", {}, made("p", {class: "word"}, word), made("p", {}, text))));
+    }
+    const wanted = fit && fit.next_reading ? fit.next_reading.of : [];
+    this.view.want(wanted);
+  }
+
+  paint() {
+    const chosen = document.querySelector("[name=paint]:checked").value;
+    const fitted = this.fit && this.fit.fit && this.fit.fit.drawings;
+    const drawing = fitted ? fitted[chosen] : this.drawings && this.drawings.mesh;
+    if (!drawing) return;
+    this.view.show(drawing);
+    by_id("legend").replaceChildren(...legend_of(drawing));
+  }
+
+  /** A row under the cursor lights its facets. */
+  enter(row) {
+    this.view.light(row ? row.facets : []);
+    by_id("facet-line").textContent = row && row.facets.length ? row.facets.slice(0, 2).map((name) => this.view.about(name)).join(" · ") + (row.facets.length > 2 ? ` and ${row.facets.length - 2} more` : "") : "This row is about the whole stone.";
+  }
+
+  choose(name) {
+    if (this.sheet.go_to_facet(name)) return;
+    this.view.light([name]);
+    by_id("facet-line").textContent = `${this.view.about(name)}. No row reads it.`;
+  }
+
+  async step(which) {
+    const {opened, shape} = this.sheet.table;
+    const table = await call("/api/" + which, {opened, shape});
+    if (table) { this.sheet.show(table); this.table_changed(); }
+  }
+
+  async settle(take_other) {
+    const table = await call("/api/settle", {take_other});
+    if (table) { this.sheet.show(table); this.table_changed(); }
+  }
+
+  on_key(event) {
+    if (event.key === "F1") { event.preventDefault(); by_id("help").showModal(); return; }
+    if (by_id("readings").hidden) return;
+    const typing = this.sheet.place_of(document.activeElement) && document.activeElement.value !== document.activeElement.dataset.shown;
+    const key = event.key.toLowerCase();
+    if ((event.ctrlKey || event.metaKey) && !typing && (key === "z" || key === "y")) {
+      event.preventDefault();
+      this.step(key === "y" || event.shiftKey ? "redo" : "undo");
+    } else if (event.key === "F2") {
+      const flagged = this.sheet.table.rows.findIndex((_, r) => this.sheet.flag(r));
+      const next = flagged >= 0 ? flagged : this.sheet.wanted_row();
+      if (next >= 0) this.sheet.go_to(next, "value");
+    }
+  }
+}
+
+const studio = new StudioPage();
+studio.start();
