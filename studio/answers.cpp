@@ -8,7 +8,6 @@
 
 #include "stone/cuts/cuts.h"
 #include "stone/text/errors.h"
-#include "studio/begin_json.h"
 #include "studio/fit_work.h"
 #include "studio/new_project.h"
 #include "studio/table_json.h"

@@ -9,9 +9,9 @@
 
 namespace culet {
 
-/// JSON: `status`, `card_html`, `look_html`, `next`, `next_reading`, `rows` (line, off, checked, flag),
-/// `drawings`, `seconds`, and `solid`, the fitted mesh as OBJ. `start` is the `solid` of an earlier
-/// fit of the same stone, or empty. Throws InputError and Interrupted.
+/// JSON: `status`, `card_html`, `look_html`, `next`, `next_reading`, `rows` (line, off, checked,
+/// flag), `drawings`, `seconds`, and `solid`, the fitted mesh as OBJ. `start` is the `solid` of an
+/// earlier fit of the same stone, or empty. Throws InputError and Interrupted.
 std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
                            const Progress& progress);
 

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fit/readings/readings_template.h"
 #include "stone/cuts/cuts.h"
 #include "stone/design/design.h"
 #include "stone/file_kind.h"
+#include "stone/material/material.h"
 #include "stone/mesh/mesh_io.h"
 #include "stone/solid_input.h"
 #include "stone/text/errors.h"
@@ -219,6 +221,31 @@ void remember_project(const fs::path& stone_file) {
     } catch (const InputError&) {
         // The studio works without it.
     }
+}
+
+std::string begin_json(const std::filesystem::path& folder) {
+    using Json = nlohmann::ordered_json;
+    Json json{{"folder", folder.string()},
+              {"cuts", Json::array()},
+              {"materials", catalogue_names()},
+              {"stones", Json::array()},
+              {"recent", Json::array()}};
+    for (const CutKind& kind : cut_kinds()) {
+        Json parameters = Json::array();
+        for (const CutParameter& p : kind.parameters) {
+            parameters.push_back({{"name", p.name},
+                                  {"value", p.value},
+                                  {"least", p.least},
+                                  {"most", p.most},
+                                  {"unit", p.unit},
+                                  {"what", p.what}});
+        }
+        json["cuts"].push_back(
+            {{"name", kind.name}, {"summary", kind.summary}, {"parameters", parameters}});
+    }
+    for (const auto& file : stone_files_in(folder)) json["stones"].push_back(file.string());
+    for (const auto& file : recent_projects()) json["recent"].push_back(file.string());
+    return json.dump();
 }
 
 }  // namespace culet

@@ -33,6 +33,10 @@ std::filesystem::path project_of_cut(const std::filesystem::path& folder, const 
 /// Stone files in `folder` and in the folders within it, in order of their names.
 std::vector<std::filesystem::path> stone_files_in(const std::filesystem::path& folder);
 
+/// What the begin screen offers, as JSON: the standard cuts with their parameters, materials,
+/// stones in `folder` and the recent ones.
+std::string begin_json(const std::filesystem::path& folder);
+
 /// The projects that were opened last, the latest first, from a list in the user's state folder.
 std::vector<std::filesystem::path> recent_projects();
 /// Puts a project at the list's head. A list that cannot be written is left as it is.

@@ -11,9 +11,15 @@
 #include "stone/text/errors.h"
 #include "studio/answers.h"
 #include "studio/gate.h"
-#include "studio/studio_page.h"
+#include "studio/templates.h"
 
 namespace culet {
+
+namespace embedded {
+extern const char* const page_css;
+extern const char* const studio_css;
+extern const char* const studio_js;
+}  // namespace embedded
 
 namespace {
 
@@ -24,7 +30,7 @@ using httplib::Server;
 
 // Each listening window keeps one of them.
 constexpr std::size_t k_threads = k_most_windows + 8;
-constexpr int k_see_other = 303, k_refused = 403, k_too_large = 413, k_busy = 503;
+constexpr int k_found = 200, k_see_other = 303, k_refused = 403, k_too_large = 413, k_busy = 503;
 
 std::vector<std::string> all_of(const Request& request, const char* header) {
     std::vector<std::string> values;
@@ -40,6 +46,11 @@ Knock knock_of(const Request& request) {
     return knock;
 }
 
+// A page that leads to an address at once.
+std::string page_to(const std::string& address) {
+    return filled(templates::opening, {{"address", address}});
+}
+
 Call call_of(const Request& request) {
     return {request.method == "POST", request.path, request.body, request.get_param_value("window"),
             request.get_param_value("name")};
@@ -53,7 +64,7 @@ struct Studio::Parts {
           port(bound(options.port)),
           gate(port),
           address(gate.address()),
-          page(studio_page(options.version)) {
+          page(filled(templates::studio, {{"version", options.version}})) {
         prepare();
         add_routes();
     }
@@ -117,6 +128,13 @@ Server::HandlerResponse Studio::Parts::let_in(const Request& request, Response& 
         case Gate::Verdict::give_cookie:
             response.set_header("Set-Cookie", gate.cookie());
             response.set_redirect("/", k_see_other);
+            // A strict cookie does not follow a redirect of a link on another page, but the page's
+            // own step does.
+            if (request.get_header_value("Sec-Fetch-Site") == "cross-site") {
+                response.headers.erase("Location");
+                response.status = k_found;
+                response.set_content(page_to("/"), "text/html; charset=utf-8");
+            }
             return Server::HandlerResponse::Handled;
         case Gate::Verdict::pass:
             break;
@@ -133,13 +151,14 @@ Server::HandlerResponse Studio::Parts::let_in(const Request& request, Response& 
 
 void Studio::Parts::add_routes() {
     const auto file = [this](const char* path, const std::string& content, const char* type) {
-        server.Get(path, [&content, type](const Request&, Response& response) {
+        server.Get(path, [content, type](const Request&, Response& response) {
             response.set_content(content, type);
         });
     };
     file("/", page, "text/html; charset=utf-8");
-    file("/studio.css", studio_css(), "text/css; charset=utf-8");
-    file("/studio.js", studio_js(), "text/javascript; charset=utf-8");
+    file("/studio.css",  // In the look of all pages.
+         std::string(embedded::page_css) + embedded::studio_css, "text/css; charset=utf-8");
+    file("/studio.js", embedded::studio_js, "text/javascript; charset=utf-8");
     server.Get("/api/events", [this](const Request& request, Response& response) {
         listen_to_events(request, response);
     });
@@ -182,6 +201,10 @@ Studio::~Studio() = default;
 
 const std::string& Studio::address() const {
     return parts_->address;
+}
+
+std::string Studio::opening_page() const {
+    return page_to(parts_->address);
 }
 
 int Studio::port() const {

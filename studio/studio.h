@@ -27,6 +27,9 @@ public:
     /// `http://127.0.0.1:PORT/?token=...`: whoever has it may use the studio.
     const std::string& address() const;
     int port() const;
+    /// A page that leads there: other users see a browser's command line, but not into a private
+    /// folder.
+    std::string opening_page() const;
 
     /// Answers until `wanted`, which is asked ten times a second, returns false.
     void run(const std::function<bool()>& wanted);

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "app/program/options.h"
 #include "app/program/other_programs.h"
+#include "app/program/scratch_folder.h"
 #include "app/program/terminal.h"
+#include "stone/text/output_file.h"
 #include "studio/studio.h"
 
 namespace culet {
@@ -23,13 +26,13 @@ struct StudioCommand {
 };
 
 // Some browsers keep the program that opens them waiting, as long as they run.
-void open_window(const std::string& address, bool quiet) {
+void open_window(const std::filesystem::path& page, bool quiet) {
     if (!has_program("xdg-open")) {
         say("no xdg-open here: open the address in a browser", quiet);
         return;
     }
-    std::thread([address, quiet] {
-        if (run_program({"xdg-open", address}, "/dev/null") != 0)
+    std::thread([page, quiet] {
+        if (run_program({"xdg-open", page.string()}, "/dev/null") != 0)
             say("no browser came up: open the address by hand", quiet);
     }).detach();
 }
@@ -39,7 +42,11 @@ int run_studio(const StudioCommand& command) {
     print_lines(studio.address());
     std::fflush(stdout);
     say("Ctrl-C ends the studio; every change is saved when it is made", command.common.quiet);
-    if (!command.no_open) open_window(studio.address(), command.common.quiet);
+    const ScratchFolder scratch;
+    if (!command.no_open) {
+        write_text(scratch.path() / "studio.html", studio.opening_page());
+        open_window(scratch.path() / "studio.html", command.common.quiet);
+    }
     studio.run([] { return !interrupted(); });
     return exit_good;
 }

@@ -79,6 +79,24 @@ TEST(JobQueue, CancelsWhatAWindowAskedFor) {
     EXPECT_EQ(second.get_future().get(), How::stopped);
 }
 
+TEST(JobQueue, GoesOnAfterWorkThatThrowsAndCrashes) {
+    std::mutex quiet;
+    JobQueue queue(quiet);
+    std::promise<How> ends[3];
+    const std::function<std::string(const Progress&)> works[] = {
+        [](const Progress&) -> std::string { throw InputError("broken"); },
+        [](const Progress&) -> std::string { abort(); },
+        [](const Progress&) { return std::string("good"); }};
+    for (int i = 0; i < 3; ++i) {
+        queue.add({std::to_string(i), "w", works[i], {}, [&ends, i](const WorkEnd& end) {
+                       ends[i].set_value(end.how);
+                   }});
+    }
+    EXPECT_EQ(ends[0].get_future().get(), How::failed);
+    EXPECT_EQ(ends[1].get_future().get(), How::failed);
+    EXPECT_EQ(ends[2].get_future().get(), How::done);
+}
+
 TEST(JobQueue, ANewerJobReplacesOneOfItsName) {
     std::mutex quiet;
     JobQueue queue(quiet);

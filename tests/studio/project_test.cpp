@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <cstdlib>
 #include <filesystem>
 
 #include "stone/cuts/cuts.h"
 #include "stone/mesh/mesh_io.h"
 #include "stone/text/errors.h"
 #include "stone/text/path_fence.h"
+#include "studio/answers.h"
 #include "studio/edited_file.h"
 #include "studio/new_project.h"
 #include "studio/readings_table.h"
@@ -81,6 +85,26 @@ TEST_F(EditedFiles, NeverOverwriteAnothersChange) {
     EXPECT_FALSE(file.changed_outside());
     fs::remove(file.path());
     EXPECT_TRUE(file.changed_outside());
+}
+
+using Windows = test::FolderTest;
+
+// Issue 65: closing the window cancels what it asked for.
+TEST_F(Windows, CancelTheirFitWhenTheyAreClosed) {
+    fs::copy(fs::path(CULET_SOURCE_DIR) / "samples" / "cutters-evening", folder_ / "evening");
+    setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+    Answers answers(folder_ / "evening" / "stone.toml", "0");
+    const auto window = answers.events().open("w");
+    const std::string cell = R"({"opened": 1, "shape": 1, "cells": [{"row": 0, "column": "value", )"
+                             R"("text": "33.5"}]})";
+    ASSERT_EQ(answers.to({true, "/api/cells", cell, "w", {}}).status, 200);
+    answers.events().close(window);
+    answers.window_closed("w");
+    const auto fit = [&] { return answers.to({false, "/api/fit", {}, {}, {}}).body; };
+    while (fit().find(R"("runs":true)") != std::string::npos) usleep(1000);
+    EXPECT_NE(fit().find(R"("status":"cancelled")"), std::string::npos) << fit();
+    answers.window_opened("next");
+    EXPECT_NE(fit().find(R"("runs":true)"), std::string::npos);
 }
 
 using NewProjects = test::FolderTest;

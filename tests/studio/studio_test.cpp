@@ -98,6 +98,11 @@ TEST_F(StudioOverTheNetwork, TokenBecomesCookieAndLeavesTheAddress) {
     EXPECT_NE(cookie.find("SameSite=Strict"), std::string::npos);
     EXPECT_EQ(cookie.find(token_), std::string::npos);
     EXPECT_EQ(get("/", cookie_)->status, 200);
+    // From a link on another page, a strict cookie would not follow the redirect.
+    const auto linked = get("/?token=" + token_, {{"Sec-Fetch-Site", "cross-site"}});
+    EXPECT_EQ(linked->status, 200);
+    EXPECT_NE(linked->body.find("0;url=/\""), std::string::npos);
+    EXPECT_EQ(linked->body.find(token_), std::string::npos);
 }
 
 TEST_F(StudioOverTheNetwork, AnswersNobodyWithoutCookie) {
