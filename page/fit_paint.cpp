@@ -8,6 +8,7 @@
 #include "page/fit_fields.h"
 #include "page/html.h"
 #include "page/quantity.h"
+#include "stone/design/index_names.h"
 
 namespace culet {
 
@@ -115,10 +116,24 @@ FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
     return paint;
 }
 
+// Readings may name facets by tier and index (A@76).
+void name_facets_at_indices(const Solid& solid, Json& fit) {
+    const auto readings = fit.find("readings");
+    if (readings == fit.end() || !readings->is_array()) return;
+    for (Json& reading : *readings) {
+        for (const Json& one : Json(array_at(reading, "of"))) {
+            if (!one.is_string()) continue;
+            for (const int f : facets_at_index(solid, one.get<std::string>()))
+                reading["of"].push_back(solid.facets[std::size_t(f)].name);
+        }
+    }
+}
+
 }  // namespace
 
 FitPaint fit_paint(const Solid& solid, const std::string& fit_json, FitColour colour) {
-    const Json fit = parsed_object<Json>(fit_json, "the fit report for the drawing");
+    Json fit = parsed_object<Json>(fit_json, "the fit report for the drawing");
+    name_facets_at_indices(solid, fit);
     std::vector<std::string> names;
     for (const Facet& facet : solid.facets) names.push_back(facet.name);
     return colour == FitColour::residual ? residuals(fit, names) : uncertainties(fit, names);

@@ -223,8 +223,10 @@ std::string next_step(const FitResult& result) {
         }
         return text + ".";
     }
-    const std::string apart = disagreeing(result);
-    return apart.empty() ? next_reading(result) : apart;
+    for (const std::string& words : {disagreeing(result), next_reading(result)}) {
+        if (!words.empty()) return words;
+    }
+    return result.usable() ? "" : sentence_of(result.message);
 }
 
 std::vector<std::string> fit_summary(const FitResult& result) {

@@ -72,6 +72,7 @@ class StudioPage {
     const read = table.rows.filter((row) => row.read).length;
     by_id("sheet-note").textContent = `${read} of ${table.rows.length} rows have a value. Saved in ${table.folder}/${table.file}.`;
     if (table.trouble) show_trouble(table.trouble);
+    this.show_next();
     this.wait_for_fit(read > 0 && !(this.fit && this.fit.revision === table.revision));
     if (read === 0) this.show_card(null);
   }
@@ -94,16 +95,23 @@ class StudioPage {
     this.paint();
   }
 
-  /** The verdict on the whole stone, what to do next, and the findings. */
+  /** The one thing to do next: a marked row first, which the fit may not have seen yet. */
+  show_next() {
+    const fit = this.fit && this.fit.fit, sheet = this.sheet, r = sheet.first_flagged();
+    const known = r >= 0 && sheet.fit_of(sheet.table.rows[r]);
+    const look = r >= 0 && !(known && known.flag);
+    by_id("next").textContent = look ? `look at row ${r + 1} again (F2): ${sheet.words(r)}.`
+      : fit && fit.card_html ? fit.next || "nothing more is needed: the readings suffice." : "";
+  }
+
+  /** The verdict on the whole stone, and the findings. */
   show_card(fit) {
     const card = by_id("card");
-    by_id("next").textContent = "";
     by_id("looks").replaceChildren();
     if (fit && fit.card_html) {
       // The program's own page parts, in which it escapes all texts.
       card.innerHTML = fit.card_html;
       by_id("looks").innerHTML = fit.look_html;
-      by_id("next").textContent = fit.next || "nothing more is needed: the readings suffice.";
     } else {
       const word = fit && fit.trouble ? "No fit" : "No verdict yet";
       const text = fit && fit.trouble ? fit.trouble : "Write what you read into the column value.";
@@ -112,6 +120,7 @@ class StudioPage {
     }
     const wanted = fit && fit.next_reading ? fit.next_reading.of : [];
     this.view.want(wanted);
+    this.show_next();
   }
 
   paint() {
@@ -155,7 +164,7 @@ class StudioPage {
       event.preventDefault();
       this.step(key === "y" || event.shiftKey ? "redo" : "undo");
     } else if (event.key === "F2") {
-      const flagged = this.sheet.table.rows.findIndex((_, r) => this.sheet.flag(r));
+      const flagged = this.sheet.first_flagged();
       const next = flagged >= 0 ? flagged : this.sheet.wanted_row();
       if (next >= 0) this.sheet.go_to(next, "value");
     }

@@ -55,6 +55,8 @@ class ReadingsSheet {
     return row && row.flag && (row.flag.refused || !judged) ? row.flag : null;
   }
 
+  first_flagged() { return this.table.rows.findIndex((_, r) => this.flag(r)); }
+
   fit_of(row) {
     const fit = this.fit;
     if (!fit || fit.opened !== this.table.opened || fit.revision !== this.table.revision || !fit.fit || !fit.fit.rows) return null;
