@@ -56,6 +56,26 @@ Json drawings_json(const Solid& solid, const std::string& report) {
     return json;
 }
 
+// `readings.csv line 12` is the fourth row of the table, say, which shows no lines.
+std::string with_rows(const std::string& text, const LoadedStone& loaded) {
+    std::map<std::string, int> row_of;
+    for (const WrittenReading& written : loaded.written) {
+        if (written.file == loaded.readings)
+            row_of.emplace(std::to_string(written.line), int(row_of.size()) + 1);
+    }
+    const std::string place = loaded.readings.filename().string() + " line ";
+    std::string told;
+    for (std::size_t at = 0;;) {
+        const std::size_t next = text.find(place, at);
+        told += text.substr(at, next - at);
+        if (next == std::string::npos) return told;
+        at = std::min(text.find_first_not_of("0123456789", next + place.size()), text.size());
+        const auto row = row_of.find(text.substr(next + place.size(), at - next - place.size()));
+        told +=
+            row == row_of.end() ? text.substr(next, at - next) : fmt::format("row {}", row->second);
+    }
+}
+
 // Without the name of the file, which the table stands for.
 std::string in_the_table(const std::string& words, const Reading& reading) {
     const std::string place = place_words(reading) + ": ";
@@ -121,8 +141,8 @@ std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
     const std::string report = fit_report(result);
     const FitView view{report, result.solid, std::string(name_of(result.unit))};
     Json json{{"status", name_of(result.status)},
-              {"card_html", fit_card(view)},
-              {"look_html", fit_look_section(view)},
+              {"card_html", with_rows(fit_card(view), loaded)},
+              {"look_html", with_rows(fit_look_section(view), loaded)},
               {"next", next_step(result)},
               {"rows", rows_json(loaded, input.readings, result)},
               {"seconds", result.log.seconds},

@@ -184,7 +184,10 @@ void Studio::Parts::listen_to_events(const Request& request, Response& response)
         // A comment now and then finds out that a window was closed.
         constexpr auto k_beat = 500ms;
         const auto news = answers.events().next(*window, k_beat);
-        if (answers.events().stopped()) return false;
+        if (answers.events().stopped()) {
+            sink.done();
+            return true;
+        }
         const std::string line =
             news ? fmt::format("event: {}\ndata: {}\n\n", news->first, news->second) : ":\n\n";
         return sink.is_writable() && sink.write(line.data(), line.size());

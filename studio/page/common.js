@@ -29,6 +29,7 @@ async function call(path, body, parameters = "") {
       method: posts ? "POST" : "GET", body: posts ? (raw ? body : JSON.stringify(body)) : undefined});
     const type = answer.headers.get("Content-Type") || "";
     const content = type.startsWith("application/json") ? await answer.json() : {trouble: await answer.text()};
+    if (answer.ok && posts) show_trouble("");
     if (answer.ok) return content;
     show_trouble(content.trouble);
   } catch (error) {

@@ -34,7 +34,7 @@ class StudioPage {
     events.addEventListener("table", (event) => { if (JSON.parse(event.data).by !== window_id) this.look_at_table(); });
     events.addEventListener("fit", () => this.look_at_fit());
     events.addEventListener("progress", (event) => { by_id("progress").value = JSON.parse(event.data).fraction; });
-    events.addEventListener("error", () => say("The studio does not answer; trying again."));
+    events.addEventListener("error", () => show_trouble("The studio does not answer; trying again. What was saved is safe."));
   }
 
   async look() {
@@ -93,6 +93,7 @@ class StudioPage {
     this.wait_for_fit(fit.runs);
     this.show_card(fit.fit);
     this.paint();
+    this.enter(this.sheet.table.rows[this.sheet.row] || null);
   }
 
   /** The one thing to do next: a marked row first, which the fit may not have seen yet. */

@@ -82,9 +82,10 @@ class ReadingsSheet {
       head.replaceChildren(...this.head_of(r, r === wanted));
       for (const input of line.querySelectorAll("input")) {
         const column = input.dataset.column, text = this.text(r, column);
-        // What a person is typing stays.
-        if (input !== document.activeElement || input.value === input.dataset.shown) input.value = text;
+        // What a person is typing stays, and what could not be saved.
+        if (input.value === input.dataset.shown) input.value = text;
         input.dataset.shown = text;
+        input.classList.toggle("unsaved", input.value !== text && input !== document.activeElement);
         input.setAttribute("aria-label", `${column}, row ${r + 1}, ${this.words(r)}`);
         const here = flag && column === "value";
         here ? input.setAttribute("aria-invalid", "true") : input.removeAttribute("aria-invalid");
@@ -164,19 +165,22 @@ class ReadingsSheet {
   async post(cells) {
     const {opened, shape} = this.table;
     const table = await call("/api/cells", {opened, shape, cells});
-    if (!table) return this.refresh();
+    if (!table) return this.not_saved(cells);
     this.show(table);
     const flag = this.flag(cells[0].row);
     if (flag) say(`Row ${cells[0].row + 1}: ${flag.what}`);
     studio.table_changed();
   }
 
-  async refresh() {
+  /** What was typed stays, marked, and is tried again when its cell is left again. */
+  async not_saved(cells) {
+    for (const {row, column} of cells) {
+      const input = this.cell(row, column);
+      if (input) input.dataset.shown = this.text(row, column);
+    }
+    this.fill();
     const table = await call("/api/table");
-    if (!table) return;
-    this.body.querySelectorAll("input").forEach((input) => { input.value = input.dataset.shown; });
-    this.show(table);
-    studio.table_changed();
+    if (table) { this.show(table); studio.table_changed(); }
   }
 
   async remove() {

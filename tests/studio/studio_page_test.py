@@ -1,0 +1,150 @@
+"""The studio's page in Chromium: an evening's readings by the keyboard alone. Expectations: docs/studio.md and issue 65."""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "tests" / "viewer"))
+from viewer_pages import Browser  # noqa: E402
+
+CULET = pathlib.Path(sys.argv.pop(1)).resolve()
+WAIT = "const wait = async (ready) => { for (let i = 0; i < 1500 && !ready(); ++i) await new Promise((r) => setTimeout(r, 20)); if (!ready()) throw new Error('waited in vain: ' + ready); };"
+
+
+class StudioPageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(1280, 800).__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="culet-studio-"))
+
+    def tearDown(self):
+        # A refused edit is answered with 400, which Chromium tells too.
+        errors = [error for error in self.browser.errors() if "/api/cells" not in error["message"]]
+        self.browser.driver.get("about:blank")
+        self.studio.send_signal(signal.SIGINT)
+        self.assertEqual(self.studio.wait(10), 0, "Ctrl-C ends it well")
+        self.studio.stdout.close()
+        shutil.rmtree(self.folder)
+        self.assertEqual(errors, [], "the console")
+
+    def open(self, what):
+        self.studio = subprocess.Popen([CULET, "studio", what, "--no-open", "-q"], stdout=subprocess.PIPE, text=True,
+                                       env=dict(os.environ, XDG_STATE_HOME=str(self.folder / "state")))
+        self.address = self.studio.stdout.readline().strip()
+        self.browser.driver.get(self.address)
+
+    def open_sample(self):
+        shutil.copytree(SOURCE / "samples" / "cutters-evening", self.folder / "evening")
+        self.open(self.folder / "evening" / "stone.toml")
+        self.wait("studio.fit && studio.fit.fit && studio.sheet.table")
+
+    def keys(self, *keys, held=None):
+        chain = ActionChains(self.browser.driver)
+        if held: chain.key_down(held)
+        chain.send_keys(*keys)
+        if held: chain.key_up(held)
+        chain.perform()
+
+    def wait(self, ready):
+        self.browser.wait(f"{WAIT} await wait(() => {ready});")
+
+    def here(self):
+        return self.browser.run("return document.activeElement.getAttribute('aria-label')")
+
+    def csv(self):
+        return (self.folder / "evening" / "readings.csv").read_text()
+
+    def test_the_slip_is_mended_by_the_keyboard_alone(self):
+        self.open_sample()
+        self.assertNotIn("token", self.browser.driver.current_url)
+        self.assertEqual(self.here(), "value, row 1, inclination C1")
+        self.wait("studio.fit.fit.status === 'contradictory'")
+        self.keys(Keys.F2)
+        self.assertEqual(self.here(), "value, row 5, inclination C5")
+        described = self.browser.run("const i = document.activeElement; return [i.getAttribute('aria-invalid'), document.getElementById(i.getAttribute('aria-describedby')).textContent]")
+        self.assertEqual(described[0], "true")
+        self.assertIn("seven sisters", described[1])
+        self.assertTrue(described[1].endswith("Write 33.8"))
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('.facet.lit title')].map((t) => t.textContent.split(':')[0])"), ["C5"])
+        self.keys(Keys.ENTER, held=Keys.ALT)
+        self.wait("studio.fit.fit.status === 'converged' && studio.fit.revision === studio.sheet.table.revision")
+        self.assertIn("inclination,C5,33.8,", self.csv())
+        self.assertEqual(self.browser.run("return document.querySelectorAll('.flagged').length"), 0)
+        self.keys("z", held=Keys.CONTROL)
+        self.wait("studio.sheet.text(4, 'value') === '38.3'")
+        self.assertIn("inclination,C5,38.3,", self.csv())
+
+    def test_a_typo_is_marked_before_the_next_row_is_typed(self):
+        """Issue 65: the flag within 0.2 s; here within a second, since other tests run beside it."""
+        self.open_sample()
+        self.keys("333,8", Keys.ENTER)
+        self.assertEqual(self.here(), "value, row 2, inclination C2")
+        began = time.time()
+        self.wait("studio.sheet.line(0).classList.contains('flagged')")
+        self.assertLess(time.time() - began, 1)
+        self.assertIn('inclination,C1,"333,8",', self.csv())
+        self.keys(Keys.UP, "33,8", Keys.DOWN)
+        self.wait("!studio.sheet.line(0).classList.contains('flagged')")
+
+    def test_rows_are_pasted_from_a_spreadsheet(self):
+        self.open_sample()
+        self.browser.run("""const data = new DataTransfer(); data.setData('text/plain', '33,9\\t0,2\\r\\n34,0\\t0,2\\r\\n');
+            document.activeElement.dispatchEvent(new ClipboardEvent('paste', {clipboardData: data, bubbles: true, cancelable: true}));""")
+        self.wait("studio.sheet.text(1, 'sigma') === '0,2'")
+        self.assertIn('inclination,C1,"33,9","0,2",expected 33.80\ninclination,C2,"34,0","0,2",', self.csv())
+
+    def test_a_facet_leads_to_its_row_and_no_name_becomes_html(self):
+        shutil.copytree(SOURCE / "samples" / "cutters-evening", self.folder / "evening")
+        stone = self.folder / "evening" / "stone.toml"
+        stone.write_text(stone.read_text().replace("Round brilliant", "<img src=x onerror=alert(1)>"))
+        self.open(stone)
+        self.wait("studio.fit && studio.fit.fit")
+        self.browser.run("studio.view.facets.get('P3')[0].dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+        self.assertEqual(self.here(), "value, row 11, inclination P3")
+        self.assertEqual(self.browser.run("return document.querySelectorAll('img').length"), 0)
+        self.assertIn("<img src=x", self.browser.run("return document.getElementById('title').textContent"))
+
+    def test_another_programs_change_is_asked_about(self):
+        self.open_sample()
+        theirs = self.csv().replace("C1,33.8", "C1,33.4")
+        (self.folder / "evening" / "readings.csv").write_text(theirs)
+        self.wait("!document.getElementById('outside').hidden")
+        self.keys("33.5", Keys.ENTER)
+        self.wait("studio.sheet.cell(0, 'value').classList.contains('unsaved')")
+        self.assertEqual(self.csv(), theirs)
+        self.browser.run("document.getElementById('take-other').click()")
+        self.wait("studio.sheet.text(0, 'value') === '33.4'")
+
+    def test_begin_makes_a_folder_and_all_widths_fit(self):
+        self.open(self.folder)
+        self.wait("document.querySelector('#cut-views svg')")
+        for width in (1280, 390):
+            self.browser.resize(width, 800)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+        self.browser.run("document.querySelector('#cut-form button').click()")
+        self.wait("studio.sheet.table && document.querySelector('#views svg')")
+        self.assertTrue((self.folder / "round-brilliant" / "stone.toml").exists())
+        self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
+        self.browser.resize(1280, 800)
+        # Every control has a name.
+        self.assertEqual(self.browser.run("""return [...document.querySelectorAll('main:not([hidden]) :is(input, select, button), header button')]
+            .filter((c) => !c.hidden && !c.getAttribute('aria-label') && !(c.labels && c.labels.length) && !c.textContent.trim()).length"""), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
