@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "stone/cuts/cuts.h"
 #include "stone/text/errors.h"
 #include "studio/fit_work.h"
+#include "studio/json_text.h"
 #include "studio/new_project.h"
 #include "studio/table_json.h"
 
@@ -42,7 +42,7 @@ std::string Answers::state() const {
         json["name"] = project_->name();
         json["file"] = project_->stone_file().string();
     }
-    return json.dump();
+    return text_of(json);
 }
 
 std::string Answers::table_json() const {
@@ -65,16 +65,16 @@ Answer Answers::to(const Call& call) {
         }
         throw NoSuchCall();
     } catch (const NoSuchCall&) {
-        return {404, k_json, Json{{"trouble", "there is no such page"}}.dump()};
+        return {404, k_json, text_of(Json{{"trouble", "there is no such page"}})};
     } catch (const InputError& error) {
-        return {400, k_json, Json{{"trouble", error.what()}}.dump()};
+        return {400, k_json, text_of(Json{{"trouble", error.what()}})};
     } catch (const Json::exception&) {
-        return {400, k_json, Json{{"trouble", "the call is not as the page makes it"}}.dump()};
+        return {400, k_json, text_of(Json{{"trouble", "the call is not as the page makes it"}})};
     } catch (const std::bad_alloc&) {
-        return {400, k_json, Json{{"trouble", "not enough memory for this"}}.dump()};
+        return {400, k_json, text_of(Json{{"trouble", "not enough memory for this"}})};
     } catch (const std::exception& error) {
         const std::string what = fmt::format("{} (an error in culet itself)", error.what());
-        return {500, k_json, Json{{"trouble", what}}.dump()};
+        return {500, k_json, text_of(Json{{"trouble", what}})};
     }
 }
 
@@ -117,7 +117,7 @@ std::string Answers::post(const Call& call) {
 // Of the readings: all windows learn of it, and the fit begins anew.
 std::string Answers::changed(const std::string& window) {
     ask_for_fit(window);
-    events_.send("table", Json{{"revision", project_->revision()}, {"by", window}}.dump());
+    events_.send("table", text_of(Json{{"revision", project_->revision()}, {"by", window}}));
     return table_json();
 }
 
@@ -203,13 +203,12 @@ void Answers::fit_ended(int revision, const WorkEnd& end) {
         Json fit = Json::parse(end.text);
         if (fit.contains("solid")) fitted_ = fit["solid"].get<std::string>();
         fit.erase("solid");
-        fit_ = fit.dump();
+        fit_ = text_of(fit);
     } else {
-        fit_ = Json{{"status", end.how == WorkEnd::How::failed ? "failed" : "cancelled"},
-                    {"trouble", end.text}}
-                   .dump();
+        fit_ = text_of(Json{{"status", end.how == WorkEnd::How::failed ? "failed" : "cancelled"},
+                            {"trouble", end.text}});
     }
-    events_.send("fit", Json{{"revision", revision}}.dump());
+    events_.send("fit", text_of(Json{{"revision", revision}}));
 }
 
 void Answers::window_opened(const std::string& window) {
@@ -244,7 +243,7 @@ void Answers::look_outside() {
     if (outside == outside_ && trouble == trouble_ && !stone_changed) return;
     outside_ = outside;
     trouble_ = trouble;
-    events_.send("table", Json{{"revision", project_->revision()}, {"by", ""}}.dump());
+    events_.send("table", text_of(Json{{"revision", project_->revision()}, {"by", ""}}));
 }
 
 }  // namespace culet

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "fit/findings/summary.h"
 #include "fit/findings/words.h"
@@ -16,6 +15,7 @@
 #include "stone/mesh/mesh_io.h"
 #include "stone/solid_input.h"
 #include "stone/text/errors.h"
+#include "studio/json_text.h"
 
 namespace culet {
 
@@ -153,11 +153,11 @@ std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
     }
     if (result.status != FitStatus::not_converged)
         json["solid"] = mesh_text(result.solid, MeshFormat::obj);
-    return json.dump();
+    return text_of(json);
 }
 
 std::string plain_drawings(const Solid& solid) {
-    return Json{{"mesh", drawing_json(solid, {}, {})}}.dump();
+    return text_of(Json{{"mesh", drawing_json(solid, {}, {})}});
 }
 
 }  // namespace culet

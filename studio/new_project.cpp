@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "fit/readings/readings_template.h"
@@ -20,6 +19,7 @@
 #include "stone/text/path_fence.h"
 #include "stone/text/text_scan.h"
 #include "stone/text/toml_file.h"
+#include "studio/json_text.h"
 
 namespace culet {
 
@@ -245,7 +245,7 @@ std::string begin_json(const std::filesystem::path& folder) {
     }
     for (const auto& file : stone_files_in(folder)) json["stones"].push_back(file.string());
     for (const auto& file : recent_projects()) json["recent"].push_back(file.string());
-    return json.dump();
+    return text_of(json);
 }
 
 }  // namespace culet

@@ -40,6 +40,10 @@ ReadingsTable::ReadingsTable(const std::filesystem::path& file, const std::strin
     const CsvTable table = read_csv(file);
     if (table.rows.empty())
         throw InputError(file, "no readings: expected the header kind,of,value,sigma");
+    if (table.rows.size() > k_most_rows)
+        throw InputError(file, fmt::format("has more than {} rows, too many for a table on a "
+                                           "screen: culet fit reads it",
+                                           k_most_rows));
     separator_ = table.separator;
     for (const std::string& name : table.rows.front().fields) columns_.push_back(lower_case(name));
     for (std::size_t r = 1; r < table.rows.size(); ++r) {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "fit/findings/words.h"
+#include "studio/json_text.h"
 
 namespace culet {
 
@@ -70,7 +70,7 @@ std::string table_json(const Project& project, const TableNews& news) {
         if (const auto flag = flags.find(row.line); flag != flags.end()) own["flag"] = flag->second;
         json["rows"].push_back(std::move(own));
     }
-    return json.dump();
+    return text_of(json);
 }
 
 }  // namespace culet
