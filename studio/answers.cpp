@@ -11,6 +11,7 @@
 #include "studio/json_text.h"
 #include "studio/new_project.h"
 #include "studio/table_json.h"
+#include "viewer/engine_file.h"
 
 namespace culet {
 
@@ -20,8 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// With a charset the server does not compress it, which takes longer than the way to the browser.
-constexpr const char* k_json = "application/json; charset=utf-8";
+constexpr const char* k_json = "application/json";
 
 struct NoSuchCall {};
 
@@ -76,6 +76,21 @@ Answer Answers::to(const Call& call) {
         const std::string what = fmt::format("{} (an error in culet itself)", error.what());
         return {500, k_json, text_of(Json{{"trouble", what}})};
     }
+}
+
+Answer Answers::view() {
+    std::unique_lock lock(mutex_);
+    if (!project_) return {404, "text/plain", "No stone is open.\n"};
+    // Compressed once here, not in each copy.
+    engine_for_pages();
+    const auto work = [loaded = project_->loaded(), solid = fitted_, report = report_,
+                       version = version_](const Progress&) {
+        return page_of_stone(*loaded, solid, report, version);
+    };
+    lock.unlock();
+    const WorkEnd end = run_apart(work, mutex_, {});
+    if (end.how == WorkEnd::How::done) return {200, "text/html; charset=utf-8", end.text};
+    return {400, "text/plain; charset=utf-8", end.text + "\n"};
 }
 
 std::string Answers::post(const Call& call) {
@@ -164,6 +179,7 @@ std::string Answers::open(const fs::path& stone_file, const std::string& window)
     trouble_.clear();
     fit_.clear();
     fitted_.clear();
+    report_.clear();
     fit_revision_ = 0;
     drawings_ = plain_drawings(project_->loaded()->file.stone.solid);
     ask_for_fit(window);
@@ -201,8 +217,10 @@ void Answers::fit_ended(int revision, const WorkEnd& end) {
     fit_revision_ = revision;
     if (end.how == WorkEnd::How::done) {
         Json fit = Json::parse(end.text);
-        if (fit.contains("solid")) fitted_ = fit["solid"].get<std::string>();
+        fitted_ = fit.value("solid", fitted_);
+        report_ = fit.value("report", report_);
         fit.erase("solid");
+        fit.erase("report");
         fit_ = text_of(fit);
     } else {
         fit_ = text_of(Json{{"status", end.how == WorkEnd::How::failed ? "failed" : "cancelled"},
@@ -238,6 +256,7 @@ void Answers::look_outside() {
     if (stone_changed) {
         drawings_ = plain_drawings(project_->loaded()->file.stone.solid);
         fitted_.clear();
+        report_.clear();
         ask_for_fit({});
     }
     if (outside == outside_ && trouble == trouble_ && !stone_changed) return;

@@ -32,6 +32,8 @@ public:
 
     /// From any thread. What is wrong in a call is an answer with `trouble`, one line for people.
     Answer to(const Call& call);
+    /// The stone in the viewer's page. It has scripts inside, and must be shown in a sandbox.
+    Answer view();
     Events& events() { return events_; }
     /// A window begins to listen, or was closed: what it asked for is cancelled, unless another
     /// window shows it too.
@@ -58,7 +60,8 @@ private:
     std::unique_ptr<Project> project_;
     int opened_ = 0, uploads_ = 0;  // counts projects
     bool outside_ = false;
-    std::string trouble_, fit_, drawings_, fitted_;  // JSON; the mesh of the last fit
+    std::string trouble_, fit_, drawings_;  // JSON
+    std::string fitted_, report_;           // of the last fit: mesh, report
     int fit_revision_ = 0;
     bool fit_runs_ = false;
     Events events_;

@@ -14,8 +14,10 @@
 #include "page/fit_paint.h"
 #include "stone/mesh/mesh_io.h"
 #include "stone/solid_input.h"
-#include "stone/text/errors.h"
+#include "stone/text/path_fence.h"
 #include "studio/json_text.h"
+#include "viewer/view_item.h"
+#include "viewer/viewer_page.h"
 
 namespace culet {
 
@@ -151,13 +153,42 @@ std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
         const NextReading& help = result.findings.help.front();
         json["next_reading"] = {{"kind", name_of(help.kind)}, {"of", help.of}};
     }
-    if (result.status != FitStatus::not_converged)
+    if (result.status != FitStatus::not_converged) {
         json["solid"] = mesh_text(result.solid, MeshFormat::obj);
+        // Nothing here needs its largest part.
+        Json kept = Json::parse(report);
+        kept.erase("facet_covariance");
+        json["report"] = text_of(kept);
+    }
     return text_of(json);
 }
 
 std::string plain_drawings(const Solid& solid) {
     return text_of(Json{{"mesh", drawing_json(solid, {}, {})}});
+}
+
+std::string page_of_stone(const LoadedStone& loaded, const std::string& solid,
+                          const std::string& report, const std::string& version) {
+    const PathFence fence(loaded.file.mesh_file.parent_path());
+    Stone stone = loaded.file.stone;
+    if (!loaded.file.has_material) stone.material = catalogue_material("diamond");
+    ViewSource source;
+    source.file = loaded.file.mesh_file;
+    source.choices.material = "diamond";  // replaced with the stone
+    source.stone = &stone;
+    if (!solid.empty()) {
+        stone.solid = solid_of_bytes(solid, "fitted.obj").solid;
+        stone.up_facet.clear();
+        stone.up = {0, 0, 1};
+        source.fit_json = report;
+        source.catalogue = &loaded.file.stone.solid;
+    }
+    std::vector<std::string> notes;
+    ViewDocument document;
+    document.items.push_back(view_item(source, notes));
+    document.title = stone.name;
+    document.version = version;
+    return viewer_page(std::move(document));
 }
 
 }  // namespace culet

@@ -137,6 +137,8 @@ Server::HandlerResponse Studio::Parts::let_in(const Request& request, Response& 
             }
             return Server::HandlerResponse::Handled;
         case Gate::Verdict::pass:
+            // The way to the browser is shorter than compressing for it.
+            const_cast<Request&>(request).headers.erase("Accept-Encoding");
             break;
     }
     const auto length = request.get_header_value<std::uint64_t>("Content-Length");
@@ -161,6 +163,19 @@ void Studio::Parts::add_routes() {
     file("/studio.js", embedded::studio_js, "text/javascript; charset=utf-8");
     server.Get("/api/events", [this](const Request& request, Response& response) {
         listen_to_events(request, response);
+    });
+    server.Get("/view", [this](const Request&, Response& response) {
+        const Answer answer = answers.view();
+        response.status = answer.status;
+        response.set_content(answer.body, answer.type);
+        // It is a page of its own, whose scripts stand inside. In its sandbox it has no origin, and
+        // so can ask nothing of the studio.
+        response.headers.erase("Content-Security-Policy");
+        response.set_header("Content-Security-Policy",
+                            "sandbox allow-scripts allow-downloads allow-modals; default-src "
+                            "'none'; img-src data: blob:; media-src blob:; style-src "
+                            "'unsafe-inline'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; "
+                            "worker-src blob:");
     });
     const auto answered = [this](const Request& request, Response& response) {
         const Answer answer = answers.to(call_of(request));

@@ -45,6 +45,7 @@ class StudioPage {
     by_id("begin").hidden = reads;
     for (const id of ["leave", "undo", "redo"]) by_id(id).hidden = !reads;
     by_id("title").textContent = reads ? state.name : "culet studio";
+    by_id("save-page").download = `${(state.name || "stone").replaceAll(/[^\w -]/g, "_")}.html`;
     document.title = reads ? `${state.name} · culet studio` : "culet studio";
     show_trouble("");
     if (!reads) { this.opened = undefined; return this.begin.show(); }
@@ -93,7 +94,6 @@ class StudioPage {
     this.wait_for_fit(fit.runs);
     this.show_card(fit.fit);
     this.paint();
-    this.enter(this.sheet.table.rows[this.sheet.row] || null);
   }
 
   /** The one thing to do next: a marked row first, which the fit may not have seen yet. */
@@ -131,6 +131,7 @@ class StudioPage {
     if (!drawing) return;
     this.view.show(drawing);
     by_id("legend").replaceChildren(...legend_of(drawing));
+    if (this.sheet.table) this.enter(this.sheet.table.rows[this.sheet.row] || null);
   }
 
   /** A row under the cursor lights its facets. */

@@ -162,6 +162,20 @@ TEST_F(StudioOverTheNetwork, SendsStrictHeadersWithEveryAnswer) {
         EXPECT_EQ(page.find(inside), std::string::npos) << inside;
 }
 
+// The viewer's page has scripts inside: it gets no origin from which it could ask the studio.
+TEST_F(StudioOverTheNetwork, ShowsTheTurningStoneInASandbox) {
+    const auto answer = get("/view", cookie_);
+    ASSERT_EQ(answer->status, 200);
+    EXPECT_EQ(answer->get_header_value_count("Content-Security-Policy"), 1u);
+    const std::string policy = answer->get_header_value("Content-Security-Policy");
+    EXPECT_TRUE(policy.starts_with("sandbox allow-scripts "));
+    EXPECT_EQ(policy.find("allow-same-origin"), std::string::npos);
+    EXPECT_EQ(policy.find("connect-src"), std::string::npos);
+    EXPECT_NE(answer->body.find("culet-view-1"), std::string::npos);
+    EXPECT_EQ(answer->body.find("<b>bold"), std::string::npos);
+    EXPECT_EQ(get("/view", {})->status, 403);
+}
+
 TEST_F(StudioOverTheNetwork, ReadsNothingOutsideOfTheFolder) {
     const std::string secret = "kind,of,value,sigma\nweight,,1.2345,0.01\n";
     const test::ScratchFolder elsewhere;
