@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "stone/cuts/cuts.h"
@@ -51,8 +52,10 @@ std::string Answers::table_json() const {
 }
 
 Answer Answers::to(const Call& call) {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     try {
+        if (call.posts && call.path.starts_with("/api/begin/"))
+            return {200, k_json, begin(call, lock)};
         if (call.posts) return {200, k_json, post(call)};
         if (call.path == "/api/state") return {200, k_json, state()};
         if (call.path == "/api/begin") return {200, k_json, culet::begin_json(folder_)};
@@ -94,7 +97,6 @@ Answer Answers::view() {
 }
 
 std::string Answers::post(const Call& call) {
-    if (call.path.starts_with("/api/begin/")) return begin(call);
     if (!project_) throw InputError("no stone is open: begin with one");
     if (call.path == "/api/fit/cancel") {
         jobs_.cancel("fit");
@@ -136,32 +138,50 @@ std::string Answers::changed(const std::string& window) {
     return table_json();
 }
 
-std::string Answers::begin(const Call& call) {
+// Files come from anybody: what they do to their readers, they do in a process of its own first.
+std::string Answers::open_tried(const std::function<fs::path()>& made, const std::string& window,
+                                std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    const auto work = [&](const Progress&) {
+        const fs::path stone_file = made();
+        const Project trial(stone_file);
+        return stone_file.string();
+    };
+    constexpr auto k_longest = std::chrono::minutes(1);
+    const auto until = std::chrono::steady_clock::now() + k_longest;
+    const WorkEnd end =
+        run_apart(work, mutex_, [&](double) { return std::chrono::steady_clock::now() < until; });
+    lock.lock();
+    if (end.how == WorkEnd::How::stopped) throw InputError("this takes longer than a minute");
+    if (end.how == WorkEnd::How::failed) throw InputError(end.text);
+    return open(end.text, window);
+}
+
+std::string Answers::begin(const Call& call, std::unique_lock<std::mutex>& lock) {
     if (call.path == "/api/begin/upload") {
         if (++uploads_ > k_most_uploads)
             throw InputError("this is too much for one sitting: start the studio again");
-        return open(project_of_file(folder_, call.name, call.body), call.window);
+        return open_tried([&] { return project_of_file(folder_, call.name, call.body); },
+                          call.window, lock);
     }
     const Json body = Json::parse(call.body.empty() ? "{}" : call.body);
-    if (call.path == "/api/begin/preview") {
-        return plain_drawings(make_cut(body.at("kind").get<std::string>(),
-                                       body.at("values").get<std::map<std::string, double>>()));
-    }
+    const auto kind = [&] { return body.at("kind").get<std::string>(); };
+    const auto values = [&] { return body.at("values").get<std::map<std::string, double>>(); };
+    if (call.path == "/api/begin/preview") return plain_drawings(make_cut(kind(), values()));
     if (call.path == "/api/begin/cut") {
-        return open(project_of_cut(folder_, body.at("kind").get<std::string>(),
-                                   body.at("values").get<std::map<std::string, double>>(),
-                                   body.at("material").get<std::string>()),
-                    call.window);
+        return open(
+            project_of_cut(folder_, kind(), values(), body.at("material").get<std::string>()),
+            call.window);
     }
     if (call.path == "/api/begin/open") {
-        // By its place in a list of this program: no page names a path.
+        // One of a list of this program: no page names a path.
         const std::vector<fs::path> list =
             body.at("recent").get<bool>() ? recent_projects() : stone_files_in(folder_);
         const auto file = std::find_if(list.begin(), list.end(), [&](const fs::path& one) {
             return one.string() == body.at("file").get<std::string>();
         });
         if (file == list.end()) throw InputError("this stone is no longer there");
-        return open(*file, call.window);
+        return open_tried([&] { return *file; }, call.window, lock);
     }
     if (call.path != "/api/begin/leave") throw NoSuchCall();
     jobs_.cancel("fit");

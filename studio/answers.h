@@ -2,6 +2,7 @@
 // The studio's answers to its page, without the network.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -41,15 +42,15 @@ public:
     void window_closed(const std::string& window);
     /// Looks for changes of files by other programs, and tells the windows.
     void look_outside();
-    /// Adds work that throws, to see that the studio goes on. For tests.
-    JobQueue& jobs() { return jobs_; }
 
 private:
     std::string state() const;
     std::string table_json() const;
     std::string changed(const std::string& window);
     std::string post(const Call& call);
-    std::string begin(const Call& call);
+    std::string begin(const Call& call, std::unique_lock<std::mutex>& lock);
+    std::string open_tried(const std::function<std::filesystem::path()>& made,
+                           const std::string& window, std::unique_lock<std::mutex>& lock);
     std::string open(const std::filesystem::path& stone_file, const std::string& window);
     void ask_for_fit(const std::string& window);
     void fit_ended(int revision, const WorkEnd& end);

@@ -305,6 +305,20 @@ TEST(FitPaint, ColoursFacetsByHowFarTheirNormalsMayBeOff) {
     EXPECT_THAT(of("B").about, HasSubstr("inclination"));
 }
 
+// The first crown main stands at index 24 of 96, a quarter turn from index 96 (GemCad's count).
+TEST(FitPaint, FindsFacetsByTierAndIndex) {
+    const Solid solid = make_cut("round-brilliant");
+    const FitPaint paint =
+        fit_paint(solid,
+                  R"({"readings": [{"id": "r0", "kind": "inclination", "of": ["C@24"],
+                                    "normalized": 4}]})",
+                  FitColour::residual);
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        const bool read = paint.facets[f].about.find("r0") != std::string::npos;
+        EXPECT_EQ(read, solid.facets[f].name == "C1") << solid.facets[f].name;
+    }
+}
+
 TEST(FitPaint, OfNoReportIsPlain) {
     const FitPaint paint = fit_paint(bevelled(), "", FitColour::uncertainty);
     for (const FacetPaint& own : paint.facets) EXPECT_FALSE(own.marked);
