@@ -14,12 +14,12 @@ class StudioPage {
     const on = (id, act) => by_id(id).addEventListener("click", act);
     on("trouble-close", () => show_trouble(""));
     on("leave", () => call("/api/begin/leave", {}));
-    on("undo", () => this.step("undo"));
-    on("redo", () => this.step("redo"));
+    on("undo", () => this.sheet.change("/api/undo"));
+    on("redo", () => this.sheet.change("/api/redo"));
     on("remove-row", () => this.sheet.remove());
     on("cancel-fit", () => call("/api/fit/cancel", {}));
-    on("take-other", () => this.settle(true));
-    on("keep-own", () => this.settle(false));
+    on("take-other", () => this.sheet.change("/api/settle", {take_other: true}));
+    on("keep-own", () => this.sheet.change("/api/settle", {take_other: false}));
     on("help-button", () => by_id("help").showModal());
     on("help-close", () => by_id("help").close());
     document.querySelectorAll("[name=paint]").forEach((radio) => radio.addEventListener("change", () => this.paint()));
@@ -146,17 +146,6 @@ class StudioPage {
     by_id("facet-line").textContent = `${this.view.about(name)}. No row reads it.`;
   }
 
-  async step(which) {
-    const {opened, shape} = this.sheet.table;
-    const table = await call("/api/" + which, {opened, shape});
-    if (table) { this.sheet.show(table); this.table_changed(); }
-  }
-
-  async settle(take_other) {
-    const table = await call("/api/settle", {take_other});
-    if (table) { this.sheet.show(table); this.table_changed(); }
-  }
-
   on_key(event) {
     if (event.key === "F1") { event.preventDefault(); by_id("help").showModal(); return; }
     if (by_id("readings").hidden) return;
@@ -164,7 +153,7 @@ class StudioPage {
     const key = event.key.toLowerCase();
     if ((event.ctrlKey || event.metaKey) && !typing && (key === "z" || key === "y")) {
       event.preventDefault();
-      this.step(key === "y" || event.shiftKey ? "redo" : "undo");
+      this.sheet.change(key === "y" || event.shiftKey ? "/api/redo" : "/api/undo");
     } else if (event.key === "F2") {
       const flagged = this.sheet.first_flagged();
       const next = flagged >= 0 ? flagged : this.sheet.wanted_row();

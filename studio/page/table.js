@@ -8,6 +8,7 @@ class ReadingsSheet {
     this.table = null;
     this.fit = null;
     this.row = -1;
+    this.last = Promise.resolve();
     this.body.addEventListener("focusin", (event) => this.on_focus(event.target));
     this.body.addEventListener("focusout", (event) => this.commit(event.target));
     this.body.addEventListener("keydown", (event) => this.on_key(event));
@@ -18,10 +19,14 @@ class ReadingsSheet {
     if (this.table && table.opened === this.table.opened && table.revision < this.table.revision) return;
     const same = this.table && table.opened === this.table.opened && table.shape === this.table.shape && table.rows.length === this.table.rows.length;
     this.table = table;
-    const place = this.place_of(document.activeElement);
-    if (!same) this.build();
+    if (same) return this.fill();
+    const typed = document.activeElement, place = this.place_of(typed);
+    this.build();
     this.fill();
-    if (!same && place) this.go_to(Math.min(place.row, table.rows.length), place.column);
+    if (!place) return;
+    this.go_to(Math.min(place.row, table.rows.length), place.column);
+    // What was being typed goes on in the new cell.
+    if (typed.value !== typed.dataset.shown) Object.assign(document.activeElement, {value: typed.value, selectionStart: typed.value.length});
   }
 
   show_fit(fit) { this.fit = fit; this.fill(); }
@@ -31,9 +36,11 @@ class ReadingsSheet {
       ...this.table.columns.map((name) => made("th", {scope: "col", class: "of-" + name}, name))));
     // One more, to write into.
     const count = this.table.rows.length + 1;
+    this.builds = true;
     this.body.replaceChildren(...Array.from({length: count}, (_, r) => made("tr", {"data-row": r}, made("th", {scope: "row"}),
       ...this.table.columns.map((name) => made("td", {class: "of-" + name},
         made("input", {"data-column": name, "data-shown": "", autocomplete: "off", spellcheck: "false", inputmode: name === "value" || name === "sigma" ? "decimal" : null}))))));
+    this.builds = false;
   }
 
   line(r) { return this.body.querySelector(`tr[data-row="${r}"]`); }
@@ -156,20 +163,26 @@ class ReadingsSheet {
 
   async commit(input) {
     const place = this.place_of(input);
-    if (!place || input.value === input.dataset.shown) return;
+    if (!place || this.builds || input.value === input.dataset.shown) return;
     const text = input.value;
     input.dataset.shown = text;
     await this.post([{...place, text}]);
   }
 
+  /** One change after the other, since each must know of the rows that the one before made. */
+  change(path, body = {}) {
+    this.last = this.last.then(async () => {
+      const {opened, shape} = this.table, table = await call(path, {opened, shape, ...body});
+      if (table) { this.show(table); studio.table_changed(); }
+      return table;
+    });
+    return this.last;
+  }
+
   async post(cells) {
-    const {opened, shape} = this.table;
-    const table = await call("/api/cells", {opened, shape, cells});
-    if (!table) return this.not_saved(cells);
-    this.show(table);
+    if (!await this.change("/api/cells", {cells})) return this.not_saved(cells);
     const flag = this.flag(cells[0].row);
     if (flag) say(`Row ${cells[0].row + 1}: ${flag.what}`);
-    studio.table_changed();
   }
 
   /** What was typed stays, marked, and is tried again when its cell is left again. */
@@ -183,11 +196,8 @@ class ReadingsSheet {
     if (table) { this.show(table); studio.table_changed(); }
   }
 
-  async remove() {
-    if (this.row < 0 || !this.table.rows[this.row]) return;
-    const {opened, shape} = this.table;
-    const table = await call("/api/remove", {opened, shape, row: this.row});
-    if (table) { this.show(table); studio.table_changed(); }
+  remove() {
+    if (this.row >= 0 && this.table.rows[this.row]) this.change("/api/remove", {row: this.row});
   }
 
   on_key(event) {

@@ -101,6 +101,17 @@ class StudioPageTest(unittest.TestCase):
         self.keys(Keys.UP, "33,8", Keys.DOWN)
         self.wait("!studio.sheet.line(0).classList.contains('flagged')")
 
+    def test_a_row_is_added_as_fast_as_one_types(self):
+        self.open_sample()
+        self.browser.run("studio.sheet.go_to(28, 'kind')")
+        self.keys("width", Keys.TAB, "60", Keys.TAB, "6,51", Keys.TAB, "0,015", Keys.ENTER)
+        self.wait("studio.sheet.text(28, 'sigma') === '0,015'")
+        self.assertTrue(self.csv().endswith('\nwidth,60,"6,51","0,015",\n'), self.csv()[-60:])
+        self.assertEqual(self.here(), "sigma, row 30, new row")
+        self.keys(Keys.UP)
+        self.keys(Keys.DELETE, held=Keys.CONTROL)
+        self.wait("studio.sheet.table.rows.length === 28")
+
     def test_rows_are_pasted_from_a_spreadsheet(self):
         self.open_sample()
         self.browser.run("""const data = new DataTransfer(); data.setData('text/plain', '33,9\\t0,2\\r\\n34,0\\t0,2\\r\\n');
