@@ -45,7 +45,7 @@ private:
     bool stopped_ = false;
 };
 
-/// Each listening window keeps a thread of the server; some must be left for its other calls.
-inline constexpr std::size_t k_most_windows = 8;
+/// A browser keeps at most six connections to a server, and a window that listens keeps one of them.
+inline constexpr std::size_t k_most_windows = 5;
 
 }  // namespace culet

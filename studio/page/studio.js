@@ -34,7 +34,8 @@ class StudioPage {
     events.addEventListener("table", (event) => { if (JSON.parse(event.data).by !== window_id) this.look_at_table(); });
     events.addEventListener("fit", () => this.look_at_fit());
     events.addEventListener("progress", (event) => { by_id("progress").value = JSON.parse(event.data).fraction; });
-    events.addEventListener("error", () => show_trouble("The studio does not answer; trying again. What was saved is safe."));
+    events.addEventListener("error", () => show_trouble(events.readyState === EventSource.CLOSED
+      ? "Five windows of the studio are open: close one of them, and load this one again." : "The studio does not answer; trying again. What was saved is safe."));
   }
 
   async look() {

@@ -220,8 +220,9 @@ class ReadingsSheet {
       event.preventDefault();
       const [down, right] = moves[event.key];
       const column = columns[Math.min(Math.max(at + right, 0), columns.length - 1)];
-      if (!this.cell(place.row + down, column) && down > 0) this.commit(input);
-      this.go_to(place.row + down, column);
+      const go = () => this.go_to(place.row + down, column);
+      // Writing in the last row makes the next one.
+      this.cell(place.row + down, column) ? go() : this.commit(input).then(go);
     }
   }
 

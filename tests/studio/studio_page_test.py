@@ -107,7 +107,7 @@ class StudioPageTest(unittest.TestCase):
         self.keys("width", Keys.TAB, "60", Keys.TAB, "6,51", Keys.TAB, "0,015", Keys.ENTER)
         self.wait("studio.sheet.text(28, 'sigma') === '0,015'")
         self.assertTrue(self.csv().endswith('\nwidth,60,"6,51","0,015",\n'), self.csv()[-60:])
-        self.assertEqual(self.here(), "sigma, row 30, new row")
+        self.wait("document.activeElement.getAttribute('aria-label') === 'sigma, row 30, new row'")
         self.keys(Keys.UP)
         self.keys(Keys.DELETE, held=Keys.CONTROL)
         self.wait("studio.sheet.table.rows.length === 28")
