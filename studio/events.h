@@ -45,7 +45,7 @@ private:
     bool stopped_ = false;
 };
 
-/// A browser keeps at most six connections to a server, and a window that listens keeps one of them.
+/// A browser keeps six connections to a server, and each window that listens one of them.
 inline constexpr std::size_t k_most_windows = 5;
 
 }  // namespace culet
