@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/input/cut_symmetry.h"
 #include "page/html.h"
 #include "page/spin_page.h"
 #include "render/image/codecs/codecs.h"
@@ -71,7 +72,16 @@ std::vector<std::string> facts_of(const SpinResult& found) {
         facts.emplace_back(
             "No edges of a table were found: nothing shows the planes that close the stone above.");
     std::vector<std::string> unseen;
-    for (const int f : found.unseen) unseen.push_back(found.solid.facets[std::size_t(f)].name);
+    for (const int f : found.unseen) {
+        if (std::count(found.copies.begin(), found.copies.end(), f) == 0)
+            unseen.push_back(found.solid.facets[std::size_t(f)].name);
+    }
+    if (found.symmetry)
+        facts.push_back(fmt::format(
+            "Facets repeat {}: {} are alike within {:.2f} degrees. No frame shows {} of the "
+            "facets: they are copies from where the stone repeats them.",
+            words_of(found.tried), found.symmetry->pairs, degrees(found.symmetry->tilt_sigma),
+            found.copies.size()));
     if (!unseen.empty())
         facts.push_back(
             fmt::format("The tilt of these facets is a guess: {}.", fmt::join(unseen, ", ")));
