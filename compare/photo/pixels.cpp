@@ -48,17 +48,6 @@ cv::Mat encoded(const cv::Mat& linear) {
     return result;
 }
 
-Photo photo_of(const cv::Mat& colour) {
-    Photo photo;
-    photo.width = colour.cols;
-    photo.height = colour.rows;
-    for (int y = 0; y < colour.rows; ++y) {
-        const float* row = colour.ptr<float>(y);
-        photo.rgb.insert(photo.rgb.end(), row, row + 3 * colour.cols);
-    }
-    return photo;
-}
-
 std::string png_bytes(const cv::Mat& pixels) {
     const cv::Mat rows = pixels.isContinuous() ? pixels : pixels.clone();
     return encode_png(rows.cols, rows.rows, rows.channels(),

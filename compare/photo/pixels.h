@@ -12,8 +12,6 @@ namespace culet {
 
 /// A view of the photo's pixels, not a copy.
 cv::Mat colour_of(const Photo& photo);
-/// From R, G, B (CV_32FC3).
-Photo photo_of(const cv::Mat& colour);
 
 /// Luminance of linear sRGB primaries (Rec. ITU-R BT.709-6, item 3.2), CV_32F.
 cv::Mat luminance(const cv::Mat& colour);

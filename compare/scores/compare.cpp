@@ -45,6 +45,17 @@ PixelMap map_of(const cv::Mat& values, const cv::Rect& part, const cv::Mat& mask
     return map_of(whole, mask);
 }
 
+Photo photo_of(const cv::Mat& colour) {
+    Photo photo;
+    photo.width = colour.cols;
+    photo.height = colour.rows;
+    for (int y = 0; y < colour.rows; ++y) {
+        const float* row = colour.ptr<float>(y);
+        photo.rgb.insert(photo.rgb.end(), row, row + 3 * colour.cols);
+    }
+    return photo;
+}
+
 Registration registration_of(const Frame& frame) {
     Registration r;
     r.residual_px = frame.match.residual_px;

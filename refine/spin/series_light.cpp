@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/photo/photo_picture.h"
-#include "compare/photo/pixels.h"
 #include "compare/scores/likeness.h"
 #include "refine/spin/zone_shares.h"
 
@@ -89,6 +88,15 @@ cv::Mat lit(const ZoneShares& given, const Radiances& radiances) {
         }
     }
     return result;
+}
+
+Photo photo_of(const cv::Mat& colour) {
+    Photo photo;
+    photo.width = colour.cols;
+    photo.height = colour.rows;
+    const float* first = colour.ptr<float>();
+    photo.rgb.assign(first, first + 3 * colour.total());
+    return photo;
 }
 
 std::string verdict_of(const SeriesLight& light) {
