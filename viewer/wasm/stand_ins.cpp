@@ -14,6 +14,7 @@
 #include "stone/stone.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
+#include "stone/text/path_fence.h"
 
 namespace culet {
 
@@ -28,6 +29,7 @@ namespace {
 std::string read_text(const std::filesystem::path& file, std::size_t) {
     refuse(file);
 }
+void require_within_fence(const std::filesystem::path&) {}
 std::string foreign_kind_of(const std::filesystem::path&) {
     return {};
 }
