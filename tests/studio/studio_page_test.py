@@ -1,4 +1,4 @@
-"""The studio's page in Chromium: an evening's readings by the keyboard alone. Expectations: docs/studio.md and issue 65."""
+"""The studio's page in Chromium: an evening's readings by the keyboard alone. Expectations: docs/studio.md."""
 import os
 import pathlib
 import shutil
