@@ -160,7 +160,12 @@ int run_spin(const SpinArguments& a) {
     SpinOptions options;
     options.step = radians(a.step_deg);
     options.threads = a.common.threads;
-    if (!a.cut.empty()) options.symmetry = symmetry_of_cut(a.cut);
+    if (!a.cut.empty()) {
+        const GivenCut cut = given_cut(a.cut);
+        options.symmetry = cut.symmetry;
+        if (!cut.convex)
+            say("this cut is hollow in places: culet spin finds its convex hull", a.common.quiet);
+    }
     const SpinResult found =
         spin(frames, options, progress_line("finding the stone", a.common.quiet));
     const double px_mm = a.width_mm > 0 ? a.width_mm / found.width().value : 1;

@@ -7,9 +7,14 @@
 
 namespace culet {
 
+struct GivenCut {
+    CutSymmetry symmetry;
+    bool convex = true;
+};
+
 /// `cut`: the name of a standard cut, or a mesh or design, upright. Throws InputError if it repeats
 /// no facet about its axis.
-CutSymmetry symmetry_of_cut(const std::string& cut);
+GivenCut given_cut(const std::string& cut);
 
 /// "four times around, with mirrors"
 std::string words_of(const CutSymmetry& symmetry);
