@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-using SheetRow = std::pair<std::string, std::string>;
+using NamedText = std::pair<std::string, std::string>;
 
 constexpr int k_places = 2;
 
@@ -27,19 +27,15 @@ std::string angle_text(const CuttingSheet& sheet, std::size_t step) {
     return sigma > 0 ? quantity(angle, sigma, "", k_places) : decimals(angle, k_places);
 }
 
-std::string depth_text(const CuttingSheet& sheet, const CuttingStep& step) {
-    return depth_words(step, sheet.unit, proportions(sheet.solid).width);
-}
-
-std::vector<SheetRow> proportion_rows(const CuttingSheet& sheet) {
+std::vector<NamedText> proportion_rows(const CuttingSheet& sheet) {
     const Proportions of = proportions(sheet.solid);
     const auto length = [&](double value) {
         return fmt::format("{:.4g}{}{}", value, sheet.unit.empty() ? "" : " ", sheet.unit);
     };
     const auto share = [&](double value) { return fmt::format("{:.4f}", value / of.width); };
-    std::vector<SheetRow> rows{{"width W", length(of.width)},
-                               {"length L", length(of.length)},
-                               {"height H", length(of.height)}};
+    std::vector<NamedText> rows{{"width W", length(of.width)},
+                                {"length L", length(of.length)},
+                                {"height H", length(of.height)}};
     rows.emplace_back("L/W", share(of.length));
     if (of.table_width) rows.emplace_back("table T/W", share(*of.table_width));
     if (of.table_length && of.length - of.width > 1e-3 * of.width)
@@ -51,19 +47,6 @@ std::vector<SheetRow> proportion_rows(const CuttingSheet& sheet) {
     const double cube = of.width * of.width * of.width;
     rows.emplace_back("volume over W³", fmt::format("{:.4f}", volume(sheet.solid) / cube));
     return rows;
-}
-
-std::string about_text(const CuttingSheet& sheet) {
-    const Design& design = sheet.design;
-    std::string text = fmt::format("{} facets; {}-fold{} symmetry; index wheel of {:g} teeth",
-                                   facet_count_words(sheet.solid), design.symmetry,
-                                   design.mirror ? ", mirror-image" : "", sheet.teeth);
-    if (design.refractive_index)
-        text += fmt::format("; refractive index {:g}", *design.refractive_index);
-    text += ". Angles in degrees from the girdle's plane";
-    if (!sheet.sigmas_deg.empty()) text += ", with one standard uncertainty";
-    if (sheet.unit.empty()) text += "; lengths in widths W (in mm with --width)";
-    return text + ".";
 }
 
 // Explanations of the words that this sheet uses.
@@ -111,6 +94,30 @@ IndexWheel wheel_of(const CuttingSheet& sheet) {
 
 }  // namespace
 
+std::vector<SheetRow> sheet_rows(const CuttingSheet& sheet) {
+    std::vector<SheetRow> rows;
+    const double width = proportions(sheet.solid).width;
+    for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
+        const CuttingStep& step = sheet.steps[i];
+        rows.push_back({step.tier, name_of(step.part), angle_text(sheet, i), index_words(step),
+                        depth_words(step, sheet.unit, width)});
+    }
+    return rows;
+}
+
+std::string about_sheet(const CuttingSheet& sheet) {
+    const Design& design = sheet.design;
+    std::string text = fmt::format("{} facets; {}-fold{} symmetry; index wheel of {:g} teeth",
+                                   facet_count_words(sheet.solid), design.symmetry,
+                                   design.mirror ? ", mirror-image" : "", sheet.teeth);
+    if (design.refractive_index)
+        text += fmt::format("; refractive index {:g}", *design.refractive_index);
+    text += ". Angles in degrees from the girdle's plane";
+    if (!sheet.sigmas_deg.empty()) text += ", with one standard uncertainty";
+    if (sheet.unit.empty()) text += "; lengths in widths W (in mm with --width)";
+    return text + ".";
+}
+
 std::string cutting_sheet_page(const CuttingSheet& sheet) {
     std::vector<View> views, steps, rows;
     const Solid named = named_by_tiers(sheet);
@@ -119,14 +126,13 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
         if (!svg.empty())
             views.push_back({{"drawing_svg", std::move(svg)}, {"caption", caption_of(side)}});
     }
-    for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
-        const CuttingStep& step = sheet.steps[i];
-        steps.push_back({{"number", fmt::format("{}", i + 1)},
-                         {"tier", step.tier},
-                         {"part", name_of(step.part)},
-                         {"angle", angle_text(sheet, i)},
-                         {"indices", index_words(step)},
-                         {"depth", depth_text(sheet, step)}});
+    for (const SheetRow& row : sheet_rows(sheet)) {
+        steps.push_back({{"number", fmt::format("{}", steps.size() + 1)},
+                         {"tier", row.tier},
+                         {"part", row.part},
+                         {"angle", row.angle},
+                         {"indices", row.indices},
+                         {"depth", row.depth}});
     }
     for (const auto& [name, value] : proportion_rows(sheet))
         rows.push_back({{"name", name}, {"value", value}});
@@ -139,7 +145,7 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
                      filled(templates::cutting_sheet, {{"name", sheet.name},
                                                        {"version", sheet.version},
                                                        {"headings", headings},
-                                                       {"about", about_text(sheet)},
+                                                       {"about", about_sheet(sheet)},
                                                        {"views", views},
                                                        {"steps", steps},
                                                        {"notes", notes},
@@ -151,20 +157,21 @@ std::string cutting_sheet_text(const CuttingSheet& sheet) {
     for (const std::string& line : sheet.design.headings) {
         if (!line.empty()) text += line + "\n";
     }
-    text += about_text(sheet) + "\n\n";
+    text += about_sheet(sheet) + "\n\n";
+    std::vector<SheetRow> steps = sheet_rows(sheet);
     std::size_t tier = 4, angle = 5, depth = 6;
-    for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
-        tier = std::max(tier, sheet.steps[i].tier.size());
-        angle = std::max(angle, plain_signs(angle_text(sheet, i)).size());
-        depth = std::max(depth, depth_text(sheet, sheet.steps[i]).size());
+    for (SheetRow& row : steps) {
+        row.angle = plain_signs(row.angle);
+        tier = std::max(tier, row.tier.size());
+        angle = std::max(angle, row.angle.size());
+        depth = std::max(depth, row.depth.size());
     }
     text += fmt::format(" no  {:<{}}  part      {:>{}}  {:<{}}  index settings\n", "tier", tier,
                         "angle", angle, "cut to", depth);
-    for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
-        const CuttingStep& step = sheet.steps[i];
-        text += fmt::format("{:>3}  {:<{}}  {:<8}  {:>{}}  {:<{}}  {}\n", i + 1, step.tier, tier,
-                            name_of(step.part), plain_signs(angle_text(sheet, i)), angle,
-                            depth_text(sheet, step), depth, index_words(step));
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const SheetRow& row = steps[i];
+        text += fmt::format("{:>3}  {:<{}}  {:<8}  {:>{}}  {:<{}}  {}\n", i + 1, row.tier, tier,
+                            row.part, row.angle, angle, row.depth, depth, row.indices);
     }
     text += "\n";
     for (const std::string& note : word_notes(sheet)) text += note + "\n";

@@ -21,6 +21,18 @@ struct CuttingSheet {
     std::vector<double> sigmas_deg;
 };
 
+/// A step as the sheet says it, in the order of the steps.
+struct SheetRow {
+    std::string tier, part;
+    std::string angle;    ///< degrees, with its sigma where known
+    std::string indices;  ///< `index_words`
+    std::string depth;    ///< `depth_words`
+};
+std::vector<SheetRow> sheet_rows(const CuttingSheet& sheet);
+
+/// Facets, symmetry, index wheel, and what angles and lengths are given in; one line.
+std::string about_sheet(const CuttingSheet& sheet);
+
 /// A page to print on one sheet of A4.
 std::string cutting_sheet_page(const CuttingSheet& sheet);
 

@@ -12,7 +12,6 @@
 #include "studio/json_text.h"
 #include "studio/new_project.h"
 #include "studio/table_json.h"
-#include "viewer/engine_file.h"
 
 namespace culet {
 
@@ -61,6 +60,9 @@ Answer Answers::to(const Call& call) {
         if (call.path == "/api/begin") return {200, k_json, culet::begin_json(folder_)};
         if (call.path == "/api/table") return {200, k_json, table_json()};
         if (call.path == "/api/drawings") return {200, k_json, drawings_};
+        if (call.path == "/api/bench") return {200, k_json, bench(lock)};
+        if (call.path == "/api/export") return {200, k_json, made_json()};
+        if (call.path == "/api/export/file") return made_file();
         if (call.path == "/api/fit") {
             return {200, k_json,
                     fmt::format(R"({{"opened":{},"revision":{},"runs":{},"fit":{}}})", opened_,
@@ -81,25 +83,14 @@ Answer Answers::to(const Call& call) {
     }
 }
 
-Answer Answers::view() {
-    std::unique_lock lock(mutex_);
-    if (!project_) return {404, "text/plain", "No stone is open.\n"};
-    // Compressed once here, not in each copy.
-    engine_for_pages();
-    const auto work = [loaded = project_->loaded(), solid = fitted_, report = report_,
-                       version = version_](const Progress&) {
-        return page_of_stone(*loaded, solid, report, version);
-    };
-    lock.unlock();
-    const WorkEnd end = run_apart(work, mutex_, {});
-    if (end.how == WorkEnd::How::done) return {200, "text/html; charset=utf-8", end.text};
-    return {400, "text/plain; charset=utf-8", end.text + "\n"};
-}
-
 std::string Answers::post(const Call& call) {
     if (!project_) throw InputError("no stone is open: begin with one");
     if (call.path == "/api/fit/cancel") {
         jobs_.cancel("fit");
+        return "{}";
+    }
+    if (call.path == "/api/export/cancel") {
+        files_.cancel("file");
         return "{}";
     }
     const Json body = Json::parse(call.body.empty() ? "{}" : call.body);
@@ -107,6 +98,11 @@ std::string Answers::post(const Call& call) {
         project_->settle(body.at("take_other").get<bool>());
         outside_ = false;
         return changed(call.window);
+    }
+    if (call.path == "/api/bench/mark") return post_mark(call);
+    if (call.path == "/api/export/make") {
+        make_file(call);
+        return made_json();
     }
     // Rows are counted, so that a window must know of all rows that others added or removed.
     if (body.at("opened").get<int>() != opened_ || body.at("shape").get<int>() != project_->shape())
@@ -185,6 +181,7 @@ std::string Answers::begin(const Call& call, std::unique_lock<std::mutex>& lock)
     }
     if (call.path != "/api/begin/leave") throw NoSuchCall();
     jobs_.cancel("fit");
+    files_.cancel("file");
     project_.reset();
     ++opened_;
     events_.send("opened", state());
@@ -198,8 +195,9 @@ std::string Answers::open(const fs::path& stone_file, const std::string& window)
     outside_ = false;
     trouble_.clear();
     fit_.clear();
-    fitted_.clear();
-    report_.clear();
+    fitted_ = {};
+    files_.cancel("file");
+    made_ = {made_.number};
     fit_revision_ = 0;
     drawings_ = plain_drawings(project_->loaded()->file.stone.solid);
     ask_for_fit(window);
@@ -216,7 +214,7 @@ void Answers::ask_for_fit(const std::string& window) {
         return;
     }
     Job job{"fit", window, {}, {}, {}};
-    job.work = [loaded = project_->loaded(), start = fitted_](const Progress& progress) {
+    job.work = [loaded = project_->loaded(), start = fitted_.solid](const Progress& progress) {
         return fit_for_screen(*loaded, start, progress);
     };
     job.progress = [this](double fraction) {
@@ -237,8 +235,7 @@ void Answers::fit_ended(int revision, const WorkEnd& end) {
     fit_revision_ = revision;
     if (end.how == WorkEnd::How::done) {
         Json fit = Json::parse(end.text);
-        fitted_ = fit.value("solid", fitted_);
-        report_ = fit.value("report", report_);
+        fitted_ = {fit.value("solid", fitted_.solid), fit.value("report", fitted_.report)};
         fit.erase("solid");
         fit.erase("report");
         fit_ = text_of(fit);
@@ -257,6 +254,7 @@ void Answers::window_opened(const std::string& window) {
 
 void Answers::window_closed(const std::string& window) {
     jobs_.cancel_of(window);
+    files_.cancel_of(window);
     const std::vector<std::string> others = events_.windows();
     const std::lock_guard lock(mutex_);
     if (project_ && fit_runs_ && !others.empty()) ask_for_fit(others.front());
@@ -265,6 +263,7 @@ void Answers::window_closed(const std::string& window) {
 void Answers::look_outside() {
     const std::lock_guard lock(mutex_);
     if (!project_) return;
+    look_at_marks();
     const bool outside = project_->readings().changed_outside();
     std::string trouble;
     bool stone_changed = false;
@@ -275,8 +274,7 @@ void Answers::look_outside() {
     }
     if (stone_changed) {
         drawings_ = plain_drawings(project_->loaded()->file.stone.solid);
-        fitted_.clear();
-        report_.clear();
+        fitted_ = {};
         ask_for_fit({});
     }
     if (outside == outside_ && trouble == trouble_ && !stone_changed) return;

@@ -6,8 +6,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
+#include "studio/bench_work.h"
 #include "studio/events.h"
 #include "studio/job_queue.h"
 #include "studio/project.h"
@@ -24,6 +26,17 @@ struct Call {
 struct Answer {
     int status = 200;
     std::string type, body;
+    std::string file = {};  ///< what the browser is to save it as; empty: nothing to save
+};
+
+/// A file that was made for a window to save, or that is being made.
+struct MadeFile {
+    int number = 0;  ///< counts them
+    bool runs = false;
+    double fraction = 0;
+    std::string by = {}, file = {}, trouble = {};  ///< `by`: the window that asked
+    std::string notes = "[]";                      ///< JSON
+    std::string bytes = {};
 };
 
 class Answers {
@@ -54,6 +67,15 @@ private:
     std::string open(const std::filesystem::path& stone_file, const std::string& window);
     void ask_for_fit(const std::string& window);
     void fit_ended(int revision, const WorkEnd& end);
+    // answers_files.cpp
+    std::string bench(std::unique_lock<std::mutex>& lock);
+    std::string post_mark(const Call& call);
+    void make_file(const Call& call);
+    void file_ended(const WorkEnd& end);
+    std::string made_json() const;
+    Answer made_file() const;
+    void look_at_marks();
+    void require_opened(int opened) const;
 
     std::string version_;
     mutable std::mutex mutex_;  // of all below; held while the work of a job is copied (apart.h)
@@ -62,11 +84,14 @@ private:
     int opened_ = 0, uploads_ = 0;  // counts projects
     bool outside_ = false;
     std::string trouble_, fit_, drawings_;  // JSON
-    std::string fitted_, report_;           // of the last fit: mesh, report
+    FittedStone fitted_;
+    std::set<std::string> marks_;  // as last told
+    MadeFile made_;
     int fit_revision_ = 0;
     bool fit_runs_ = false;
     Events events_;
-    JobQueue jobs_{mutex_};  // last: its thread uses the rest
+    // Last: their threads use the rest. A picture keeps no fit waiting.
+    JobQueue jobs_{mutex_}, files_{mutex_};
 };
 
 /// Most bytes of an uploaded file, and of any other call.

@@ -167,19 +167,25 @@ std::string plain_drawings(const Solid& solid) {
     return text_of(Json{{"mesh", drawing_json(solid, {}, {})}});
 }
 
+Stone stone_shown(const LoadedStone& loaded, const std::string& solid) {
+    Stone stone = loaded.file.stone;
+    if (!loaded.file.has_material) stone.material = catalogue_material("diamond");
+    if (solid.empty()) return stone;
+    stone.solid = solid_of_bytes(solid, "fitted.obj").solid;
+    stone.up_facet.clear();
+    stone.up = {0, 0, 1};
+    return stone;
+}
+
 std::string page_of_stone(const LoadedStone& loaded, const std::string& solid,
                           const std::string& report, const std::string& version) {
     const PathFence fence(loaded.file.mesh_file.parent_path());
-    Stone stone = loaded.file.stone;
-    if (!loaded.file.has_material) stone.material = catalogue_material("diamond");
+    const Stone stone = stone_shown(loaded, solid);
     ViewSource source;
     source.file = loaded.file.mesh_file;
     source.choices.material = "diamond";  // replaced with the stone
     source.stone = &stone;
     if (!solid.empty()) {
-        stone.solid = solid_of_bytes(solid, "fitted.obj").solid;
-        stone.up_facet.clear();
-        stone.up = {0, 0, 1};
         source.fit_json = report;
         source.catalogue = &loaded.file.stone.solid;
     }

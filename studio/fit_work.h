@@ -19,9 +19,12 @@ std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
 /// JSON: the drawing `mesh`, of a stone that was not fitted.
 std::string plain_drawings(const Solid& solid);
 
+/// The stone as fitted: `solid` is the mesh of its fit; empty: as its mesh has it. Without a
+/// material it is diamond. Throws InputError.
+Stone stone_shown(const LoadedStone& loaded, const std::string& solid);
+
 /// The viewer's page (culet view), in which the fitted stone turns beside its mesh. Before a fit,
-/// with `solid` and `report` empty, the mesh alone. A stone without a material is shown as diamond.
-/// Throws InputError.
+/// with `solid` and `report` empty, the mesh alone. Throws InputError.
 std::string page_of_stone(const LoadedStone& loaded, const std::string& solid,
                           const std::string& report, const std::string& version);
 

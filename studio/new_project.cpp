@@ -30,21 +30,6 @@ namespace {
 constexpr std::size_t k_most_recent = 12, k_most_folders = 200, k_longest_name = 60;
 constexpr const char *k_stone = "stone.toml", *k_readings = "readings.csv";
 
-// A name of a file, from one that came from a browser: no folder, nothing hidden.
-std::string plain_name(const std::string& given) {
-    std::string name;
-    for (const char c : fs::path(given).filename().string()) {
-        const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' ||
-                          c == '-' || c == '_' || c == ' ';
-        name += kept ? c : '_';
-    }
-    const std::size_t first = name.find_first_not_of(". ");
-    name = first == std::string::npos ? "stone" : name.substr(first);
-    const std::string extension = fs::path(name).extension().string();
-    const std::string stem = fs::path(name).stem().string().substr(0, k_longest_name);
-    return stem + extension.substr(0, 8);
-}
-
 // The mesh that a stone file names; empty: none, or it cannot be read.
 fs::path mesh_of(const fs::path& stone_file) {
     try {
@@ -127,6 +112,20 @@ fs::path recent_file() {
 }
 
 }  // namespace
+
+std::string plain_name(const std::string& given) {
+    std::string name;
+    for (const char c : fs::path(given).filename().string()) {
+        const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' ||
+                          c == '-' || c == '_' || c == ' ';
+        name += kept ? c : '_';
+    }
+    const std::size_t first = name.find_first_not_of(". ");
+    name = first == std::string::npos ? "stone" : name.substr(first);
+    const std::string extension = fs::path(name).extension().string();
+    const std::string stem = fs::path(name).stem().string().substr(0, k_longest_name);
+    return stem + extension.substr(0, 8);
+}
 
 fs::path stone_file_for(const fs::path& input) {
     std::error_code error;

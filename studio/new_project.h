@@ -8,6 +8,10 @@
 
 namespace culet {
 
+/// A file's name, from one that came from a browser or a file: no folder, nothing hidden, no sign
+/// that anything but letters, digits, `.`, `-`, `_` and blanks could mean.
+std::string plain_name(const std::string& given);
+
 /// The stone file that a command line means; empty: none, the begin screen shows `folder`.
 ///
 /// - a stone file: itself, in its folder;

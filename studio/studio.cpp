@@ -181,6 +181,9 @@ void Studio::Parts::add_routes() {
         const Answer answer = answers.to(call_of(request));
         response.status = answer.status;
         response.set_content(answer.body, answer.type);
+        if (!answer.file.empty())
+            response.set_header("Content-Disposition",
+                                fmt::format("attachment; filename=\"{}\"", answer.file));
     };
     server.Get("/api/.*", answered);
     server.Post("/api/.*", answered);

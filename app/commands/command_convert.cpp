@@ -2,23 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <optional>
-
 #include "app/commands/scene_export.h"
 #include "app/input/export_input.h"
 #include "app/input/readings_form.h"
 #include "app/program/file_kinds.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
-#include "render/export/gltf_look.h"
-#include "render/grade/grade.h"
+#include "render/export/exported_stone.h"
 #include "render/scene/stone_scene.h"
-#include "stone/design/design.h"
 #include "stone/export/export_frame.h"
-#include "stone/export/gltf_write.h"
-#include "stone/export/step.h"
-#include "stone/export/three_mf.h"
 #include "stone/file_kind.h"
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/material/material_io.h"
@@ -33,9 +25,6 @@
 namespace culet {
 
 namespace {
-
-// Allowed distance of the corners of a stone read from a file from its planes.
-constexpr double k_step_tolerance_mm = 1e-5;
 
 struct ConvertOptions {
     CommonOptions common;
@@ -73,18 +62,6 @@ void say_next(const ConvertOptions& options) {
     say("next: " + next, options.common.quiet);
 }
 
-std::vector<std::string> write_gltf(const ExportInput& input, const std::filesystem::path& out) {
-    const GltfForm form = extension_of(out) == "glb" ? GltfForm::binary : GltfForm::text;
-    if (!input.has_material) {
-        write_text(out, gltf_bytes(input.stone, std::nullopt, form));
-        return {"no material: a grey surface (--material NAME)"};
-    }
-    const GltfMaterial material =
-        gltf_material(input.stone.material, outline_width(input.stone.solid));
-    write_text(out, gltf_bytes(input.stone, material.look, form));
-    return material.notes;
-}
-
 // In mm, with the girdle's plane at z = 0 and the table up.
 int convert_for_others(const ConvertOptions& options) {
     ExportChoices choices{options.common.set, options.cut, options.material, {}};
@@ -95,24 +72,12 @@ int convert_for_others(const ConvertOptions& options) {
             grown_outward(input.stone.solid, length_mm(options.clearance, "--clearance"));
         input.stone.name += " seat";
     }
-    std::vector<std::string> notes;
-    if (mesh_format(options.out)) {
-        write_mesh(input.stone.solid, options.out);
-    } else if (extension_of(options.out).starts_with("st")) {
-        const StepFile step =
-            step_text(planar_solid(input.stone.solid, input.stone.convex, k_step_tolerance_mm),
-                      input.stone.name);
-        write_text(options.out, step.text);
-        notes = step.notes;
-    } else if (extension_of(options.out) == "3mf") {
-        write_text(options.out, three_mf_bytes(input.stone.solid, input.stone.name));
-    } else {
-        notes = write_gltf(input, options.out);
-    }
+    const ExportedStone written = exported(input.stone, input.has_material, options.out);
+    write_text(options.out, written.bytes);
     const bool quiet = options.common.quiet;
     say_of(options.in, input.notes, quiet);
     say_of(options.in, input.details, quiet || !options.common.verbose);
-    say_of(options.out, notes, quiet);
+    say_of(options.out, written.notes, quiet);
     say_next(options);
     return exit_good;
 }
@@ -128,44 +93,29 @@ int convert_scene(const ConvertOptions& options) {
     return exit_good;
 }
 
-// A solid, or the stone of a stone file as drawn.
-struct ConvertInput {
-    Solid solid;
-    std::optional<Material> material;
-    std::vector<std::string> notes, details;
-};
-
-ConvertInput converted_input(const ConvertOptions& options) {
-    ConvertInput input;
+// A solid, or the stone of a stone file as drawn; not moved.
+ExportInput converted_input(const ConvertOptions& options) {
+    ExportInput input;
     if (kind_of(options.in, options.common.set) == FileKind::stone && is_cut(options.out)) {
         StoneFile stone = read_stone(options.in, options.common.set);
-        input.solid = std::move(stone.stone.solid);
-        if (stone.has_material) input.material = std::move(stone.stone.material);
+        input.stone = std::move(stone.stone);
+        input.has_material = stone.has_material;
         input.notes = std::move(stone.notes);
         input.details = std::move(stone.details);
     } else {
         require_kind(options.in, {FileKind::solid}, "culet convert");
         SolidInput solid = load_solid(options.in, options.cut);
-        input.solid = std::move(solid.solid);
+        input.stone.solid = std::move(solid.solid);
         input.notes = std::move(solid.notes);
         input.details = std::move(solid.details);
     }
-    if (!options.material.empty()) input.material = material_called(options.material);
-    if (!options.width.empty()) scale_to_width(input.solid, length_mm(options.width, "--width"));
+    if (!options.material.empty()) {
+        input.stone.material = material_called(options.material);
+        input.has_material = true;
+    }
+    if (!options.width.empty())
+        scale_to_width(input.stone.solid, length_mm(options.width, "--width"));
     return input;
-}
-
-// The solid's design, or the one that its drawing shows, with the index of a named material.
-std::vector<std::string> write_design(const ConvertInput& input, const std::filesystem::path& out) {
-    Design design = cutting_design(input.solid);
-    // Designs state the index to four decimals at most.
-    if (input.material)
-        design.refractive_index = std::round(1e4 * grade_index(&*input.material, {}).n) / 1e4;
-    std::vector<std::string> notes = write_cut(input.solid, design, out);
-    if (!design.refractive_index && extension_of(out) != "gcs")
-        notes.emplace_back(
-            "its refractive index is not known: 1.54, GemCad's own, is written (--material NAME)");
-    return notes;
 }
 
 int convert(const ConvertOptions& options) {
@@ -192,16 +142,12 @@ int convert(const ConvertOptions& options) {
     }
     if (!options.width.empty() && extension_of(options.out) == "gcs")
         throw InputError("--width: a .gcs has no size, Gem Cut Studio shows every stone alike");
-    const ConvertInput input = converted_input(options);
+    const ExportInput input = converted_input(options);
     // A bent or dented mesh may still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
-        find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
-    std::vector<std::string> notes_on_writing;
-    if (to_cut) {
-        notes_on_writing = write_design(input, options.out);
-    } else {
-        write_mesh(input.solid, options.out);
-    }
+        find_faults(input.stone.solid, {.planarity = k_largest_miss, .must_be_convex = false});
+    const ExportedStone written = exported(input.stone, input.has_material, options.out);
+    write_text(options.out, written.bytes);
     // Only now: if nothing could be written, only the error is reported.
     const bool quiet = options.common.quiet;
     say_of(options.in, input.notes, quiet);
@@ -211,7 +157,7 @@ int convert(const ConvertOptions& options) {
                         fault.what),
             quiet);
     }
-    say_of(options.out, notes_on_writing, quiet);
+    say_of(options.out, written.notes, quiet);
     say_next(options);
     return faults.empty() ? exit_good : exit_untrusted;
 }

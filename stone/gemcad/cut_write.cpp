@@ -220,8 +220,7 @@ std::string gem_bytes(const Solid& solid, const Design& design, const std::vecto
     return std::move(out.bytes);
 }
 
-std::vector<std::string> write_cut(const Solid& solid, const Design& design,
-                                   const std::filesystem::path& file) {
+CutFile cut_file(const Solid& solid, const Design& design, const std::filesystem::path& file) {
     if (!is_closed(solid)) {
         throw InputError(file,
                          "cannot be written: a cut design holds a closed stone only, and this "
@@ -243,9 +242,9 @@ std::vector<std::string> write_cut(const Solid& solid, const Design& design,
                                                  : format == "gem" ? LineShares::tier
                                                                    : LineShares::distance,
                                                  format == "asc" ? gemcad_word : plain_name);
-    const std::string bytes = format == "gcs"   ? gcs_text(own.solid, own.design, lines)
-                              : format == "gem" ? gem_bytes(own.solid, own.design, lines)
-                                                : asc_text(own.design, lines);
+    std::string bytes = format == "gcs"   ? gcs_text(own.solid, own.design, lines)
+                        : format == "gem" ? gem_bytes(own.solid, own.design, lines)
+                                          : asc_text(own.design, lines);
     const Solid read = parse_cut(bytes, {}, file).solid;
     compare(own.solid, read, notes);
     // What the format cannot hold, hidden tiers among it.
@@ -264,8 +263,14 @@ std::vector<std::string> write_cut(const Solid& solid, const Design& design,
         notes.push_back(
             fmt::format("not kept: {} more, see culet info --diff", lost.size() - k_most_notes));
     }
-    write_text(file, bytes);
-    return notes;
+    return {std::move(bytes), std::move(notes)};
+}
+
+std::vector<std::string> write_cut(const Solid& solid, const Design& design,
+                                   const std::filesystem::path& file) {
+    CutFile written = cut_file(solid, design, file);
+    write_text(file, written.bytes);
+    return std::move(written.notes);
 }
 
 }  // namespace culet

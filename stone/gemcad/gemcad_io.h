@@ -52,10 +52,16 @@ ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
 ReadCut parse_gcs(std::string_view bytes, const CutReading& how = {},
                   const std::filesystem::path& file = "design.gcs");
 
-/// Writes the solid in the design's order: tier by tier, with labels, index settings, instructions
-/// and all else that it says, also about facets that bound nothing. Planes read back to 1e-12.
-/// Facets of a tier that differ in angle or distance get successive lines. Facets that the design
-/// lacks follow; those of one angle and distance share a line, and a name if they are A, A.1, A.2,
+struct CutFile {
+    std::string bytes;
+    std::vector<std::string> notes;
+};
+
+/// The solid in the design's order, as a file of the format that the name of `file` says: tier by
+/// tier, with labels, index settings, instructions and all else that it says, also about facets
+/// that bound nothing. Planes read back to 1e-12. Facets of a tier that differ in angle or distance
+/// get successive lines. Facets that the design lacks follow; those of one angle and distance share
+/// a line, and a name if they are A, A.1, A.2,
 /// ... Blanks in names become `_` in .asc. GemCad's default refractive index is 1.54.
 ///
 /// GemCad measures distances from a point inside: if the origin is outside, the stone's centroid is
@@ -65,6 +71,9 @@ ReadCut parse_gcs(std::string_view bytes, const CutReading& how = {},
 /// What is written is read back first: every plane to 1e-9 of the width (else InternalError), and
 /// the design, of which the notes say what the format could not keep (design_difference.h). Throws
 /// InputError for a solid that is not convex, which no format of cuts can hold.
+CutFile cut_file(const Solid& solid, const Design& design, const std::filesystem::path& file);
+
+/// Writes it completely or not at all, and returns its notes.
 std::vector<std::string> write_cut(const Solid& solid, const Design& design,
                                    const std::filesystem::path& file);
 

@@ -11,6 +11,9 @@ class StudioPage {
     this.view = new StoneView(by_id("views"), (name) => this.choose(name));
     this.sheet = new ReadingsSheet((row) => this.enter(row));
     this.begin = new BeginScreen();
+    this.bench = new BenchScreen();
+    this.exports = new ExportScreen();
+    addEventListener("hashchange", () => this.show_screen());
     const on = (id, act) => by_id(id).addEventListener("click", act);
     on("trouble-close", () => show_trouble(""));
     on("leave", () => call("/api/begin/leave", {}));
@@ -34,6 +37,8 @@ class StudioPage {
     events.addEventListener("table", (event) => { if (JSON.parse(event.data).by !== window_id) this.look_at_table(); });
     events.addEventListener("fit", () => this.look_at_fit());
     events.addEventListener("progress", (event) => { by_id("progress").value = JSON.parse(event.data).fraction; });
+    events.addEventListener("bench", () => this.screen === "bench" && this.bench.show());
+    events.addEventListener("file", (event) => this.exports.draw(JSON.parse(event.data)));
     events.addEventListener("error", () => show_trouble(events.readyState === EventSource.CLOSED
       ? "Five windows of the studio are open: close one of them, and load this one again." : "The studio does not answer; trying again. What was saved is safe."));
   }
@@ -42,20 +47,33 @@ class StudioPage {
     const state = await call("/api/state");
     if (!state) return;
     const reads = state.screen === "readings";
-    by_id("readings").hidden = !reads;
-    by_id("begin").hidden = reads;
-    for (const id of ["leave", "undo", "redo"]) by_id(id).hidden = !reads;
+    this.is_open = reads;
     by_id("title").textContent = reads ? state.name : "culet studio";
     by_id("save-page").download = `${(state.name || "stone").replaceAll(/[^\w -]/g, "_")}.html`;
     document.title = reads ? `${state.name} · culet studio` : "culet studio";
     show_trouble("");
-    if (!reads) { this.opened = undefined; return this.begin.show(); }
+    if (!reads) this.opened = undefined;
+    if (!reads) return this.show_screen();
     const fresh = this.opened !== state.opened;
     this.opened = state.opened;
     this.drawings = (await call("/api/drawings")) || this.drawings;
+    this.show_screen();
     await this.look_at_table();
     await this.look_at_fit();
-    if (fresh) this.sheet.go_to(Math.max(this.sheet.table.rows.findIndex((row) => !row.read), 0), "value");
+    if (fresh && this.screen === "readings") this.sheet.go_to(Math.max(this.sheet.table.rows.findIndex((row) => !row.read), 0), "value");
+  }
+
+  /** The one that the address names, of a stone that is open. */
+  show_screen() {
+    const named = location.hash.slice(2), screens = ["readings", "bench", "export"];
+    this.screen = !this.is_open ? "begin" : screens.includes(named) ? named : "readings";
+    for (const screen of ["begin", ...screens]) by_id(screen).hidden = screen !== this.screen;
+    by_id("screens").hidden = by_id("leave").hidden = !this.is_open;
+    by_id("undo").hidden = by_id("redo").hidden = this.screen !== "readings";
+    for (const link of by_id("screens").children) link.hash.slice(2) === this.screen ? link.setAttribute("aria-current", "page") : link.removeAttribute("aria-current");
+    if (this.screen === "begin") this.begin.show();
+    if (this.screen === "bench") this.bench.show();
+    if (this.screen === "export") this.exports.show();
   }
 
   async look_at_table() {
@@ -95,6 +113,7 @@ class StudioPage {
     this.wait_for_fit(fit.runs);
     this.show_card(fit.fit);
     this.paint();
+    if (this.screen === "bench" && !fit.runs) this.bench.show();
   }
 
   /** The one thing to do next: a marked row first, which the fit may not have seen yet. */
@@ -149,7 +168,12 @@ class StudioPage {
 
   on_key(event) {
     if (event.key === "F1") { event.preventDefault(); by_id("help").showModal(); return; }
-    if (by_id("readings").hidden) return;
+    if (event.key === "F8" && this.is_open) {
+      const links = [...by_id("screens").children], at = links.findIndex((link) => link.hasAttribute("aria-current"));
+      location.hash = links[(at + 1) % links.length].hash;
+    }
+    if (this.screen === "bench" && !by_id("help").open) this.bench.on_key(event);
+    if (this.screen !== "readings") return;
     const typing = this.sheet.place_of(document.activeElement) && document.activeElement.value !== document.activeElement.dataset.shown;
     const key = event.key.toLowerCase();
     if ((event.ctrlKey || event.metaKey) && !typing && (key === "z" || key === "y")) {

@@ -130,6 +130,30 @@ class StudioPageTest(unittest.TestCase):
         self.assertEqual(self.browser.run("return document.querySelectorAll('img').length"), 0)
         self.assertIn("<img src=x", self.browser.run("return document.getElementById('title').textContent"))
 
+    def test_the_bench_and_an_export_by_the_keyboard(self):
+        self.open_sample()
+        self.keys(Keys.F8)
+        self.wait("studio.bench.bench && studio.bench.bench.fitted")
+        self.keys(" ")
+        self.keys(" ")
+        self.keys(Keys.BACKSPACE)
+        self.wait("document.getElementById('step-count').textContent === 'Step 2 of 7 · 1 done'")
+        self.browser.wait("await studio.bench.last")
+        self.assertEqual((self.folder / "evening" / "stone-bench.txt").read_text(), "01 L\n")
+        self.assertEqual(self.browser.run("return document.querySelectorAll('#bench-views .facet.lit').length"), 8)
+        for width in (390, 1280):
+            self.browser.resize(width, 800)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+        self.keys(Keys.F8)
+        self.wait("studio.exports.file")
+        self.browser.run("document.querySelector('[data-kind=step]').focus()")
+        self.keys(Keys.ENTER)
+        self.wait("document.querySelector('#file-line a') && !studio.exports.asked")
+        until = time.time() + 20
+        while not (saved := list(pathlib.Path(self.browser.folder).glob("*.step"))) and time.time() < until: time.sleep(0.1)
+        self.assertTrue(saved and saved[0].read_text().startswith("ISO-10303-21"))
+        self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 1280)
+
     def test_another_programs_change_is_asked_about(self):
         self.open_sample()
         theirs = self.csv().replace("C1,33.8", "C1,33.4")

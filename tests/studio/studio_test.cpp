@@ -1,91 +1,17 @@
 // Attacks on the studio over a real socket. Expectations: SECURITY.md and docs/studio.md.
 
-#include "studio/studio.h"
-
 #include <gtest/gtest.h>
-#include <httplib.h>
 
-#include <atomic>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 
-#include "stone/cuts/cuts.h"
-#include "stone/mesh/mesh_io.h"
-#include "tests/folder_test.h"
+#include "tests/studio/studio_over_the_network.h"
 
 namespace culet {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-class StudioOverTheNetwork : public test::FolderTest {
-protected:
-    void SetUp() override {
-        setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
-        write_design(make_cut("round-brilliant"), "round-brilliant", folder_ / "start.obj");
-        write("readings.csv",
-              "# by hand\nkind,of,value,sigma,note\ninclination,C1,33.8,0.1,\n"
-              "inclination,C2,33.7,0.1,\ninclination,C3,33.9,0.1,\ninclination,C4,,0.1,\nwidth,0,6."
-              "5,0.015,\n");
-        write("stone.toml",
-              "[stone]\nname = \"<b>bold</b>\"\nmesh = \"start.obj\"\nup = \"T\"\n"
-              "readings = \"readings.csv\"\n");
-        start();
-    }
-    void TearDown() override { end(); }
-
-    void start() {
-        studio_ = std::make_unique<Studio>(StudioOptions{folder_.path(), 0, "0"});
-        running_ = true;
-        runs_ = std::thread([this] { studio_->run([this] { return running_.load(); }); });
-        token_ = studio_->address().substr(studio_->address().find("token=") + 6);
-        const auto answer = get("/?token=" + token_, {});
-        ASSERT_TRUE(answer);
-        const std::string cookie = answer->get_header_value("Set-Cookie");
-        cookie_ = {{"Cookie", cookie.substr(0, cookie.find(';'))}};
-    }
-    void end() {
-        if (!runs_.joinable()) return;
-        running_ = false;
-        runs_.join();
-        studio_.reset();
-    }
-
-    httplib::Client client() const { return httplib::Client("127.0.0.1", studio_->port()); }
-    httplib::Result get(const std::string& path, const httplib::Headers& headers) const {
-        return client().Get(path.c_str(), headers);
-    }
-    httplib::Result post(const std::string& path, const std::string& body,
-                         const httplib::Headers& headers) const {
-        return client().Post(path.c_str(), headers, body, "application/json");
-    }
-    Json table() const { return Json::parse(get("/api/table", cookie_)->body); }
-    int edit(int row, const std::string& column, const std::string& text) const {
-        const Json now = table();
-        const Json body{{"opened", now["opened"]},
-                        {"shape", now["shape"]},
-                        {"cells", {{{"row", row}, {"column", column}, {"text", text}}}}};
-        return post("/api/cells?window=w", body.dump(), cookie_)->status;
-    }
-    /// The fit of the present readings, when it is done.
-    Json fit() const {
-        for (int i = 0; i < 600; ++i) {
-            const Json now = Json::parse(get("/api/fit", cookie_)->body);
-            if (!now["runs"].get<bool>()) return now;
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        }
-        return {};
-    }
-
-    std::unique_ptr<Studio> studio_;
-    std::atomic<bool> running_{false};
-    std::thread runs_;
-    std::string token_;
-    httplib::Headers cookie_;
-};
 
 TEST_F(StudioOverTheNetwork, TokenBecomesCookieAndLeavesTheAddress) {
     EXPECT_TRUE(studio_->address().starts_with("http://127.0.0.1:"));
@@ -317,19 +243,8 @@ TEST_F(StudioOverTheNetwork, AChangeByAnotherProgramIsAskedAbout) {
 }
 
 TEST_F(StudioOverTheNetwork, TwoWindowsSeeEachOthersChanges) {
-    std::string heard;
-    std::thread listens([&] {
-        auto other = client();
-        other.set_read_timeout(10);
-        other.Get("/api/events?window=other", cookie_, [&](const char* data, std::size_t size) {
-            heard.append(data, size);
-            return heard.find("event: table") == std::string::npos;
-        });
-    });
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    EXPECT_EQ(edit(0, "value", "33.9"), 200);
-    listens.join();
-    EXPECT_NE(heard.find(R"("by":"w")"), std::string::npos) << heard;
+    const std::string told = heard("table", [&] { EXPECT_EQ(edit(0, "value", "33.9"), 200); });
+    EXPECT_NE(told.find(R"("by":"w")"), std::string::npos) << told;
     // A window that did not see a new row counts others wrongly, and is told so.
     const Json old = table();
     EXPECT_EQ(edit(5, "kind", "depth"), 200);
