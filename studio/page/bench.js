@@ -4,14 +4,17 @@ class BenchScreen {
   constructor() {
     this.view = new StoneView(by_id("bench-views"), (name) => this.go_to_facet(name));
     this.last = Promise.resolve();
+    this.marks = 0;
     by_id("step-done").addEventListener("click", () => this.done());
     by_id("step-back").addEventListener("click", () => this.back());
     by_id("sheet-of").addEventListener("change", () => this.draw());
   }
 
   async show() {
-    const bench = await call("/api/bench");
-    if (!bench) return;
+    await this.last;
+    const marks = this.marks, bench = await call("/api/bench");
+    // Of what was marked meanwhile the program tells again.
+    if (!bench || marks !== this.marks) return;
     if (!this.bench || bench.opened !== this.bench.opened) this.at = undefined;
     const before = this.at === undefined ? null : this.step();
     this.bench = bench;
@@ -36,16 +39,18 @@ class BenchScreen {
     this.at = Math.min(this.at, this.steps.length);
     const step = this.step(), count = this.steps.length, done = this.steps.filter((one) => one.done).length;
     const texts = {count: (step ? `Step ${this.at + 1} of ${count}` : "Finished") + ` · ${done} done`,
-      title: step ? `${step.tier}, ${step.part}` : "All steps are done", angle: step ? `${step.angle}°` : "",
+      title: step ? `${step.tier}, ${step.part}` : "All steps are done",
       indices: step ? step.indices : "", depth: step ? step.depth : ""};
     for (const [name, text] of Object.entries(texts)) by_id("step-" + name).textContent = text;
+    const [angle, sigma] = step ? step.angle.split(/\s*±\s*/) : [];
+    by_id("step-angle").replaceChildren(...(step ? [`${angle}°`] : []), ...(sigma ? [" ", made("small", {}, `± ${sigma}°`)] : []));
     by_id("step-words").hidden = !step;
     by_id("step-done").disabled = !step;
     by_id("step-done").textContent = step && step.done ? "Next" : "Done, next";
     by_id("step-back").disabled = this.at === 0;
     by_id("steps").replaceChildren(...this.steps.map((one, i) => made("li", {},
       made("button", {type: "button", "aria-current": i === this.at ? "step" : null, onclick: () => { this.look_at(i); by_id("step-done").focus(); }},
-        made("span", {"aria-hidden": "true"}, one.done ? "✓" : "○"), made("span", {class: "unseen"}, one.done ? "done, " : "to do, "), ` ${one.tier}  ${one.angle}°`))));
+        made("span", {"aria-hidden": "true"}, one.done ? "✓" : "○"), made("span", {class: "unseen"}, one.done ? "done, " : "to do, "), ` ${one.tier} ${one.angle.split(/\s*±/)[0]}°`))));
     by_id("bench-note").textContent = `${this.bench[this.of].note} ${this.bench[this.of].about} Marks are kept in ${this.bench.file}.`.trim();
     this.view.light(step ? step.facets : []);
   }
@@ -85,6 +90,7 @@ class BenchScreen {
   mark(i, done) {
     if (this.steps[i].done === done) return;
     this.steps[i].done = done;
+    ++this.marks;
     const asked = {opened: this.bench.opened, step: i + 1, tier: this.steps[i].tier, done};
     this.last = this.last.then(async () => { if (!await call("/api/bench/mark", asked)) this.show(); });
   }

@@ -68,6 +68,8 @@ class StudioPage {
     const named = location.hash.slice(2), screens = ["readings", "bench", "export"];
     this.screen = !this.is_open ? "begin" : screens.includes(named) ? named : "readings";
     for (const screen of ["begin", ...screens]) by_id(screen).hidden = screen !== this.screen;
+    // A cell that is no longer seen takes no more keys.
+    if (document.activeElement.closest("[hidden]")) document.activeElement.blur();
     by_id("screens").hidden = by_id("leave").hidden = !this.is_open;
     by_id("undo").hidden = by_id("redo").hidden = this.screen !== "readings";
     for (const link of by_id("screens").children) link.hash.slice(2) === this.screen ? link.setAttribute("aria-current", "page") : link.removeAttribute("aria-current");
