@@ -6,6 +6,7 @@
 #include <map>
 
 #include "page/cutting_sheet.h"
+#include "stone/gemcad/gemcad_io.h"
 #include "stone/text/output_file.h"
 #include "stone/text/path_fence.h"
 #include "stone/text/text_scan.h"
@@ -42,13 +43,15 @@ std::string mark_line(std::size_t step, const std::string& tier) {
     return std::string(trimmed(line));
 }
 
-Json sheet_json(const Stone& stone, const std::string& report, const std::set<std::string>& marks) {
+// A design has no size before a fit.
+Json sheet_json(const Stone& stone, bool is_sized, const std::string& report,
+                const std::set<std::string>& marks) {
     CuttingSheet sheet;
     sheet.solid = stone.solid;
     sheet.design = cutting_design(stone.solid);
     sheet.steps = cutting_list(stone.solid);
     sheet.teeth = gear_of(stone.solid, {});
-    if (doubtful_size(stone.solid).empty()) sheet.unit = name_of(stone.unit);
+    if (is_sized && doubtful_size(stone.solid).empty()) sheet.unit = name_of(stone.unit);
     std::map<std::string, double> sigmas = sigmas_in(report);
     Json json{{"steps", Json::array()}};
     for (const CuttingStep& step : sheet.steps) {
@@ -71,7 +74,12 @@ Json sheet_json(const Stone& stone, const std::string& report, const std::set<st
                                  {"depth", rows[i].depth},
                                  {"done", marks.contains(mark_line(i + 1, rows[i].tier))}});
     }
-    json["about"] = about_sheet(sheet);
+    std::string about = about_sheet(sheet);
+    // Advice on an option of the command line.
+    constexpr std::string_view k_advice = " (in mm with --width)";
+    if (const std::size_t at = about.find(k_advice); at != std::string::npos)
+        about.erase(at, k_advice.size());
+    json["about"] = about;
     json["note"] = stone.solid.design
                        ? ""
                        : "The mesh holds no design: tiers and their order are as drawn. For the "
@@ -86,9 +94,9 @@ std::string bench_json(const LoadedStone& loaded, const FittedStone& fitted, con
     const std::set<std::string> marks = marks_in(file);
     Json json{{"opened", opened},
               {"file", file.string()},
-              {"drawn", sheet_json(loaded.file.stone, {}, marks)}};
+              {"drawn", sheet_json(loaded.file.stone, !is_cut(loaded.file.mesh_file), {}, marks)}};
     if (!fitted.report.empty())
-        json["fitted"] = sheet_json(stone_shown(loaded, fitted.solid), fitted.report, marks);
+        json["fitted"] = sheet_json(stone_shown(loaded, fitted.solid), true, fitted.report, marks);
     return text_of(json);
 }
 

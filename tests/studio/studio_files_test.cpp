@@ -129,6 +129,19 @@ TEST_F(StudioFiles, TheBenchKeepsItsMarks) {
               std::string::npos);
 }
 
+// A design has no size, so lengths are in widths (docs/stone-files.md).
+TEST_F(StudioFiles, ADesignHasNoMillimetresBeforeAFit) {
+    make("asc");
+    made();
+    const std::string design = get("/api/export/file", cookie_)->body;
+    EXPECT_EQ(post("/api/begin/upload?name=design.asc", design, cookie_)->status, 200);
+    const Json sheet = bench()["drawn"];
+    EXPECT_EQ(sheet["note"], "");
+    EXPECT_EQ(sheet["steps"].dump().find("mm"), std::string::npos) << sheet["steps"];
+    EXPECT_EQ(sheet["about"].get<std::string>().find("--width"), std::string::npos);
+    EXPECT_EQ(bench().count("fitted"), 0u);
+}
+
 TEST_F(StudioFiles, MarksStayInTheFolder) {
     const test::ScratchFolder elsewhere;
     std::ofstream(elsewhere / "marks.txt") << "kept\n";
