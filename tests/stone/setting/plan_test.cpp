@@ -125,10 +125,11 @@ TEST(Places, ARoundOutlineHasThemAtEvenDistances) {
 }
 
 TEST(Places, OfEveryCutAreAsTheTradeHasThem) {
-    // Prongs of usual solitaires: trillion, princess and emerald at their corners, marquise and
+    // Prongs of usual solitaires: trillion, princess and step cuts at their corners, marquise and
     // pear at their points.
     const std::map<std::string, int> usual{{"round-brilliant", 6},
                                            {"step", 4},
+                                           {"asscher", 4},
                                            {"princess", 4},
                                            {"oval", 6},
                                            {"marquise", 6},
