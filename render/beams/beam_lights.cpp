@@ -78,7 +78,12 @@ struct ShadedLights::Adder {
     void operator()(const SphereLight& light) const {
         const Vec3 c = light.center - middle;
         to.spheres.push_back({number(c.x), number(c.y), number(c.z), number(light.radius),
-                              radiance(light.radiance), polarised_as(light.radiance.polarisation)});
+                              radiance(light.radiance), polarised_as(light.radiance.polarisation),
+                              nullptr});
+    }
+    void operator()(const LampLight& light) const {
+        (*this)(SphereLight{light.center, light.radius, light.radiance});
+        to.spheres.back().lamp = std::make_shared<const LampLight>(light);
     }
     void operator()(const PlaneLight& light) const {
         Plane plane{};

@@ -11,7 +11,7 @@
 
 namespace culet {
 
-/// Spheres and planes together.
+/// Spheres, lamps and planes together.
 constexpr int k_most_near_lights = 16;
 
 struct ShadedLights {
@@ -46,6 +46,7 @@ struct ShadedLights {
         float x, y, z, radius;
         std::vector<float> radiance;
         Polarised polarised;
+        std::shared_ptr<const LampLight> lamp;  ///< if its radiance depends on the direction
     };
     struct Plane {
         float x, y, z, offset;

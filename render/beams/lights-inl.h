@@ -214,6 +214,23 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
     }
 }
 
+// Part of a lamp's greatest radiance along the rays that see any of it.
+HWY_INLINE V lamp_share(const LampLight& lamp, const Ray& ray, const V& seen) {
+    HWY_ALIGN float x[k_most_lanes], y[k_most_lanes], z[k_most_lanes], shares[k_most_lanes];
+    hn::Store(ray.direction.x, k_floats, x);
+    hn::Store(ray.direction.y, k_floats, y);
+    hn::Store(ray.direction.z, k_floats, z);
+    hn::Store(seen, k_floats, shares);
+    const size_t lanes = hn::Lanes(k_floats);
+    for (size_t i = 0; i < lanes; ++i) {
+        if (!(shares[i] > 0)) continue;
+        shares[i] =
+            static_cast<float>(share_of(lamp, {static_cast<double>(x[i]), static_cast<double>(y[i]),
+                                               static_cast<double>(z[i])}));
+    }
+    return hn::Load(k_floats, shares);
+}
+
 template <bool kSoft>
 HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& distance) {
     const V3 normal{number(plane.x), number(plane.y), number(plane.z)};
@@ -253,6 +270,7 @@ HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& rea
     V share[k_most_near_lights], distance[k_most_near_lights];
     const float* radiance[k_most_near_lights];
     const ShadedLights::Polarised* polarised[k_most_near_lights];
+    const LampLight* lamp[k_most_near_lights];
     int count = 0;
     // Drop lights that no ray sees: of several lights most rays see one or none.
     const auto put = [&](const auto& light, const V& seen) HWY_ATTR {
@@ -260,6 +278,8 @@ HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& rea
         if (hn::AllFalse(k_floats, share[count] > number(0.0f))) return;
         radiance[count] = light.radiance.data();
         polarised[count] = &light.polarised;
+        lamp[count] = nullptr;
+        if constexpr (requires { light.lamp; }) lamp[count] = light.lamp.get();
         ++count;
     };
     for (const auto& sphere : lights.spheres)
@@ -274,6 +294,7 @@ HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& rea
             const M before = j < i ? distance[j] <= distance[i] : distance[j] < distance[i];
             seen = seen * (number(1.0f) - hn::IfThenElseZero(before, share[j]));
         }
+        if (lamp[i] != nullptr) seen = seen * lamp_share(*lamp[i], ray, seen);
         take(seen, radiance[i], *polarised[i]);
         unhidden = unhidden * (number(1.0f) - share[i]);
     }

@@ -30,13 +30,24 @@ protected:
         for (const Light& light : scene_.lights.sources) {
             std::visit(
                 [&](const auto& l) {
-                    if constexpr (std::decay_t<decltype(l)>::k_is_near) writer.near(l);
+                    using L = std::decay_t<decltype(l)>;
+                    if constexpr (std::is_same_v<L, LampLight>) {
+                        note("a lamp's photometry: it shines as towards the target in all ways");
+                        writer.near(SphereLight{l.center, l.radius, towards_target(l)});
+                    } else if constexpr (L::k_is_near) {
+                        writer.near(l);
+                    }
                 },
                 light);
         }
         if (scene_.has_stone()) writer.stone(scene_.stone);
         for (const Stone& more : scene_.more_stones) writer.stone(more);
         for (const SceneObject& object : scene_.objects) writer.object(object);
+    }
+
+    LightColour towards_target(const LampLight& lamp) const {
+        const double share = share_of(lamp, lamp.center - scene_.camera.look_at);
+        return scaled(lamp.radiance, share);
     }
 
     const Scene& scene_;

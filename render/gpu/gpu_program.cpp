@@ -101,6 +101,8 @@ std::string refused_by_gpu(const Scene& scene) {
         return "the GPU kernel draws one window, a dichroscope has two";
     if (scene.camera.cone)
         return "the GPU kernel draws points of the stone, a conoscope shows directions";
+    if (count_lights<LampLight>(scene.lights) > 0)
+        return "the GPU kernel's lights shine alike in all directions, a [[light.lamp]] does not";
     const LightCounts lights = count_lights(scene.lights);
     if (gpu_vectors(lights) > k_most_gpu_vectors) {
         return fmt::format("the GPU kernel has no room for {} lights beside each other",

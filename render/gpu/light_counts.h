@@ -19,6 +19,7 @@ inline LightCounts count_lights(const Lights& lights) {
         LightCounts& counts;
         void operator()(const SphereLight&) const { ++counts.spheres; }
         void operator()(const PlaneLight&) const { ++counts.planes; }
+        void operator()(const LampLight&) const { ++counts.spheres; }
         void operator()(const CosinePowerLight&) const { ++counts.lobes; }
         void operator()(const HemisphereLight&) const { ++counts.caps; }
         void operator()(const DiscLight&) const { ++counts.caps; }

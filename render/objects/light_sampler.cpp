@@ -152,12 +152,12 @@ void LightSampler::add_lights(const Lights& lights, const Vec3& about) {
     const auto near_power = [&](const Vec3& center, double area, double bright) {
         return bright * solid_angle(center - about, area);
     };
-    static_assert(std::variant_size_v<Light> == 5, "a new kind of light is sampled here, too");
+    static_assert(std::variant_size_v<Light> == 6, "a new kind of light is sampled here, too");
     for (const Light& light : lights.sources) {
         const double bright = brightness(colour_of(light));
-        if (const auto* sphere = std::get_if<SphereLight>(&light)) {
-            add(Ball{sphere->center, sphere->radius},
-                near_power(sphere->center, k_pi * sphere->radius * sphere->radius, bright));
+        if (const auto ball = ball_of(light)) {
+            add(Ball{ball->center, ball->radius},
+                near_power(ball->center, k_pi * ball->radius * ball->radius, bright));
         } else if (const auto* plane = std::get_if<PlaneLight>(&light); plane && plane->u) {
             const double area = 4 * glm::length(glm::cross(*plane->u, *plane->v));
             add(Flat{plane->point, plane->normal, *plane->u, *plane->v, false, area},

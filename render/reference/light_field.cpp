@@ -27,15 +27,15 @@ struct LightField::Ready {
     template <class Visit>
     void each_seen(const Vec3& origin, const Vec3& direction, Visit&& visit) const;
 
-    // Part of a distant light's radiance that comes from a direction.
+    // Part of a light's radiance that comes from a direction; of near ones, if it is met.
     double share(std::size_t i, const Vec3& direction) const {
         return std::visit(
             [&](const auto& light) -> double {
                 using L = std::decay_t<decltype(light)>;
                 if constexpr (std::is_same_v<L, DiscLight>) {
                     return share_of(light, sources[i].cosines, direction);
-                } else if constexpr (L::k_is_near) {
-                    return 0;
+                } else if constexpr (L::k_is_near && !std::is_same_v<L, LampLight>) {
+                    return 1;
                 } else {
                     return share_of(light, direction);
                 }
@@ -113,7 +113,7 @@ void LightField::Ready::each_seen(const Vec3& origin, const Vec3& direction, Vis
     };
     double distance = 0;
     if (const int near = nearest(origin, direction, distance); near >= 0) {
-        return pass(std::size_t(near), 1);
+        return pass(std::size_t(near), share(std::size_t(near), direction));
     }
     if (lights.constant > 0) visit([this](int) { return lights.constant; }, lights.polarisation);
     if (lights.environment) {
@@ -187,7 +187,7 @@ std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const
     if (r.lights.environment) name("environment");
     if (r.lights.constant > 0) name("constant");
     for (std::size_t i = 0; i < r.sources.size(); ++i) {
-        if (r.share(i, direction) > 0) name(name_of(i));
+        if (!r.sources[i].is_near && r.share(i, direction) > 0) name(name_of(i));
     }
     return names.empty() ? "dark" : names;
 }

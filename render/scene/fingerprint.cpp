@@ -33,6 +33,14 @@ struct AddPart {
     void number(double v) const { print.add(v); }
 };
 
+void add_photometry(Fingerprint& print, const Photometry* photometry) {
+    if (photometry == nullptr) return;
+    print.add(static_cast<int>(photometry->type));
+    print.add(photometry->vertical);
+    print.add(photometry->horizontal);
+    print.add(photometry->candela);
+}
+
 void add_lights(Fingerprint& print, const Lights& lights) {
     print.add(lights.constant);
     if (lights.environment) {
@@ -46,6 +54,7 @@ void add_lights(Fingerprint& print, const Lights& lights) {
                 print.add(l.k_name);
                 l.each_part(l, AddPart{print});
                 add_colour(print, l.radiance);
+                if constexpr (requires { l.photometry; }) add_photometry(print, l.photometry.get());
             },
             light);
     }

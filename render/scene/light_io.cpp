@@ -7,6 +7,7 @@
 
 #include "render/image/image_io.h"
 #include "render/scene/environment_layout.h"
+#include "render/scene/lamp_io.h"
 #include "render/scene/light_presets.h"
 #include "render/scene/table_values.h"
 #include "render/scene/view_presets.h"
@@ -202,7 +203,7 @@ PlaneLight source_of(const TomlTable& t, const PlaneLight*) {
 
 }  // namespace
 
-Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
+Lights lights_of(const TomlTable& table, LengthUnit unit, std::vector<std::string>& notes) {
     std::vector<std::string_view> keys{"environment", "constant", "rotate"};
     for_each_light_type([&]<class L>() { keys.push_back(L::k_name); });
     table.refuse_unknown(with_view_keys(with_polarisation_keys(std::move(keys))));
@@ -225,7 +226,12 @@ Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
     lights.polarisation = polarisation_in(table, std::nullopt);
     for_each_light_type([&]<class L>() {
         for (const TomlTable& t : table.tables(L::k_name)) {
-            lights.sources.push_back(source_of(t, static_cast<const L*>(nullptr)));
+            if constexpr (std::is_same_v<L, LampLight>) {
+                lights.sources.push_back(lamp_of(t, unit));
+                colour_of(lights.sources.back()).polarisation = polarisation_in(t, std::nullopt);
+            } else {
+                lights.sources.push_back(source_of(t, static_cast<const L*>(nullptr)));
+            }
         }
     });
     const bool dark = !lights.environment && lights.constant == 0 && lights.sources.empty();

@@ -9,7 +9,8 @@
 
 namespace culet {
 
-/// `notes`: repairs and doubts. Throws InputError with file and line.
-Lights lights_of(const TomlTable& table, std::vector<std::string>& notes);
+/// `unit`: of lengths, for the openings of lamps. `notes`: repairs and doubts. Throws InputError
+/// with file and line.
+Lights lights_of(const TomlTable& table, LengthUnit unit, std::vector<std::string>& notes);
 
 }  // namespace culet

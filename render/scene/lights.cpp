@@ -42,22 +42,58 @@ std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& 
     return wavelengths.illuminant_relative(std::get<std::string>(colour.value).c_str());
 }
 
+LightColour scaled(LightColour colour, double factor) {
+    if (auto* number = std::get_if<double>(&colour.value)) *number *= factor;
+    if (auto* rgb = std::get_if<Rgb>(&colour.value)) {
+        for (double& part : *rgb) part *= factor;
+    }
+    return colour;
+}
+
 DiscCosines cosines_of(const DiscLight& cap) {
     // Full caps include their limits: 180 degrees cover all directions.
     return {cap.from <= 0 ? 2.0 : std::cos(cap.from),
             cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to)};
 }
 
+namespace {
+
 // From inside, the distance to the far side: a dome shines inwards.
-double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
-    const Vec3 to = sphere.center - origin;
+double distance_to_ball(const Vec3& center, double radius, const Vec3& origin,
+                        const Vec3& direction) {
+    const Vec3 to = center - origin;
     const double along = glm::dot(to, direction);
     const Vec3 beside = to - along * direction;
-    const double half_squared = sphere.radius * sphere.radius - glm::dot(beside, beside);
+    const double half_squared = radius * radius - glm::dot(beside, beside);
     if (half_squared < 0) return std::numeric_limits<double>::infinity();
     const double half = std::sqrt(half_squared);
     const double distance = along - half > 0 ? along - half : along + half;
     return distance > 0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
+    return distance_to_ball(sphere.center, sphere.radius, origin, direction);
+}
+
+double distance_to(const LampLight& lamp, const Vec3& origin, const Vec3& direction) {
+    return distance_to_ball(lamp.center, lamp.radius, origin, direction);
+}
+
+double share_of(const LampLight& lamp, const Vec3& direction) {
+    if (!lamp.photometry) return 1;
+    const Vec3 out = -direction;
+    const Vec3 of_lamp{glm::dot(out, lamp.zero), glm::dot(out, glm::cross(lamp.zero, lamp.axis)),
+                       glm::dot(out, lamp.axis)};
+    return lamp.photometry->at(of_lamp) / lamp.photometry->greatest;
+}
+
+std::optional<SphereLight> ball_of(const Light& light) {
+    if (const auto* sphere = std::get_if<SphereLight>(&light)) return *sphere;
+    const auto* lamp = std::get_if<LampLight>(&light);
+    if (lamp == nullptr) return std::nullopt;
+    return SphereLight{lamp->center, lamp->radius, lamp->radiance};
 }
 
 double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction) {
@@ -168,6 +204,10 @@ void add_rims(SphereLight sphere, const Vec3& from, double width, std::vector<Li
     sphere.radius += width * glm::length(sphere.center - from);
     // A light whose widened ball would contain the stone is not small.
     if (sphere.radius < glm::length(sphere.center - from)) rims.push_back(sphere);
+}
+
+void add_rims(const LampLight& lamp, const Vec3& from, double width, std::vector<Light>& rims) {
+    add_rims(SphereLight{lamp.center, lamp.radius, lamp.radiance}, from, width, rims);
 }
 
 void add_rims(CosinePowerLight lobe, const Vec3&, double width, std::vector<Light>& rims) {

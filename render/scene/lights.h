@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "render/colour/colour.h"
+#include "render/scene/photometry.h"
 #include "stone/solid/solid.h"
 
 namespace culet {
@@ -116,8 +117,32 @@ struct PlaneLight {
     }
 };
 
+/// A ball whose radiance depends on the direction alone, so that its intensity is exactly that of
+/// its photometry in every direction.
+struct LampLight {
+    static constexpr const char *k_name = "lamp", *k_names = "lamps";
+    static constexpr bool k_is_near = true, k_has_edge = true;
+    Vec3 center;
+    double radius = 1;
+    Vec3 axis{0, 0, -1}, zero{1, 0, 0};  ///< z and x of its photometry: unit, perpendicular
+    std::shared_ptr<const Photometry> photometry;  ///< none: the same in all directions
+    LightColour radiance;                          ///< in the direction of the greatest intensity
+
+    template <class Self, class Visit>
+    static void each_part(Self& light, Visit&& visit) {
+        visit.point(light.center);
+        visit.number(light.radius);
+        visit.direction(light.axis);
+        visit.direction(light.zero);
+    }
+};
+
+/// Of a number or a colour; an illuminant stays as it is.
+LightColour scaled(LightColour colour, double factor);
+
 /// In the order of help texts.
-using Light = std::variant<SphereLight, CosinePowerLight, HemisphereLight, DiscLight, PlaneLight>;
+using Light =
+    std::variant<SphereLight, CosinePowerLight, HemisphereLight, DiscLight, PlaneLight, LampLight>;
 
 struct Lights {
     std::shared_ptr<const EnvironmentMap> environment;  ///< excludes `constant`
@@ -173,6 +198,11 @@ DiscCosines cosines_of(const DiscLight& cap);
 /// Distance along a ray (unit direction) to a near light; infinite when the ray misses.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction);
 double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction);
+double distance_to(const LampLight& lamp, const Vec3& origin, const Vec3& direction);
+/// Part of a lamp's greatest radiance along rays of a direction (unit, towards the lamp).
+double share_of(const LampLight& lamp, const Vec3& direction);
+/// A sphere, or a lamp as a sphere of its greatest radiance.
+std::optional<SphereLight> ball_of(const Light& light);
 /// Part of a distant light's radiance that comes from a direction (unit, towards the light).
 double share_of(const CosinePowerLight& lobe, const Vec3& direction);
 double share_of(const HemisphereLight& half, const Vec3& direction);
@@ -184,6 +214,7 @@ void add_rims(const DiscLight& cap, const Vec3& from, double width, std::vector<
 void add_rims(const HemisphereLight& half, const Vec3& from, double width,
               std::vector<Light>& rims);
 void add_rims(const PlaneLight& plane, const Vec3& from, double width, std::vector<Light>& rims);
+void add_rims(const LampLight& lamp, const Vec3& from, double width, std::vector<Light>& rims);
 void add_rims(SphereLight sphere, const Vec3& from, double width, std::vector<Light>& rims);
 void add_rims(CosinePowerLight lobe, const Vec3& from, double width, std::vector<Light>& rims);
 

@@ -191,7 +191,7 @@ std::string read_lights(const TomlTable& root, std::string_view instead, bool ma
             root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");
         return "";
     }
-    scene.lights = lights_of(*light, scene.notes);
+    scene.lights = lights_of(*light, scene.stone.unit, scene.notes);
     if (const auto degrees = light->vector("rotate")) {
         const Vec3 middle = scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
         scene.lights = turned_lights(scene.lights, rotation_of(*degrees), middle);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "render/scene/view_presets.h"
+#include "stone/text/name_suggestions.h"
 
 namespace culet {
 

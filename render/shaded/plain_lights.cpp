@@ -54,10 +54,11 @@ Rgb PlainLights::rgb_of(const LightColour& colour) const {
 void PlainLights::add(const Light& light, const Vec3& middle) {
     const Rgb radiance = rgb_of(colour_of(light));
     PlainLight plain;
-    static_assert(std::variant_size_v<Light> == 5, "a new kind of light is shaded here, too");
+    static_assert(std::variant_size_v<Light> == 6, "a new kind of light is shaded here, too");
     // Irradiance of a surface that faces the light, over pi and radiance.
     double share = 0;
-    if (const auto* sphere = std::get_if<SphereLight>(&light)) {
+    if (const auto* lamp = std::get_if<LampLight>(&light)) plain.lamp = *lamp;
+    if (const auto sphere = ball_of(light)) {
         plain.at = sphere->center;
         plain.middle_distance = glm::length(sphere->center - middle);
         // A dome around the scene is ambient light.
@@ -103,6 +104,7 @@ Incoming PlainLights::incoming(const PlainLight& light, const Vec3& point) const
     double factor = 1 / (attenuation_[0] + a * (attenuation_[1] + a * attenuation_[2]));
     if (light.normal != Vec3(0))
         factor *= std::max(0.0, -glm::dot(incoming.direction, light.normal));
+    if (light.lamp) factor *= share_of(*light.lamp, incoming.direction);
     incoming.strength = factor * light.strength;
     return incoming;
 }

@@ -2,6 +2,7 @@
 // The lights of a scene as the local shadings see them: an ambient light, and lights that shine
 // from one point or one direction.
 
+#include <optional>
 #include <vector>
 
 #include "render/reference/light_field.h"
@@ -18,6 +19,7 @@ struct PlainLight {
     Vec3 normal{0, 0, 0};
     Rgb strength{0, 0, 0};       ///< radiance of a white surface facing it, at the scene's middle
     double middle_distance = 1;  ///< from the scene's middle
+    std::optional<LampLight> lamp = {};  ///< whose intensity depends on the direction
 };
 
 /// The light that reaches a point.

@@ -11,6 +11,7 @@ const k_plain_lights = {
   cap: "disc or ring",
   hemisphere: "half of the sky",
   sphere: "lamp",
+  lamp: "lamp",
   lobe: "soft lamp",
   plane: "panel",
 };
