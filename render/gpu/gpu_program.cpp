@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string_view>
 
 #include "render/beams/beam_lights.h"
 #include "render/gpu/gpu_passes.h"
+#include "stone/numbers/units.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -54,6 +56,7 @@ std::string kernel_source(const Scene& scene, const OpticalSetup& setup, const G
     define("CRYSTAL", int{layout.crystal});
     define("ABSORBS", int{layout.absorbs && !layout.crystal});
     define("SPHERES", lights.spheres);
+    define("LAMPS", lights.lamps);
     define("PLANE_LIGHTS", lights.planes);
     define("LOBES", lights.lobes);
     define("CAPS", lights.caps);
@@ -90,6 +93,29 @@ GpuTexture environment_texture(const EnvironmentMap& map) {
     return texture;
 }
 
+// The lamps' radiance over their greatest, one below the other: half degrees from the zero angle
+// downwards, and of azimuth from `zero` to the right. Linear between; exact for files whose angles
+// are multiples of half a degree, as those of type C are.
+GpuTexture lamp_texture(const Lights& lights) {
+    constexpr int k_columns = 721, k_rows = 361;
+    GpuTexture texture{"u_lamp_shares", k_gpu_length_unit + 2, k_columns, 0, {}};
+    for (const LampLight& lamp : lights_of_type<LampLight>(lights)) {
+        const Vec3 y = glm::cross(lamp.zero, lamp.axis);
+        for (int row = 0; row < k_rows; ++row) {
+            const double v = radians(0.5 * row);
+            for (int column = 0; column < k_columns; ++column) {
+                const double h = radians(0.5 * column);
+                const Vec3 out = std::sin(v) * (std::cos(h) * lamp.zero + std::sin(h) * y) +
+                                 std::cos(v) * lamp.axis;
+                const auto share = static_cast<float>(share_of(lamp, -out));
+                texture.rgba.insert(texture.rgba.end(), {share, share, share, 1.0f});
+            }
+        }
+        texture.height += k_rows;
+    }
+    return texture;
+}
+
 }  // namespace
 
 std::string refused_by_gpu(const Scene& scene) {
@@ -101,8 +127,6 @@ std::string refused_by_gpu(const Scene& scene) {
         return "the GPU kernel draws one window, a dichroscope has two";
     if (scene.camera.cone)
         return "the GPU kernel draws points of the stone, a conoscope shows directions";
-    if (count_lights<LampLight>(scene.lights) > 0)
-        return "the GPU kernel's lights shine alike in all directions, a [[light.lamp]] does not";
     const LightCounts lights = count_lights(scene.lights);
     if (gpu_vectors(lights) > k_most_gpu_vectors) {
         return fmt::format("the GPU kernel has no room for {} lights beside each other",
@@ -149,6 +173,8 @@ GpuProgram gpu_program(const Scene& scene, const OpticalSetup& setup, const Wave
         gpu_passes(setup, colours, layout, lights, scene.lights.environment != nullptr);
     if (scene.lights.environment)
         program.textures.push_back(environment_texture(*scene.lights.environment));
+    if (count_lights<LampLight>(scene.lights) > 0)
+        program.textures.push_back(lamp_texture(scene.lights));
     return program;
 }
 

@@ -63,13 +63,22 @@ std::vector<GpuUniform> gpu_lights(const Lights& lights, const Vec3& middle) {
     const ShadedLights shaded(lights, any, 0, 1, middle, nullptr);
     std::vector<GpuUniform> uniforms{
         {"u_constant", 1, false, {static_cast<float>(lights.constant)}}};
-    GpuUniform spheres{"u_spheres", 4, false, {}}, planes{"u_planes", 4, false, {}},
-        lobes{"u_lobes", 4, false, {}}, whole{"u_lobe_whole", 1, true, {}},
-        caps{"u_caps", 4, false, {}}, vibration{"u_vibration", 4, false, {}};
+    GpuUniform spheres{"u_spheres", 4, false, {}}, lamps{"u_lamps", 4, false, {}},
+        planes{"u_planes", 4, false, {}}, lobes{"u_lobes", 4, false, {}},
+        whole{"u_lobe_whole", 1, true, {}}, caps{"u_caps", 4, false, {}},
+        vibration{"u_vibration", 4, false, {}};
     const auto append_all = [](GpuUniform& to, std::initializer_list<float> v) {
         to.values.insert(to.values.end(), v);
     };
-    for (const auto& s : shaded.spheres) append_all(spheres, {s.x, s.y, s.z, s.radius});
+    for (const auto& s : shaded.spheres) {
+        if (s.lamp) {
+            append(lamps.values, s.lamp->axis);
+            lamps.values.push_back(static_cast<float>(spheres.values.size() / 4));
+            append(lamps.values, s.lamp->zero);
+            lamps.values.push_back(0);
+        }
+        append_all(spheres, {s.x, s.y, s.z, s.radius});
+    }
     for (const auto& p : shaded.planes) {
         append_all(planes, {p.x, p.y, p.z, p.offset, p.s[0], p.s[1], p.s[2], p.s[3], p.t[0], p.t[1],
                             p.t[2], p.t[3]});
@@ -88,7 +97,7 @@ std::vector<GpuUniform> gpu_lights(const Lights& lights, const Vec3& middle) {
                                    p.normal[1], p.normal[2], p.sheet ? 1.0f : 0.0f});
         });
     }
-    for (GpuUniform* uniform : {&spheres, &planes, &lobes, &whole, &caps, &vibration})
+    for (GpuUniform* uniform : {&spheres, &lamps, &planes, &lobes, &whole, &caps, &vibration})
         add_if_any(uniforms, std::move(*uniform));
     return uniforms;
 }

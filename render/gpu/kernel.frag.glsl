@@ -49,6 +49,10 @@ uniform Weights u_radiance[PATHS * LIGHTS];
 #if SPHERES > 0
 uniform vec4 u_spheres[SPHERES];  // centre, radius
 #endif
+#if LAMPS > 0
+uniform vec4 u_lamps[2 * LAMPS];  // zero angle, number of its sphere; zero azimuth
+uniform sampler2D u_lamp_shares;  // lamp_texture in gpu_program.cpp
+#endif
 #if PLANE_LIGHTS > 0
 uniform vec4 u_planes[3 * PLANE_LIGHTS];  // normal, offset; two rows: lit where both are in -1..1
 #endif
@@ -277,7 +281,7 @@ bool in_disc(vec3 axis, vec3 d, float cosine, float sine) {
     return along > 0.0 && dot(across, across) < sine * sine;
 }
 
-#if ENVIRONMENT
+#if ENVIRONMENT || LAMPS > 0
 // Moshier's atanf (Cephes): error 2e-7 in any quadrant.
 float angle_of(float y, float x) {
     float big = max(abs(x), abs(y)), small = min(abs(x), abs(y));
@@ -294,7 +298,31 @@ float angle_of(float y, float x) {
     if (x < 0.0) a = 3.1415926536 - a;
     return y < 0.0 ? -a : a;
 }
+#endif
 
+#if LAMPS > 0
+// Part of a sphere's greatest radiance along a ray: 1 unless it is a lamp.
+float lamp_share(int sphere, vec3 d) {
+    for (int i = 0; i < LAMPS; ++i) {
+        if (int(u_lamps[2 * i].w) != sphere) continue;
+        vec3 axis = u_lamps[2 * i].xyz, zero = u_lamps[2 * i + 1].xyz;
+        float x = -dot(d, zero), y = -dot(d, cross(zero, axis)), z = -dot(d, axis);
+        float azimuth = angle_of(y, x) * 114.5915590;
+        float column = clamp(azimuth < 0.0 ? azimuth + 720.0 : azimuth, 0.0, 720.0);
+        float row = clamp(angle_of(length(vec2(x, y)), z) * 114.5915590, 0.0, 360.0);
+        int left = min(int(column), 719), upper = min(int(row), 359), top = 361 * i + upper;
+        float u = column - float(left), v = row - float(upper);
+        return mix(mix(texelFetch(u_lamp_shares, ivec2(left, top), 0).r,
+                       texelFetch(u_lamp_shares, ivec2(left + 1, top), 0).r, u),
+                   mix(texelFetch(u_lamp_shares, ivec2(left, top + 1), 0).r,
+                       texelFetch(u_lamp_shares, ivec2(left + 1, top + 1), 0).r, u),
+                   v);
+    }
+    return 1.0;
+}
+#endif
+
+#if ENVIRONMENT
 // EnvironmentMap::at: bilinear, wrapping in azimuth, clamped at the poles.
 vec3 environment_at(vec3 d) {
     ivec2 size = textureSize(u_environment, 0);
@@ -323,7 +351,13 @@ Weights light_along(vec3 point, vec3 ray, float start, End end, int path) {
     float distance;
     int met = near_light(p, d, start, distance);
 #if SPHERES + PLANE_LIGHTS > 0
-    if (met >= 0) return weight_of(met, d, end) * u_radiance[path * LIGHTS + met];
+    if (met >= 0) {
+        Weights seen = weight_of(met, d, end) * u_radiance[path * LIGHTS + met];
+#if LAMPS > 0
+        seen *= lamp_share(met, d);
+#endif
+        return seen;
+    }
 #endif
     float around = weight_of(LIGHTS, d, end);
     Weights seen = Weights(around * u_constant);

@@ -57,6 +57,19 @@ inline std::vector<NamedChange> smooth_lights() {
          }},
     };
 }
+/// Different in every direction, by steps of 10 and 30 degrees.
+inline std::shared_ptr<const Photometry> wavy_lamp() {
+    Photometry lamp;
+    lamp.greatest = 2;
+    for (int h = 0; h <= 360; h += 30) {
+        lamp.horizontal.push_back(h);
+        for (int v = 0; v <= 180; v += 10) {
+            if (h == 0) lamp.vertical.push_back(v);
+            lamp.candela.push_back(1 + std::sin(radians(v)) * std::cos(radians(h) + 5));
+        }
+    }
+    return std::make_shared<const Photometry>(std::move(lamp));
+}
 inline std::vector<NamedChange> edged_lights() {
     const auto dark = [](Scene& s) { s.lights = {}; };
     return {
@@ -98,6 +111,18 @@ inline std::vector<NamedChange> edged_lights() {
              s.lights.sources.push_back(
                  PlaneLight{{-6, 0, 0}, {1, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}, {2.0, {}}});
              s.lights.sources.push_back(PlaneLight{{0, 0, -8}, {0, 0, 1}, {}, {}, {0.6, {}}});
+         }},
+        {"lamps, beside a sphere",
+         [dark](Scene& s) {
+             dark(s);
+             s.lights.constant = 0.1;
+             s.lights.sources.push_back(SphereLight{{-3, 1, 3}, 1, {0.5, {}}});
+             for (const double x : {-5.0, 6.0}) {
+                 LampLight lamp{{x, -3, 6}, 2.5, {0, 0, -1}, {1, 0, 0}, wavy_lamp(), {3.0, {}}};
+                 lamp.axis = glm::normalize(Vec3{-0.8 * x, 2, -6});
+                 lamp.zero = glm::normalize(glm::cross(lamp.axis, Vec3{0.3, 1, 0}));
+                 s.lights.sources.push_back(lamp);
+             }
          }},
         {"everything at once",
          [dark](Scene& s) {

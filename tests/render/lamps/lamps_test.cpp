@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "render/export/mitsuba.h"
-#include "render/gpu/gpu_program.h"
 #include "render/reference/light_field.h"
 #include "render/scene/photometry.h"
 #include "render/scene/scene_io.h"
@@ -307,16 +306,6 @@ TEST_F(LampScenes, ALampAndItsComplementAreAnIsotropicLamp) {
     }
 }
 
-// Beams shade pixels in single precision, the reference in double: they agree off the edges of
-// facets and of the lamp.
-TEST_F(LampScenes, BeamsAreTheReferences) {
-    const Candela candela = [](double, double g) { return 60 + 60 * cosine(9 * g); };
-    const Difference d =
-        difference(lit("beams", candela).picture, lit("reference", candela).picture, 1e-4);
-    EXPECT_EQ(d.not_finite, 0);
-    EXPECT_LE(d.off, std::max(2.0, 2e-3 * d.pixels)) << d;
-}
-
 // Irradiance at the distance d on the axis of a lamp of I0 candela is I0 / d^2: exactly for an
 // isotropic ball, and to (r / d)^2 for others. The scale makes colours, and the tilt a factor.
 TEST_F(LampScenes, IrradianceFallsWithTheSquareOfTheDistance) {
@@ -361,7 +350,6 @@ TEST_F(LampScenes, SayWhatIsWrongOrLeftOut) {
           {file + "position = [0, 0, 90]\nradiance = 2\n", "radiance"}})
         EXPECT_NE(refusal(lamp).find(words), std::string::npos) << refusal(lamp);
     const Scene scene = read(file + "position = [0, 0, 90]\n");
-    EXPECT_NE(refused_by_gpu(scene).find("[[light.lamp]]"), std::string::npos);
     const std::vector<std::string> notes = mitsuba_scene(scene, "s").notes;
     EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
         return note.find("photometry") != std::string::npos;
