@@ -127,16 +127,9 @@ TEST(Places, ARoundOutlineHasThemAtEvenDistances) {
 TEST(Places, OfEveryCutAreAsTheTradeHasThem) {
     // Prongs of usual solitaires: trillion, princess and step cuts at their corners, marquise and
     // pear at their points.
-    const std::map<std::string, int> usual{{"round-brilliant", 6},
-                                           {"step", 4},
-                                           {"asscher", 4},
-                                           {"princess", 4},
-                                           {"oval", 6},
-                                           {"marquise", 6},
-                                           {"pear", 5},
-                                           {"trillion", 3},
-                                           {"cushion", 4},
-                                           {"heart", 5}};
+    const std::map<std::string, int> usual{
+        {"round-brilliant", 6}, {"step", 4}, {"asscher", 4},  {"princess", 4}, {"oval", 6},
+        {"marquise", 6},        {"pear", 5}, {"trillion", 3}, {"cushion", 4},  {"heart", 5}};
     for (const CutKind& kind : cut_kinds()) {
         const GripOutline grip(girdle_outline(make_cut(kind.name)).points);
         ASSERT_TRUE(usual.contains(kind.name)) << kind.name;
