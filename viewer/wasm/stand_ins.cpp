@@ -6,6 +6,8 @@
 #include "render/image/image_io.h"
 #include "render/reference/light_field.h"
 #include "render/scene/engine_name.h"
+#include "render/scene/lamp_io.h"
+#include "render/scene/photometry.h"
 #include "stone/design/tiers.h"
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/material/wavelength_table.h"
@@ -35,6 +37,12 @@ std::string foreign_kind_of(const std::filesystem::path&) {
 }
 ReadCut parse_gcs(std::string_view, const CutReading&, const std::filesystem::path& file) {
     throw InputError(file, "is not read by a page: culet convert makes an .asc of it");
+}
+LampLight lamp_of(const TomlTable&, LengthUnit) {
+    throw InputError("a lamp's photometry is a file, and a page reads only what it was given");
+}
+double Photometry::at(const glm::dvec3&) const {
+    throw InternalError("a page has no lamps");
 }
 // Of a design, which a page does not show.
 std::vector<FacetTier> tiers_of(const Solid&, const Vec3&) {
