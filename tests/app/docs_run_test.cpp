@@ -36,9 +36,9 @@ const std::vector<Small> k_small = {
     {"study", {{"--budget", "2"}, {"--draws", "2"}}},
 };
 
-// Other tests run these, on files that take minutes to make.
+// Other tests run these: on files that take minutes to make, or until they are ended.
 const std::vector<std::string> k_elsewhere = {"culet refine", "culet outline", "culet compare",
-                                              "culet spin"};
+                                              "culet spin", "culet studio"};
 
 // The commands of a page's code blocks, fenced or indented: lines that begin with culet, with their
 // continuations. A line with a word in brackets is a summary of options.
