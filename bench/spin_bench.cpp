@@ -15,8 +15,6 @@
 
 #include "bench/spin_error.h"
 #include "stone/cuts/cuts.h"
-#include "stone/design/drawn_symmetry.h"
-#include "stone/design/tiers.h"
 #include "stone/numbers/units.h"
 #include "stone/text/errors.h"
 #include "tests/cpu_time.h"
@@ -85,13 +83,6 @@ struct Sums {
     double squares = 0;
     int facets = 0, found = 0, within = 0;
 };
-
-std::optional<CutSymmetry> symmetry_of(const Solid& cut) {
-    const Vec3 up{0, 0, 1};
-    const AxisGroup group = drawn_symmetry(cut, up, table_facet(cut, up)).near;
-    if (group.is_trivial()) return std::nullopt;
-    return CutSymmetry{group.order, group.mirrors};
-}
 
 void measure(const Options& o, int k, Sums& sums) {
     const Kind& kind = k_kinds[std::size_t(k)];

@@ -4,8 +4,6 @@
 
 #include "app/program/file_kinds.h"
 #include "stone/cuts/cuts.h"
-#include "stone/design/drawn_symmetry.h"
-#include "stone/design/tiers.h"
 #include "stone/solid/checks.h"
 #include "stone/solid_input.h"
 #include "stone/text/errors.h"
@@ -14,11 +12,10 @@ namespace culet {
 
 GivenCut given_cut(const std::string& cut) {
     const Solid solid = is_solid_file(cut) ? load_solid(cut).solid : make_cut(cut);
-    const Vec3 up{0, 0, 1};
-    const AxisGroup group = drawn_symmetry(solid, up, table_facet(solid, up)).near;
-    if (group.is_trivial())
+    const std::optional<CutSymmetry> symmetry = symmetry_of(solid);
+    if (!symmetry)
         throw InputError(cut, "this cut repeats no facet about its axis; leave --cut out");
-    return {{group.order, group.mirrors}, is_convex(solid)};
+    return {*symmetry, is_convex(solid)};
 }
 
 std::string words_of(const CutSymmetry& symmetry) {

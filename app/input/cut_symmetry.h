@@ -16,7 +16,7 @@ struct GivenCut {
 /// no facet about its axis.
 GivenCut given_cut(const std::string& cut);
 
-/// "four times around, with mirrors"
+/// "4 times around the axis and mirrored"
 std::string words_of(const CutSymmetry& symmetry);
 
 }  // namespace culet

@@ -20,6 +20,10 @@ constexpr double k_across = radians(1.5);
 constexpr double k_ground_depth = 0.1;
 // Guesses nearer to a known facet are left out.
 constexpr double k_guess = radians(8.0);
+// The scatter of the outlines' points may grow so much with copies: in simulated series
+// (bench_spin) by up to 1.2 times where the stone repeats its facets, 5 times where it does not.
+constexpr double k_no_worse = 1.5;
+constexpr double k_side_error = 0.1;  // pixels
 
 // Both planes hold the edge. Its place is off by `sigma` in every direction across it, by as much
 // for one plane as for the other: sum and difference of their heights there are independent.
@@ -47,11 +51,6 @@ void add_ground(double depth, int plane, std::vector<PlaneCondition>& to) {
     to.push_back({{{plane, {0, 1, 0}, 0}}, 0, k_ground_tilt});
     to.push_back({{{plane, {0, 0, 0}, 1}}, depth, k_ground_depth});
 }
-
-// The scatter of the outlines' points may grow so much with copies: in simulated series
-// (bench_spin) by up to 1.2 times where the stone repeats its facets, 5 times where it does not.
-constexpr double k_no_worse = 1.5;
-constexpr double k_side_error = 0.1;  // pixels
 
 // A bright side looks wider than a dark one, in every frame: at one end of a facet and not at the
 // other.

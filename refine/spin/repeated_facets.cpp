@@ -10,6 +10,8 @@
 #include <numeric>
 
 #include "refine/spin/form_axis.h"
+#include "stone/design/drawn_symmetry.h"
+#include "stone/design/tiers.h"
 #include "stone/numbers/units.h"
 #include "stone/numbers/upper_median.h"
 #include "stone/solid/perpendicular.h"
@@ -238,6 +240,13 @@ private:
 };
 
 }  // namespace
+
+std::optional<CutSymmetry> symmetry_of(const Solid& cut) {
+    const Vec3 up{0, 0, 1};
+    const AxisGroup group = drawn_symmetry(cut, up, table_facet(cut, up)).near;
+    if (group.is_trivial()) return std::nullopt;
+    return CutSymmetry{group.order, group.mirrors};
+}
 
 std::optional<RepeatedFacets> repeated_facets(const Solid& solid,
                                               const std::vector<double>& tilt_sigmas,

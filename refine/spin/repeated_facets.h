@@ -15,6 +15,9 @@ struct CutSymmetry {
     bool mirrors = false;
 };
 
+/// Of an upright cut; nothing if it repeats no facet about its axis.
+std::optional<CutSymmetry> symmetry_of(const Solid& cut);
+
 struct RepeatedFacets {
     /// The facets that are shown, then copies of them where the cut repeats them and no facet is
     /// shown; a copy's name is that of its original and the number of its place.
