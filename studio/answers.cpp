@@ -55,6 +55,7 @@ Answer Answers::to(const Call& call) {
     try {
         if (call.posts && call.path.starts_with("/api/begin/"))
             return {200, k_json, begin(call, lock)};
+        if (call.path.starts_with("/api/cut")) return {200, k_json, cut(call, lock)};
         if (call.posts) return {200, k_json, post(call)};
         if (call.path == "/api/state") return {200, k_json, state()};
         if (call.path == "/api/begin") return {200, k_json, culet::begin_json(folder_)};
@@ -198,6 +199,7 @@ std::string Answers::open(const fs::path& stone_file, const std::string& window)
     fitted_ = {};
     files_.cancel("file");
     made_ = {made_.number};
+    forget_cuts();
     fit_revision_ = 0;
     drawings_ = plain_drawings(project_->loaded()->file.stone.solid);
     ask_for_fit(window);

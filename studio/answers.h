@@ -5,11 +5,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "studio/bench_work.h"
+#include "studio/cut_work.h"
 #include "studio/events.h"
 #include "studio/job_queue.h"
 #include "studio/project.h"
@@ -39,6 +41,20 @@ struct MadeFile {
     std::string bytes = {};
 };
 
+/// The cuts that were tried on the stone, in their order.
+struct TriedCuts {
+    std::vector<TriedCut> list;  ///< empty: none was asked for yet
+    std::size_t at = 0;          ///< the one that is shown
+    CutGround ground;
+    int job = 0;            ///< counts what ran
+    std::string runs = {};  ///< optimise, grade; empty: nothing
+    double fraction = 0;
+    std::string trouble = {};  ///< of what ran last
+    std::string page = {};     ///< the grade of the one at `paged`
+    std::size_t paged = 0;
+    int graded_job = 0;  ///< that made the page
+};
+
 class Answers {
 public:
     /// `input` as in StudioOptions. Throws InputError.
@@ -48,6 +64,8 @@ public:
     Answer to(const Call& call);
     /// The stone in the viewer's page. It has scripts inside, and must be shown in a sandbox.
     Answer view();
+    /// The grade of the cut that is tried; likewise.
+    Answer grade_page();
     Events& events() { return events_; }
     /// A window begins to listen, or was closed: what it asked for is cancelled, unless another
     /// window shows it too.
@@ -77,6 +95,17 @@ private:
     void look_at_marks();
     void require_opened(int opened) const;
 
+    // answers_cut.cpp
+    std::string cut(const Call& call, std::unique_lock<std::mutex>& lock);
+    std::string cut_json() const;
+    TriedCut tried_apart(const std::function<TriedCut()>& made, std::unique_lock<std::mutex>& lock);
+    void add_cut(TriedCut cut);
+    void stop_cut_job();
+    void forget_cuts();
+    void cut_job(const Call& call, const nlohmann::ordered_json& body);
+    void cut_ended(const WorkEnd& end);
+    std::string keep_cut(const Call& call, std::unique_lock<std::mutex>& lock);
+
     std::string version_;
     mutable std::mutex mutex_;  // of all below; held while the work of a job is copied (apart.h)
     std::filesystem::path folder_;
@@ -87,6 +116,7 @@ private:
     FittedStone fitted_;
     std::set<std::string> marks_;  // as last told
     MadeFile made_;
+    TriedCuts cuts_;
     int fit_revision_ = 0;
     bool fit_runs_ = false;
     Events events_;

@@ -142,13 +142,15 @@ std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
     const FitResult result = fit_stone(input, options, progress);
     const std::string report = fit_report(result);
     const FitView view{report, result.solid, std::string(name_of(result.unit))};
-    Json json{{"status", name_of(result.status)},
-              {"card_html", with_rows(fit_card(view), loaded)},
-              {"look_html", with_rows(fit_look_section(view), loaded)},
-              {"next", next_step(result)},
-              {"rows", rows_json(loaded, input.readings, result)},
-              {"seconds", result.log.seconds},
-              {"drawings", drawings_json(result.solid, report)}};
+    Json json{
+        {"status", name_of(result.status)},
+        {"card_html", with_rows(fit_card(view), loaded)},
+        {"look_html", with_rows(fit_look_section(view), loaded)},
+        {"stone_html", with_rows(fit_look_section(view) + fit_proportions_section(view), loaded)},
+        {"next", next_step(result)},
+        {"rows", rows_json(loaded, input.readings, result)},
+        {"seconds", result.log.seconds},
+        {"drawings", drawings_json(result.solid, report)}};
     if (!result.findings.help.empty()) {
         const NextReading& help = result.findings.help.front();
         json["next_reading"] = {{"kind", name_of(help.kind)}, {"of", help.of}};

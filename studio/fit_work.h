@@ -9,10 +9,10 @@
 
 namespace culet {
 
-/// JSON: `status`, `card_html`, `look_html`, `next`, `next_reading`, `rows` (line, off, checked,
-/// flag), `drawings`, `seconds`; `solid`, the fitted mesh as OBJ, and `report`, as of culet fit.
-/// `start` is the `solid` of an earlier fit of the same stone, or empty. Throws InputError and
-/// Interrupted.
+/// JSON: `status`, `card_html`, `look_html`, `stone_html`, `next`, `next_reading`, `rows` (line,
+/// off, checked, flag), `drawings`, `seconds`; `solid`, the fitted mesh as OBJ, and `report`, as of
+/// culet fit. `start` is the `solid` of an earlier fit of the same stone, or empty. Throws
+/// InputError and Interrupted.
 std::string fit_for_screen(const LoadedStone& loaded, const std::string& start,
                            const Progress& progress);
 

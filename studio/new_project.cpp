@@ -149,12 +149,12 @@ fs::path stone_file_for(const fs::path& input) {
 }
 
 fs::path project_of_file(const fs::path& folder, const std::string& file_name,
-                         const std::string& bytes) {
+                         const std::string& bytes, const std::string& material) {
     const std::string name = plain_name(file_name);
     if (!is_solid_file(name)) load_solid(folder / name);  // throws, and lists what can be read
     bool is_there = false;
     const fs::path own = folder_for(folder, name, bytes, is_there);
-    return is_there ? own / k_stone : made_in(own, name, bytes, {});
+    return is_there ? own / k_stone : made_in(own, name, bytes, material);
 }
 
 fs::path project_of_cut(const fs::path& folder, const std::string& kind,

@@ -25,9 +25,11 @@ std::string plain_name(const std::string& given);
 std::filesystem::path stone_file_for(const std::filesystem::path& input);
 
 /// Makes a project of a file's content (any mesh or design that culet reads) in a new folder within
-/// `folder`; the same rules. Returns its stone file. Throws InputError.
+/// `folder`; the same rules. `material`: a name of
+/// the catalogue, or empty. Returns its stone file. Throws InputError.
 std::filesystem::path project_of_file(const std::filesystem::path& folder,
-                                      const std::string& file_name, const std::string& bytes);
+                                      const std::string& file_name, const std::string& bytes,
+                                      const std::string& material = {});
 
 /// The same for a standard cut. `material` may be empty.
 std::filesystem::path project_of_cut(const std::filesystem::path& folder, const std::string& kind,

@@ -56,6 +56,19 @@ Call call_of(const Request& request) {
             request.get_param_value("name")};
 }
 
+// It is a page of its own, whose scripts stand inside. In its sandbox it has no origin, and so can
+// ask nothing of the studio.
+void answer_in_sandbox(const Answer& answer, Response& response) {
+    response.status = answer.status;
+    response.set_content(answer.body, answer.type);
+    response.headers.erase("Content-Security-Policy");
+    response.set_header("Content-Security-Policy",
+                        "sandbox allow-scripts allow-downloads allow-modals; default-src 'none'; "
+                        "img-src data: blob:; media-src blob:; style-src 'unsafe-inline'; "
+                        "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; "
+                        "frame-ancestors 'self'");
+}
+
 }  // namespace
 
 struct Studio::Parts {
@@ -101,7 +114,8 @@ void Studio::Parts::prepare() {
     server.set_default_headers(
         {{"Content-Security-Policy",
           "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-          "connect-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'"},
+          "frame-src 'self'; connect-src 'self'; form-action 'none'; base-uri 'none'; "
+          "frame-ancestors 'none'"},
          {"X-Content-Type-Options", "nosniff"},
          {"Referrer-Policy", "no-referrer"},
          {"Cross-Origin-Opener-Policy", "same-origin"},
@@ -165,17 +179,10 @@ void Studio::Parts::add_routes() {
         listen_to_events(request, response);
     });
     server.Get("/view", [this](const Request&, Response& response) {
-        const Answer answer = answers.view();
-        response.status = answer.status;
-        response.set_content(answer.body, answer.type);
-        // It is a page of its own, whose scripts stand inside. In its sandbox it has no origin, and
-        // so can ask nothing of the studio.
-        response.headers.erase("Content-Security-Policy");
-        response.set_header("Content-Security-Policy",
-                            "sandbox allow-scripts allow-downloads allow-modals; default-src "
-                            "'none'; img-src data: blob:; media-src blob:; style-src "
-                            "'unsafe-inline'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; "
-                            "worker-src blob:");
+        answer_in_sandbox(answers.view(), response);
+    });
+    server.Get("/grade", [this](const Request&, Response& response) {
+        answer_in_sandbox(answers.grade_page(), response);
     });
     const auto answered = [this](const Request& request, Response& response) {
         const Answer answer = answers.to(call_of(request));

@@ -10,6 +10,7 @@
 
 #include "app/grade/graded.h"
 #include "compare/report/report.h"
+#include "compare/study/graded_design.h"
 #include "fit/findings/summary.h"
 #include "fit/fit.h"
 #include "render/grade/grade_figures.h"
@@ -185,7 +186,8 @@ void grade_job(JobInWork& work, GradeInput input) {
     view.version = CULET_VERSION;
     view.command = "culet batch";
     view.designs.push_back(
-        design_for_page(graded, work.folder, "1", {work.settings.head_deg, 320, 1}));
+        graded_design({graded.input.stone, graded.input.has_material, graded.grade, graded.json},
+                      work.folder, "1", {work.settings.head_deg, 320, 1}));
     write_text(work.folder / "grade.html", grade_page(view));
 }
 

@@ -12,6 +12,7 @@
 #include "app/input/study_scene.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
+#include "compare/study/graded_design.h"
 #include "page/grade_page.h"
 #include "page/quantity.h"
 #include "render/grade/grade_figures.h"
@@ -89,9 +90,10 @@ void write_page(const GradeCommand& command, const std::vector<Graded>& all) {
     view.optimized_json = command.optimized_json;
     std::size_t number = 0;
     for (const Graded& one : all) {
-        view.designs.push_back(
-            design_for_page(one, folder, fmt::format("{}", ++number),
-                            {command.head_deg, command.size, command.common.threads}));
+        const GradeInput& input = one.input;
+        view.designs.push_back(graded_design(
+            {input.stone, input.has_material, one.grade, one.json}, folder,
+            fmt::format("{}", ++number), {command.head_deg, command.size, command.common.threads}));
     }
     write_text(folder / "report.html", grade_page(view));
     write_text(folder / "grade.json", json_of(all));

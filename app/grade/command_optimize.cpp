@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/grade/command_grade.h"
 #include "app/grade/optimize_options.h"
 #include "app/input/grade_input.h"
 #include "app/program/terminal.h"
 #include "render/grade/grade_figures.h"
+#include "render/optimize/optimized_json.h"
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/text/errors.h"
 #include "stone/text/output_file.h"
@@ -56,77 +56,16 @@ OptimizeOptions options_of(const OptimizeCommand& command, const GradeInput& inp
     return options;
 }
 
-nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) {
-    nlohmann::ordered_json json{{"total", merit.total}};
-    for (std::size_t p = 0; p < merit.parts.size(); ++p) {
-        if (options.weights[p] > 0) json[name_of(static_cast<MeritPart>(p))] = merit.parts[p];
-    }
-    return json;
-}
-
-// Uses the titles of the cutting sheet. Equal tiers of a design were changed together.
-std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
-    Solid solid = result.start;
-    solid.design = std::make_shared<const Design>(design);
-    const std::vector<std::string> titles = tier_titles(design);
-    const std::vector<DesignPlace> places = places_of(solid);
-    std::vector<std::string> words;
-    for (const OptimizedTier& tier : result.tiers) {
-        std::vector<std::string> own;
-        for (const int f : tier.tier.facets) {
-            const int t = places[std::size_t(f)].tier;
-            const std::string& title =
-                t < 0 ? solid.facets[std::size_t(f)].name : titles[std::size_t(t)];
-            if (std::find(own.begin(), own.end(), title) == own.end()) own.push_back(title);
-        }
-        words.push_back(fmt::format("{}", fmt::join(own, " ")));
-    }
-    return words;
-}
-
-std::string json_of(const Optimized& result, const std::vector<std::string>& names,
-                    const OptimizeOptions& options, const OptimizeCommand& command) {
-    nlohmann::ordered_json json{{"schema", 1},
-                                {"objective", command.objective},
-                                {"model", command.model},
-                                {"index", options.merit.index.n},
-                                {"merit",
-                                 {{"start", json_of(result.at_start, options.merit)},
-                                  {"two_factors", json_of(result.by_two_factors, options.merit)},
-                                  {"better", json_of(result.at_better, options.merit)}}},
-                                {"found", result.found},
-                                {"recut", command.recut},
-                                {"volume_ratio", result.volume_ratio},
-                                {"table_percent",
-                                 {{"start", 100 * table_share(result.start)},
-                                  {"better", 100 * table_share(result.better)}}},
-                                {"evaluations", result.evaluations},
-                                {"tiers", nlohmann::ordered_json::array()}};
-    for (std::size_t t = 0; t < names.size(); ++t) {
-        const OptimizedTier& tier = result.tiers[t];
-        nlohmann::ordered_json facets = nlohmann::ordered_json::array();
-        for (const int f : tier.tier.facets)
-            facets.push_back(result.start.facets[static_cast<std::size_t>(f)].name);
-        json["tiers"].push_back(
-            {{"name", names[t]},
-             {"part", tier.tier.part == StonePart::crown ? "crown" : "pavilion"},
-             {"facets", facets},
-             {"from_deg", degrees(tier.from)},
-             {"to_deg", degrees(tier.to)}});
-    }
-    return json.dump(1) + "\n";
-}
-
-void print_result(const Optimized& result, const std::vector<std::string>& names,
-                  const OptimizeCommand& command) {
+void print_result(const Optimized& result, const Design& design, const OptimizeCommand& command) {
     std::string text = fmt::format(
         "{}: {:.2f} before, {:.2f} now ({:.2f} where crown and pavilion are each "
         "scaled as a whole)\n",
         command.objective, result.at_start.total, result.at_better.total,
         result.by_two_factors.total);
-    for (std::size_t t = 0; t < names.size(); ++t)
-        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", names[t],
-                            degrees(result.tiers[t].from), degrees(result.tiers[t].to));
+    for (const OptimizedTier& tier : result.tiers)
+        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n",
+                            tier_words(result.start, design, tier.tier), degrees(tier.from),
+                            degrees(tier.to));
     text += fmt::format("  table {:.1f} -> {:.1f} % of the width; ",
                         100 * table_share(result.start), 100 * table_share(result.better));
     text += command.recut ? fmt::format("{:.2f} % of the weight is cut away\n",
@@ -191,7 +130,7 @@ int run_optimize(OptimizeCommand command) {
         throw InputError(input.file, error.what());
     }
     Design design = design_of(options, input);
-    const std::vector<std::string> names = tier_words(result, design);
+    const Design given = design;
     const fs::path before = fs::path(command.page) / "before.asc";
     if (!command.page.empty()) {
         fs::create_directories(command.page);
@@ -200,9 +139,10 @@ int run_optimize(OptimizeCommand command) {
     design.footnotes.push_back(fmt::format("Angles by culet optimize, for {}", command.objective));
     say_notes(command.out, write_cut(about_its_axis(result), design, command.out),
               command.common.quiet);
-    if (!command.json.empty()) write_text(command.json, json_of(result, names, options, command));
+    if (!command.json.empty())
+        write_text(command.json, optimized_json(result, given, options, command.objective));
     if (command.json != "-") {
-        print_result(result, names, command);
+        print_result(result, given, command);
         if (result.found && !result.interrupted) print_losses(result, options);
     }
     // The last note of an untrusted fit is printed below.
@@ -216,7 +156,7 @@ int run_optimize(OptimizeCommand command) {
     }
     if (!command.page.empty())
         write_grade_page({before.string(), command.out}, command.choices, command.page,
-                         command.common, json_of(result, names, options, command));
+                         command.common, optimized_json(result, given, options, command.objective));
     if (!input.trusted)
         say(fmt::format("{}: the fit should not be trusted, nor should these angles: {}",
                         input.file, input.notes.back()),

@@ -8,7 +8,6 @@
 #include "app/program/options.h"
 #include "app/program/terminal.h"
 #include "render/grade/grade_json.h"
-#include "render/grade/path_section.h"
 #include "stone/numbers/units.h"
 #include "stone/text/errors.h"
 
@@ -82,23 +81,6 @@ Graded grade_input(GradeInput input, const GradeOptions& options, int draws, boo
     graded.json = grade_json(graded.grade, context);
     graded.input = std::move(input);
     return graded;
-}
-
-GradeDesign design_for_page(const Graded& graded, const std::filesystem::path& folder,
-                            const std::string& prefix, const GradePageOptions& page) {
-    GradeDesign design;
-    design.json = graded.json;
-    Stone stone = graded.input.stone;
-    if (!graded.input.has_material || graded.input.index) {
-        // An index alone has no dispersion.
-        stone.material = graded.input.has_material ? stone.material : Material();
-        if (!graded.input.has_material) stone.material.index[0].n = graded.grade.index.n;
-    }
-    design.pictures = draw_scopes(stone, folder, prefix, {page.size, page.threads});
-    design.section_json = section_json(
-        path_section(graded.input.stone.solid, graded.grade.index.n, radians(page.head_deg)));
-    design.solid = graded.input.stone.solid;
-    return design;
 }
 
 }  // namespace culet

@@ -13,6 +13,8 @@ class StudioPage {
     this.begin = new BeginScreen();
     this.bench = new BenchScreen();
     this.exports = new ExportScreen();
+    this.cut = new CutScreen(this);
+    this.screens = {begin: this.begin, readings: null, stone: new StoneScreen(this), cut: this.cut, bench: this.bench, export: this.exports};
     addEventListener("hashchange", () => this.show_screen());
     const on = (id, act) => by_id(id).addEventListener("click", act);
     on("trouble-close", () => show_trouble(""));
@@ -37,6 +39,8 @@ class StudioPage {
     events.addEventListener("table", (event) => { if (JSON.parse(event.data).by !== window_id) this.look_at_table(); });
     events.addEventListener("fit", () => this.look_at_fit());
     events.addEventListener("progress", (event) => { by_id("progress").value = JSON.parse(event.data).fraction; });
+    events.addEventListener("cut", (event) => { if (this.screen === "cut" && JSON.parse(event.data).by !== window_id) this.cut.show(); });
+    events.addEventListener("cut-progress", (event) => this.cut.progress(JSON.parse(event.data).fraction));
     events.addEventListener("bench", () => this.screen === "bench" && this.bench.show());
     events.addEventListener("file", (event) => this.exports.draw(JSON.parse(event.data)));
     events.addEventListener("error", () => show_trouble(events.readyState === EventSource.CLOSED
@@ -65,17 +69,15 @@ class StudioPage {
 
   /** The one that the address names, of a stone that is open. */
   show_screen() {
-    const named = location.hash.slice(2), screens = ["readings", "bench", "export"];
-    this.screen = !this.is_open ? "begin" : screens.includes(named) ? named : "readings";
-    for (const screen of ["begin", ...screens]) by_id(screen).hidden = screen !== this.screen;
+    const named = location.hash.slice(2), known = named !== "begin" && Object.keys(this.screens).includes(named);
+    this.screen = !this.is_open ? "begin" : known ? named : "readings";
+    for (const screen of Object.keys(this.screens)) by_id(screen).hidden = screen !== this.screen;
     // A cell that is no longer seen takes no more keys.
     if (document.activeElement.closest("[hidden]")) document.activeElement.blur();
     by_id("screens").hidden = by_id("leave").hidden = !this.is_open;
     by_id("undo").hidden = by_id("redo").hidden = this.screen !== "readings";
     for (const link of by_id("screens").children) link.hash.slice(2) === this.screen ? link.setAttribute("aria-current", "page") : link.removeAttribute("aria-current");
-    if (this.screen === "begin") this.begin.show();
-    if (this.screen === "bench") this.bench.show();
-    if (this.screen === "export") this.exports.show();
+    if (this.screens[this.screen]) this.screens[this.screen].show();
   }
 
   async look_at_table() {
@@ -115,7 +117,7 @@ class StudioPage {
     this.wait_for_fit(fit.runs);
     this.show_card(fit.fit);
     this.paint();
-    if (this.screen === "bench" && !fit.runs) this.bench.show();
+    if (!fit.runs && ["bench", "stone", "cut"].includes(this.screen)) this.screens[this.screen].show();
   }
 
   /** The one thing to do next: a marked row first, which the fit may not have seen yet. */

@@ -1,8 +1,9 @@
-#include "app/grade/grade_pictures.h"
+#include "compare/study/graded_design.h"
 
 #include <fmt/format.h>
 
 #include "page/html.h"
+#include "render/grade/path_section.h"
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/framing.h"
@@ -22,7 +23,7 @@ constexpr Scope k_scopes[] = {{"aset", "ASET"},
                               {"hearts", "Hearts"},
                               {"arrows", "Arrows"}};
 
-Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePictureOptions& options) {
+Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePageOptions& options) {
     Scene scene;
     scene.stone = stone;
     scene.lights = *light_preset(preset.name);
@@ -41,20 +42,36 @@ Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePicture
     return scene;
 }
 
-}  // namespace
-
 std::vector<GradePicture> draw_scopes(const Stone& stone, const std::filesystem::path& folder,
-                                      const std::string& prefix,
-                                      const GradePictureOptions& options) {
+                                      const std::string& prefix, const GradePageOptions& options) {
     std::vector<GradePicture> pictures;
     for (const Scope& scope : k_scopes) {
         const LightPreset& preset = *find_light_preset(scope.preset);
-        const RenderResult result = render(scene_in(stone, preset, options));
-        const std::filesystem::path file = folder / fmt::format("{}-{}.png", prefix, scope.preset);
-        write_picture(result.picture, file);
-        pictures.push_back({scope.title, preset.summary, png_uri(read_text(file))});
+        const std::string png = png_of(render(scene_in(stone, preset, options)).picture, {});
+        if (!folder.empty())
+            write_text(folder / fmt::format("{}-{}.png", prefix, scope.preset), png);
+        pictures.push_back({scope.title, preset.summary, png_uri(png)});
     }
     return pictures;
+}
+
+}  // namespace
+
+GradeDesign graded_design(const GradedStone& graded, const std::filesystem::path& folder,
+                          const std::string& prefix, const GradePageOptions& options) {
+    GradeDesign design;
+    design.json = graded.json;
+    Stone stone = graded.stone;
+    if (!graded.has_material) {
+        // An index alone has no dispersion.
+        stone.material = Material();
+        stone.material.index[0].n = graded.grade.index.n;
+    }
+    design.pictures = draw_scopes(stone, folder, prefix, options);
+    design.section_json =
+        section_json(path_section(stone.solid, graded.grade.index.n, radians(options.head_deg)));
+    design.solid = stone.solid;
+    return design;
 }
 
 }  // namespace culet
