@@ -8,9 +8,11 @@
 
 #include "stone/cuts/cuts.h"
 #include "stone/text/errors.h"
+#include "studio/described_stone.h"
 #include "studio/fit_work.h"
 #include "studio/json_text.h"
 #include "studio/new_project.h"
+#include "studio/sample_stones.h"
 #include "studio/table_json.h"
 
 namespace culet {
@@ -165,6 +167,15 @@ std::string Answers::begin(const Call& call, std::unique_lock<std::mutex>& lock)
     const auto kind = [&] { return body.at("kind").get<std::string>(); };
     const auto values = [&] { return body.at("values").get<std::map<std::string, double>>(); };
     if (call.path == "/api/begin/preview") return plain_drawings(make_cut(kind(), values()));
+    if (call.path == "/api/begin/words") {
+        const DescribedStone stone = described_stone(body.at("text").get<std::string>());
+        return text_of(Json{{"kind", stone.kind},
+                            {"values", stone.values},
+                            {"material", stone.material},
+                            {"notes", stone.notes}});
+    }
+    if (call.path == "/api/begin/sample")
+        return open(project_of_sample(folder_, body.at("name").get<std::string>()), call.window);
     if (call.path == "/api/begin/cut") {
         return open(
             project_of_cut(folder_, kind(), values(), body.at("material").get<std::string>()),

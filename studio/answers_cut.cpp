@@ -176,7 +176,7 @@ Answer Answers::grade_page() {
 // The stone that was measured stays as it is: the new cut becomes a stone of its own beside it.
 std::string Answers::keep_cut(const Call& call, std::unique_lock<std::mutex>& lock) {
     const LoadedStone& loaded = *project_->loaded();
-    std::string material = loaded.file.has_material ? loaded.file.stone.material.name : "";
+    std::string material = loaded.file.has_material ? loaded.file.stone.material.id : "";
     const std::vector<std::string> known = catalogue_names();
     if (std::find(known.begin(), known.end(), material) == known.end()) material.clear();
     return open_tried(

@@ -20,6 +20,7 @@
 #include "stone/text/text_scan.h"
 #include "stone/text/toml_file.h"
 #include "studio/json_text.h"
+#include "studio/sample_stones.h"
 
 namespace culet {
 
@@ -59,21 +60,6 @@ std::vector<fs::path> stone_files_directly_in(const fs::path& folder) {
     }
     std::sort(files.begin(), files.end());
     return files;
-}
-
-// The folder for a design of this name: one that holds it already, or a new one.
-fs::path folder_for(const fs::path& within, const std::string& name, const std::string& bytes,
-                    bool& is_there) {
-    const std::string stem = fs::path(name).stem().string();
-    for (int n = 1; n < 1000; ++n) {
-        const fs::path folder = within / (n == 1 ? stem : fmt::format("{}-{}", stem, n));
-        std::error_code error;
-        is_there = fs::is_regular_file(folder / k_stone, error) &&
-                   fs::is_regular_file(folder / name, error) && read_text(folder / name) == bytes;
-        if (is_there || fs::create_directory(folder, error)) return folder;
-        if (error) throw InputError(folder, fmt::format("cannot be made: {}", error.message()));
-    }
-    throw InputError(within, "has no room for another folder " + stem);
 }
 
 fs::path finished(const fs::path& folder, const std::string& mesh, const std::string& material) {
@@ -127,6 +113,19 @@ std::string plain_name(const std::string& given) {
     return stem + extension.substr(0, 8);
 }
 
+fs::path folder_for(const fs::path& within, const std::string& stem, const std::string& name,
+                    const std::string& bytes, bool& is_there) {
+    for (int n = 1; n < 1000; ++n) {
+        const fs::path folder = within / (n == 1 ? stem : fmt::format("{}-{}", stem, n));
+        std::error_code error;
+        is_there = fs::is_regular_file(folder / k_stone, error) &&
+                   fs::is_regular_file(folder / name, error) && read_text(folder / name) == bytes;
+        if (is_there || fs::create_directory(folder, error)) return folder;
+        if (error) throw InputError(folder, fmt::format("cannot be made: {}", error.message()));
+    }
+    throw InputError(within, "has no room for another folder " + stem);
+}
+
 fs::path stone_file_for(const fs::path& input) {
     std::error_code error;
     const fs::path path = fs::canonical(input, error);
@@ -153,7 +152,7 @@ fs::path project_of_file(const fs::path& folder, const std::string& file_name,
     const std::string name = plain_name(file_name);
     if (!is_solid_file(name)) load_solid(folder / name);  // throws, and lists what can be read
     bool is_there = false;
-    const fs::path own = folder_for(folder, name, bytes, is_there);
+    const fs::path own = folder_for(folder, fs::path(name).stem().string(), name, bytes, is_there);
     return is_there ? own / k_stone : made_in(own, name, bytes, material);
 }
 
@@ -165,7 +164,7 @@ fs::path project_of_cut(const fs::path& folder, const std::string& kind,
     if (cut.convex) solid.design = std::make_shared<const Design>(drawn_design(solid));
     bool is_there = false;
     const std::string name = cut.name + ".obj";
-    const fs::path own = folder_for(folder, name, {}, is_there);
+    const fs::path own = folder_for(folder, cut.name, name, {}, is_there);
     try {
         write_design(solid, cut.name, own / name);
         return finished(own, name, material);
@@ -224,11 +223,11 @@ void remember_project(const fs::path& stone_file) {
 
 std::string begin_json(const std::filesystem::path& folder) {
     using Json = nlohmann::ordered_json;
-    Json json{{"folder", folder.string()},
-              {"cuts", Json::array()},
-              {"materials", catalogue_names()},
-              {"stones", Json::array()},
-              {"recent", Json::array()}};
+    Json json{{"folder", folder.string()},      {"cuts", Json::array()},
+              {"materials", catalogue_names()}, {"stones", Json::array()},
+              {"recent", Json::array()},        {"samples", Json::array()}};
+    for (const SampleStone& sample : sample_stones())
+        json["samples"].push_back({{"name", sample.name}, {"words", sample.words}});
     for (const CutKind& kind : cut_kinds()) {
         Json parameters = Json::array();
         for (const CutParameter& p : kind.parameters) {

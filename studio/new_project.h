@@ -24,6 +24,11 @@ std::string plain_name(const std::string& given);
 /// Throws InputError for anything else.
 std::filesystem::path stone_file_for(const std::filesystem::path& input);
 
+/// The folder `stem`, `stem-2`, ... within `within`: one that holds a stone file and the file
+/// `name` with these bytes already, or a new one. Throws InputError.
+std::filesystem::path folder_for(const std::filesystem::path& within, const std::string& stem,
+                                 const std::string& name, const std::string& bytes, bool& is_there);
+
 /// Makes a project of a file's content (any mesh or design that culet reads) in a new folder within
 /// `folder`; the same rules. `material`: a name of
 /// the catalogue, or empty. Returns its stone file. Throws InputError.

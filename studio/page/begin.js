@@ -8,6 +8,10 @@ class BeginScreen {
       event.preventDefault();
       call("/api/begin/cut", {...this.values(), material: by_id("cut-material").value.trim()});
     });
+    by_id("words-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.describe(by_id("words").value.trim());
+    });
     by_id("file").addEventListener("change", (event) => this.take(event.target.files[0]));
     const drop = by_id("drop");
     drop.addEventListener("dragover", (event) => { event.preventDefault(); drop.classList.add("over"); });
@@ -31,7 +35,24 @@ class BeginScreen {
     const list = (files, recent) => files.map((file) => made("button", {type: "button", onclick: () => call("/api/begin/open", {recent, file})}, file));
     const stones = [...list(begin.stones, false), ...list(begin.recent.filter((file) => !begin.stones.includes(file)), true)];
     by_id("stones").replaceChildren(...(stones.length ? stones : [made("p", {class: "note"}, "None in this folder, and none was opened before.")]));
+    by_id("samples").replaceChildren(...begin.samples.map((sample) => made("button", {type: "button", onclick: () => call("/api/begin/sample", {name: sample.name})}, made("b", {}, sample.name), `: ${sample.words}`)));
     if (!before) this.choose();
+  }
+
+  /** Words choose the cut, its sliders and the material. */
+  async describe(text) {
+    const stone = await call("/api/begin/words", {text});
+    if (!stone) return;
+    by_id("cut-kind").value = stone.kind;
+    by_id("cut-material").value = stone.material;
+    by_id("words-notes").textContent = stone.notes.join("; ") + (stone.notes.length ? "." : "");
+    this.choose();
+    for (const input of by_id("cut-sliders").querySelectorAll("input")) {
+      const value = stone.values[input.dataset.name || input.nextElementSibling.dataset.name];
+      if (value !== undefined) input.value = Number(value.toPrecision(6));
+    }
+    this.preview();
+    by_id("cut-make").focus();
   }
 
   choose() {
