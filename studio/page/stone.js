@@ -15,6 +15,9 @@ class StoneScreen {
     this.shown = shown;
     this.opened = opened;
     // The program's own page parts, in which it escapes all texts.
-    by_id("stone-words").innerHTML = (fit.fit && fit.fit.stone_html) || "";
+    const words = by_id("stone-words");
+    words.innerHTML = (fit.fit && fit.fit.stone_html) || "";
+    // They stand on Readings too.
+    for (const name of ["id", "aria-labelledby"]) words.querySelectorAll(`[${name}]`).forEach((part) => part.removeAttribute(name));
   }
 }
