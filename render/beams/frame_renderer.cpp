@@ -16,6 +16,7 @@
 #include "render/reference/prepared_scene.h"
 #include "render/setup/a_priori.h"
 #include "render/setup/scene_checks.h"
+#include "stone/design/design.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -274,6 +275,8 @@ RenderResult FrameRenderer::take() {
 std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
     if (scene.has_objects()) return "beams draw one stone alone, without objects around it";
     if (!scene.stone.convex) return "beams are for convex stones only";
+    if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
+        return fmt::format("beams draw polished facets, and tier {} is frosted", frosted);
     for (const Band& band : setup.bands) {
         if (!(band.n > band.n_outside)) {
             return fmt::format(

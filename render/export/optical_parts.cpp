@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/optics/conductor.h"
+#include "stone/design/design.h"
 #include "stone/export/mean_material.h"
 #include "stone/numbers/units.h"
 
@@ -58,6 +59,8 @@ MetalIndex finite_index_of(const MetalMaterial& metal) {
 
 void note_left_out(const Scene& scene, std::vector<std::string>& notes) {
     const OpticalSetup setup = make_optical_setup(scene);
+    if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
+        add_note(notes, fmt::format("frosted facets: tier {} is polished", frosted));
     if (setup.polarised) add_note(notes, "polarisation by the faces");
     if (setup.on(Effects::aperture)) add_note(notes, "the lens: the picture is that of a pinhole");
 }

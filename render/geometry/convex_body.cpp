@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "stone/design/design.h"
 #include "stone/solid/perpendicular.h"
 #include "stone/text/errors.h"
 
@@ -23,7 +24,7 @@ constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-ConvexBody::ConvexBody(const Solid& solid) {
+ConvexBody::ConvexBody(const Solid& solid) : ground_(ground_facets(solid)) {
     for (const Facet& facet : solid.facets) {
         normals_.push_back(facet.plane.normal);
         nx_.push_back(facet.plane.normal.x);

@@ -41,6 +41,11 @@ public:
     BodyHit exit(const Vec3& origin, const Vec3& direction, int guess = -1) const;
 
     bool contains(const Vec3& point) const;
+    /// Whether any facet, or this one, is ground instead of polished.
+    bool has_ground() const { return !ground_.empty(); }
+    bool ground(int facet) const {
+        return has_ground() && ground_[static_cast<std::size_t>(facet)];
+    }
     const Vec3& normal(int facet) const { return normals_[static_cast<std::size_t>(facet)]; }
     /// Projects the point onto the facet's plane.
     Vec3 on_facet(int facet, const Vec3& point) const {
@@ -70,6 +75,7 @@ private:
     int nearest_about(int facet, const Vec3& origin, const Vec3& direction) const;
     BodyHit exit_of_all(const Vec3& origin, const Vec3& direction) const;
 
+    std::vector<bool> ground_;
     std::vector<Vec3> normals_;
     std::vector<double> nx_, ny_, nz_, offset_;
     std::vector<NearPlanes> near_;

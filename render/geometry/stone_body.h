@@ -35,6 +35,8 @@ public:
     bool contains(const Vec3& point) const {
         return any_ ? any_->contains(point) : convex_.contains(point);
     }
+    bool has_ground() const { return convex_.has_ground(); }
+    bool ground(int facet) const { return convex_.ground(facet); }
     const Vec3& normal(int facet) const { return convex_.normal(facet); }
     Vec3 on_facet(int facet, const Vec3& point) const { return convex_.on_facet(facet, point); }
 

@@ -10,6 +10,7 @@
 
 #include "render/beams/beam_lights.h"
 #include "render/gpu/gpu_passes.h"
+#include "stone/design/design.h"
 #include "stone/numbers/units.h"
 #include "stone/text/errors.h"
 
@@ -123,6 +124,8 @@ std::string refused_by_gpu(const Scene& scene) {
     if (scene.has_objects())
         return "the GPU kernel draws one stone alone, without objects around it";
     if (!scene.stone.convex) return "the GPU kernel is for convex stones only";
+    if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
+        return fmt::format("the GPU kernel draws polished facets, and tier {} is frosted", frosted);
     if (scene.camera.optics.two_windows)
         return "the GPU kernel draws one window, a dichroscope has two";
     if (scene.camera.cone)

@@ -88,4 +88,18 @@ inline FaceReflection mean_reflection(double n1, double n2, double q1) {
     return face;
 }
 
+/// Reflectance of a ground face for light from all directions of the side of index 1, by Lambert's
+/// law; `n` >= 1 beyond. Of light from the other side it is 1 - (1 - this) / n^2, since a face in
+/// equal light on both sides (per squared index) passes as much either way.
+inline double diffuse_reflectance(double n) {
+    constexpr int k_cosines = 32;
+    double sum = 0;
+    for (int i = 0; i < k_cosines; ++i) {
+        // Denser towards grazing light, where it changes most: the cosine is t^2.
+        const double t = (i + 0.5) / k_cosines;
+        sum += 4 * t * t * t / k_cosines * mean_reflection(1, n, t * t).mean;
+    }
+    return sum;
+}
+
 }  // namespace culet

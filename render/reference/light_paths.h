@@ -9,18 +9,24 @@
 // normal flux and per squared tangential wave vector), so no factors of index squared or of solid
 // angle arise. For every ray
 //   exits + remainder + absorbed + cut = 1.
+//
+// A ground facet reflects and transmits by Lambert's law, as if each of its points showed all
+// slopes: whatever meets it goes on unpolarised, in one random direction on either side. The means
+// over many rays are exact for that surface, and the sum above holds for every ray.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 #include <type_traits>
 
 #include "render/geometry/stone_body.h"
 #include "render/optics/fresnel.h"
 #include "render/optics/path.h"
+#include "render/optics/random.h"
 #include "render/scene/scene.h"
 #include "render/setup/built_effects.h"
 #include "stone/solid/perpendicular.h"
@@ -56,7 +62,9 @@ public:
         std::fill_n(tau_.begin(), nodes(), 1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
         // Template arguments remove unused effects from the loop.
-        if (!k_has_effects) {
+        if (body_.has_ground()) {
+            trace_polarised<true, true>(at, ray.direction, entry.facet);
+        } else if (!k_has_effects) {
             trace_scalar<false>(at, ray.direction, entry.facet);
         } else if (limits_.polarised) {
             band_.absorbs ? trace_polarised<true>(at, ray.direction, entry.facet)
@@ -168,12 +176,38 @@ private:
         return face;
     }
 
-    template <bool absorbs>
+    // A direction on the side of `n`, by Lambert's law.
+    static Vec3 scattered(const Vec3& n, Random& random) {
+        const double part = random.uniform(), azimuth = 2 * std::numbers::pi * random.uniform();
+        const Vec3 x = perpendicular_to(n), y = glm::cross(n, x);
+        return glm::normalize(std::sqrt(part) * (std::cos(azimuth) * x + std::sin(azimuth) * y) +
+                              std::sqrt(1 - part) * n);
+    }
+
+    // At a ground facet: sends `leaves` of the light out, and leaves the rest inside.
+    void scatter(const Vec3& at, int facet, double leaves, Random& random, Carried& carried,
+                 Vec3& direction, Vec3& s) {
+        const Vec3& n = body_.normal(facet);
+        push(facet);
+        path_exits(at, scattered(n, random), carried.I * leaves, tau_);
+        carried = {carried.I * (1 - leaves), 0, 0, 0};
+        direction = scattered(-n, random);
+        s = perpendicular_to(direction);
+    }
+
+    template <bool absorbs, bool ground = false>
     void trace_polarised(Vec3 at, Vec3 direction, int facet) {
+        Random random(limits_.seed);
+        const double outside = ground ? diffuse_reflectance(band_.n) : 0;
         Vec3 s = tangent(direction, -body_.normal(facet));
-        const FaceAmplitudes face = enter(at, direction, facet);
-        const double Ts = face.t_s * face.t_s, Tp = face.t_p * face.t_p;
-        Carried carried{0.5 * (Ts + Tp), 0.5 * (Ts - Tp), 0, 0};
+        Carried carried{1, 0, 0, 0};
+        if (ground && body_.ground(facet)) {
+            scatter(at, facet, outside, random, carried, direction, s);
+        } else {
+            const FaceAmplitudes face = enter(at, direction, facet);
+            const double Ts = face.t_s * face.t_s, Tp = face.t_p * face.t_p;
+            carried = {0.5 * (Ts + Tp), 0.5 * (Ts - Tp), 0, 0};
+        }
         NodeWeights& tau = tau_;
         for (int event = 2; event <= limits_.depth; ++event) {
             if (too_small(carried.I, tau)) {
@@ -183,6 +217,12 @@ private:
             const BodyHit hit = way_out(at, direction);
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
             if constexpr (absorbs) absorb(carried.I, hit.distance, tau);
+            if (ground && body_.ground(hit.facet)) {
+                scatter(at, hit.facet, (1 - outside) / (band_.n * band_.n), random, carried,
+                        direction, s);
+                continue;
+            }
+            if (ground && !limits_.polarised) carried.Q = carried.U = carried.V = 0;
             const Vec3& n = body_.normal(hit.facet);
             const double q = band_.n * glm::dot(direction, n);
             const FaceAmplitudes out = fresnel(band_.n, 1.0, q);

@@ -84,6 +84,7 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
       rgb_(colour_weights(prepared.colours, scene.camera.optics, planes())),
       usual_(usual_radiance(surroundings_, scene.camera.look_at, nodes_)) {
     limits_.obstacles = &surroundings_;
+    limits_.alike = limits_.alike || body_.has_ground();
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
     // With objects, most of the noise is theirs, so a ray need not carry all wavelengths.
     const int usual_turns = has_objects_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;

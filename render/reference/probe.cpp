@@ -161,7 +161,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     result.depth = limits.depth;
     for (const Band& band : prepared.setup.bands) {
         record.begin(band);
-        if (prepared.setup.polarised) {
+        if (prepared.setup.polarised && !body.has_ground()) {
             CrystalPaths<Record> paths(body, band, limits, record);
             paths.trace(ray, frame.x, frame.y, *entry);
             result.sampled = result.sampled || paths.sampled();

@@ -9,6 +9,7 @@
 #include "render/setup/light_needs.h"
 #include "render/setup/probe_wavelengths.h"
 #include "render/setup/stone_bands.h"
+#include "stone/design/design.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -152,6 +153,27 @@ void decide_coherence(const Scene& scene, const Optics& optics, OpticalSetup& se
         Effects::coherence, crystal && asked, why, crystal && !asked ? k_unknown : 0};
 }
 
+// Light that a ground facet scatters is followed in one isotropic, convex stone only.
+void leave_out_for_ground(const Scene& scene, OpticalSetup& setup) {
+    if (frosted_tiers(scene.stone.solid).empty()) return;
+    for (const Effects effect : {Effects::birefringence, Effects::pleochroism}) {
+        EffectDecision& decision = setup.effects[static_cast<std::size_t>(effect)];
+        if (!decision.on || !scene.settings.effects_auto) continue;
+        decision.on = false;
+        decision.why = "frosted facets scatter the light of both waves";
+        decision.error_bound = k_unknown;
+    }
+}
+
+void require_scatters(const Scene& scene, const OpticalSetup& setup) {
+    const std::string frosted = frosted_tiers(scene.stone.solid);
+    if (frosted.empty() || !setup.general) return;
+    throw InputError(fmt::format(
+        "tier {} is frosted, and frosted facets are drawn in convex stones in air, in unpolarised "
+        "light, and without birefringence: leave that out of effects, or set frosting to 0",
+        frosted));
+}
+
 // Which light paths the effects need.
 void decide_paths(const Scene& scene, OpticalSetup& setup) {
     setup.splits = setup.on(Effects::birefringence);
@@ -204,8 +226,10 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
         optics_of(scene.stone.material, given.empty() ? even_nodes(k_probes) : given);
     OpticalSetup setup;
     decide_effects(scene, optics, setup);
+    leave_out_for_ground(scene, setup);
     decide_coherence(scene, optics, setup);
     decide_paths(scene, setup);
+    require_scatters(scene, setup);
     setup.wavelengths_nm = wavelengths_for(scene, optics, setup, nodes);
     add_bands(scene, optics.spectral_absorption, setup);
     return setup;

@@ -44,7 +44,8 @@ struct OpticalSetup {
 /// Numbers of wavelengths to choose from, coarse to fine; each set contains the one before.
 constexpr std::array<int, 4> k_node_counts{8, 15, 29, 57};
 
-/// `nodes`: wavelengths if a spectrum is needed and the scene gives none.
+/// `nodes`: wavelengths if a spectrum is needed and the scene gives none. Throws InputError for
+/// frosted facets in a stone or light for which they cannot be drawn.
 OpticalSetup make_optical_setup(const Scene& scene, int nodes = k_node_counts[1]);
 
 /// Work along a ray of one band, without its counts.

@@ -1,5 +1,6 @@
 #include "render/shaded/shaded_picture.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <chrono>
@@ -9,6 +10,7 @@
 #include "render/setup/scene_checks.h"
 #include "render/work/listener.h"
 #include "render/work/threads.h"
+#include "stone/design/design.h"
 #include "stone/text/errors.h"
 
 namespace culet {
@@ -106,6 +108,9 @@ RenderResult shaded_picture(const Scene& scene, const std::string& engine, const
     on_threads(scene.settings.threads, [&] { tbb::parallel_for(0, camera.height, shade_row); });
     if (listener.stopped()) throw Interrupted();
     result.stats = stats_of(engine, camera, rows);
+    if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
+        result.stats.notes.push_back(
+            fmt::format("tier {} is frosted, and drawn polished", frosted));
     result.stats.seconds_shade =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

@@ -169,6 +169,30 @@ std::vector<DesignPlace> places_of(const Solid& solid) {
     return places;
 }
 
+std::vector<bool> ground_facets(const Solid& solid) {
+    if (frosted_tiers(solid).empty()) return {};
+    std::vector<bool> ground;
+    for (const DesignPlace& place : places_of(solid))
+        ground.push_back(place.tier >= 0 &&
+                         solid.design->tiers[std::size_t(place.tier)].frosting > 0);
+    return ground;
+}
+
+std::string frosted_tiers(const Design& design) {
+    std::string names;
+    std::vector<std::string> titles;
+    for (std::size_t t = 0; t < design.tiers.size(); ++t) {
+        if (!(design.tiers[t].frosting > 0) || design.tiers[t].hidden) continue;
+        if (titles.empty()) titles = tier_titles(design);
+        names += (names.empty() ? "" : ", ") + titles[t];
+    }
+    return names;
+}
+
+std::string frosted_tiers(const Solid& solid) {
+    return solid.design ? frosted_tiers(*solid.design) : std::string();
+}
+
 std::vector<std::string> tier_titles(const Design& design) {
     std::vector<std::vector<std::string>> labels(design.tiers.size());
     std::map<std::string, int> count;

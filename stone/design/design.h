@@ -68,6 +68,13 @@ std::vector<DesignPlace> places_of(const Solid& solid);
 /// other tier shares that; else the first label. Tiers without labels are P1, G1, C1, ... by side.
 std::vector<std::string> tier_titles(const Design& design);
 
+/// One for each facet of the solid: whether its tier is frosted (ground, not polished). Empty where
+/// none is.
+std::vector<bool> ground_facets(const Solid& solid);
+/// "C1, C2": titles of the frosted tiers that are cut; empty: none.
+std::string frosted_tiers(const Design& design);
+std::string frosted_tiers(const Solid& solid);
+
 /// The design that a mesh shows: its tiers (tiers.h) with pavilion before girdle before crown, the
 /// steepest first, their symmetry, and index settings on a wheel of 96 teeth. z is up.
 Design drawn_design(const Solid& solid);

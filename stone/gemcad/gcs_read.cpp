@@ -11,6 +11,7 @@
 
 #include "stone/design/repeating_gear.h"
 #include "stone/gemcad/cut_planes.h"
+#include "stone/gemcad/gcs_unread.h"
 #include "stone/gemcad/gcs_words.h"
 #include "stone/text/errors.h"
 #include "stone/text/text_decoding.h"
@@ -55,7 +56,7 @@ public:
                             shown(root.attribute("version").value()), k_known_version));
         }
         read_gear(root);
-        std::string unknown;
+        note_unread(root);
         for (const pugi::xml_node node : root.children()) {
             const std::string_view name = node.name();
             if (name == "tier") {
@@ -63,11 +64,8 @@ public:
             } else if (name == "render" || name == "info") {
                 keep(node);
                 keep(node.child("color"));
-            } else if (name != "index" && node.type() == pugi::node_element) {
-                unknown += fmt::format("{}<{}>", unknown.empty() ? "" : ", ", shown(name));
             }
         }
-        if (!unknown.empty()) cut.notes.push_back("not read, because unknown: " + unknown);
         take_words();
         tell();
     }
@@ -113,6 +111,18 @@ private:
                                    shown(written.value())));
         }
         return value;
+    }
+
+    void note_unread(const pugi::xml_node& root) {
+        const GcsUnread unread = gcs_unread(root);
+        if (unread.curved) {
+            fail(unread.curved,
+                 fmt::format("tier '{}' is not flat ({}), and culet cuts flat facets: give it flat "
+                             "ones, or hide it (visible=\"false\")",
+                             shown(unread.curved.attribute("name").value()), unread.curved_by));
+        }
+        for (const std::string& what : {unread.elements, unread.attributes})
+            if (!what.empty()) cut.notes.push_back("not read, because unknown: " + what);
     }
 
     void read_gear(const pugi::xml_node& root) {
@@ -262,8 +272,8 @@ private:
             }
             if (!names.empty()) cut.notes.push_back(words + names);
         };
-        say_tiers("frosted, which the design keeps, but pictures show polished: ",
-                  [](const DesignTier& tier) { return tier.frosting > 0 && !tier.hidden; });
+        if (const std::string frosted = frosted_tiers(design); !frosted.empty())
+            cut.notes.push_back("frosted: " + frosted);
         say_tiers("not cut, because the file hides them: ",
                   [](const DesignTier& tier) { return tier.hidden; });
         const auto say_count = [&](int count, const char* what) {

@@ -13,7 +13,9 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/settings_io.h"
 #include "render/scene/turntable.h"
+#include "stone/design/design.h"
 #include "stone/solid/checks.h"
+#include "stone/text/errors.h"
 #include "tests/render/bench_scenes.h"
 #include "tests/render/gpu/gpu_scenes.h"
 
@@ -75,6 +77,41 @@ TEST(Engines, DrawWhatTheyDoNotRefuseAndSayWhyTheyDo) {
             EXPECT_NE(why.find("two"), std::string::npos) << why;
         }
     }
+}
+
+// In even light a stone is as bright as what surrounds it, however its facets scatter (a furnace).
+TEST(Engines, DrawFrostedFacetsOrSayWhyNot) {
+    Scene scene = small_scene();
+    scene.lights = {};
+    scene.lights.constant = 1;
+    scene.settings.tolerance = 0;
+    Design design = drawn_design(scene.stone.solid);
+    for (DesignTier& tier : design.tiers) tier.frosting = tier.setting.pavilion ? 0.5 : 0;
+    scene.stone.solid.design = std::make_shared<const Design>(design);
+    scene.settings.samples = 16;
+    scene.settings.effects_auto = false;
+    scene.settings.effects = {};
+    for (const Engine* engine : engines()) {
+        scene.settings.engine = engine->name();
+        const std::string why = engine->refuses(scene, make_optical_setup(scene));
+        const bool scatters = engine->name() == k_reference_engine;
+        if (!why.empty()) {
+            EXPECT_FALSE(scatters) << why;
+            EXPECT_NE(why.find(" frosted"), std::string::npos) << why;
+            continue;
+        }
+        const RenderResult result = engine->draw(scene, {});
+        const std::vector<std::string>& notes = result.stats.notes;
+        const bool said = std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("is frosted, and drawn polished") != std::string::npos;
+        });
+        EXPECT_EQ(said, !scatters) << engine->name();
+        if (scatters) {
+            EXPECT_NEAR(result.stats.mean_radiance, 1, 1e-3);
+        }
+    }
+    scene.immersion = 1.33;
+    EXPECT_THROW(make_optical_setup(scene), InputError);
 }
 
 // Written to the last digit, so that another run draws the same picture.

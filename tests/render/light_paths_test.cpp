@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "stone/design/design.h"
 #include "tests/render/ray_stones.h"
 
 namespace {
@@ -82,6 +83,82 @@ TEST(LightPaths, GoThroughAnySolidAsThroughPlanes) {
         }
     }
     EXPECT_LT(worst, 1e-9);
+}
+
+Solid with_ground(Solid solid, const std::string& facet) {
+    Design design;
+    design.tiers.push_back({{}, {}, {{0, facet, facet}}, 0.5});
+    solid.design = std::make_shared<const Design>(std::move(design));
+    return solid;
+}
+
+// Every ray keeps its light, and one that a ground facet splits goes on both ways.
+TEST(LightPaths, GroundFacetsKeepAllLight) {
+    std::mt19937_64 random(7);
+    Solid solid = random_stone(random, 20);
+    for (std::size_t f = 0; f < solid.facets.size(); ++f)
+        solid.facets[f].name = f % 2 == 0 ? "ground" : "polished";
+    const ConvexBody body(with_ground(solid, "ground"));
+    const StoneBody any(with_ground(solid, "ground"), false);
+    ASSERT_TRUE(body.has_ground());
+    Band band;
+    band.n = 1.76;
+    band.absorbs = true;
+    band.absorption[0][0] = 0.2;
+    for (int i = 0; i < 200; ++i) {
+        const EyeRay ray = random_ray(random);
+        const auto entry = body.entry(ray.origin, ray.direction);
+        if (!entry) continue;
+        PathLimits limits;
+        limits.depth = 1 + i % 30;
+        limits.polarised = i % 3 > 0;
+        limits.seed = std::uint64_t(i);
+        Sums by_planes, by_any;
+        LightPaths<Sums>(body, band, limits, by_planes).trace(ray, *entry);
+        LightPaths<Sums, false, StoneBody>(any, band, limits, by_any).trace(ray, *entry);
+        EXPECT_NEAR(by_planes.total(), 1, 1e-12);
+        EXPECT_NEAR(by_any.total(), 1, 1e-12);
+        EXPECT_NEAR(by_any.leaves, by_planes.leaves, 1e-9);
+    }
+}
+
+// A plate that is ground on the far side: of what enters, the ground side lets 1 - i through, and
+// scatters i to the polished side, which reflects i of it, as of all diffuse light. Judd's
+// published reflectances (J. Res. NBS 29, 1942) for n = 1.5: 0.0918 from outside, 0.5963 from
+// inside.
+TEST(LightPaths, GroundPlatePassesTheDiffuseSeries) {
+    EXPECT_NEAR(diffuse_reflectance(1.5), 0.0918, 2e-4);
+    const double n = 1.5, inside = 1 - (1 - diffuse_reflectance(n)) / (n * n);
+    EXPECT_NEAR(inside, 0.5963, 2e-4);
+    Solid plate = slab(2);
+    for (Facet& facet : plate.facets) {
+        if (facet.plane.normal.z < -0.5) facet.name = "ground";
+    }
+    const ConvexBody body(with_ground(plate, "ground"));
+    const EyeRay ray{{0.3, 0.2, 5}, {0, 0, -1}};
+    Band band;
+    band.n = n;
+    double through = 0, back = 0, squares = 0;
+    constexpr int k_rays = 20000;
+    for (int i = 0; i < k_rays; ++i) {
+        PathLimits limits;
+        limits.depth = 200;
+        limits.seed = std::uint64_t(i) * 7919;
+        Sums sums;
+        LightPaths<Sums>(body, band, limits, sums)
+            .trace(ray, *body.entry(ray.origin, ray.direction));
+        double down = 0;
+        for (std::size_t k = 0; k < sums.directions.size(); ++k)
+            (sums.directions[k].z < 0 ? down : back) += sums.exit_weights[k];
+        through += down;
+        squares += down * down;
+    }
+    through /= k_rays;
+    const double sigma = std::sqrt((squares / k_rays - through * through) / k_rays);
+    // The slab's rims are far away: what the ground side scatters meets the polished side next.
+    const double R0 = std::pow((n - 1) / (n + 1), 2);
+    const double expected = (1 - R0) * (1 - inside) / (1 - inside * inside);
+    EXPECT_NEAR(through, expected, std::max(5 * sigma, 1e-3)) << back / k_rays;
 }
 
 TEST(LightPaths, SlabTransmitsTheClosedSeries) {

@@ -198,8 +198,8 @@ TEST(TradeFiles, GcsIsReadByItsDescription) {
     // A drawn square stone has the four-fold axis and its mirrors.
     EXPECT_EQ(design.symmetry, 4);
     EXPECT_TRUE(design.mirror);
-    EXPECT_THAT(cut.notes, ElementsAre(HasSubstr("pictures show polished: Star1"),
-                                       HasSubstr("the file hides them: H")));
+    EXPECT_THAT(cut.notes,
+                ElementsAre(HasSubstr("frosted: Star1"), HasSubstr("the file hides them: H")));
 }
 
 // Its own file keeps all; a mesh too, which a fitted stone is; GemCad's files lack places for it.
@@ -283,6 +283,16 @@ TEST(TradeFiles, BrokenGcsIsOneClearLine) {
     EXPECT_THAT(message(with("angle=\"127\"", "angle=\"227\"")), HasSubstr("a.gcs:3: "));
     EXPECT_THAT(message(with("nx=\"-0.564720584850818\"", "nx=\"nan\"")), HasSubstr("a.gcs:4: nx"));
     EXPECT_THAT(message(with("depth=\"0.9\"", "")), HasSubstr("neither the tier's depth"));
+    // Its published files hold flat tiers alone: any word for a curved one is refused.
+    const std::string curved = with("name=\"Star1\"", "name=\"Star1\" cylinder_radius=\"0.4\"");
+    EXPECT_THAT(message(curved),
+                HasSubstr("a.gcs:6: tier 'Star1' is not flat "
+                          "(cylinder_radius=\"0.4\"), and culet cuts flat facets"));
+    EXPECT_THAT(
+        message(with("<facet index_angle=\"90\"/>", "<concave/><facet index_angle=\"90\"/>")),
+        HasSubstr("was read"));  // that tier is hidden
+    EXPECT_THAT(parse_gcs(with("name=\"Star1\"", "name=\"Star1\" radius=\"0\" lap=\"8k\"")).notes,
+                Contains("not read, because unknown: radius of <tier>, lap of <tier>"));
     std::string deep = "<GemCutStudio><index gear=\"96\"/>";
     for (int i = 0; i < 1000000; ++i) deep += "<a>";
     EXPECT_THAT(message(deep), HasSubstr("is not well-formed XML"));

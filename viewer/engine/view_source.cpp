@@ -11,6 +11,7 @@
 #include "render/scene/scene_io.h"
 #include "render/scene/view_presets.h"
 #include "stone/cuts/cuts.h"
+#include "stone/design/design.h"
 #include "stone/text/output_file.h"
 #include "viewer/engine/panorama.h"
 #include "viewer/engine/shown_stone.h"
@@ -136,6 +137,16 @@ std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_
     return catalogue;
 }
 
+// Pages draw by beams, which know no ground facets.
+void polish(Solid& solid, std::vector<std::string>& notes) {
+    const std::string frosted = frosted_tiers(solid);
+    if (frosted.empty()) return;
+    notes.push_back(fmt::format("tier {} is frosted, and shown polished", frosted));
+    Design design = *solid.design;
+    for (DesignTier& tier : design.tiers) tier.frosting = 0;
+    solid.design = std::make_shared<const Design>(std::move(design));
+}
+
 }  // namespace
 
 std::string render_command(const ViewSource& source) {
@@ -154,6 +165,7 @@ ViewItem item_of(const ViewSource& as_given, std::vector<std::string>& notes, Sc
     const ViewSource source = upright(as_given, scene);
     if (source.overrides != as_given.overrides) scene = scene_of(source);
     notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
+    polish(scene.stone.solid, notes);
     ViewItem item;
     item.name = !scene.stone.name.empty() ? scene.stone.name : source.file.stem().string();
     item.refused =
