@@ -1,5 +1,7 @@
 #include "page/fit_fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -115,6 +117,14 @@ const Json* facet_in(const Json& fit, const std::string& name) {
 
 std::string proportion_text(const Json& p) {
     return quantity(number_at(p, "value"), number_at(p, "sigma"), text_at(p, "unit"));
+}
+
+std::string rounded_text(const Json& p) {
+    const auto gia = number_at(p, "gia"), ags = number_at(p, "ags");
+    std::string text;
+    if (gia) text += fmt::format("GIA {:g}", *gia);
+    if (ags) text += fmt::format("{}AGS {:.1f}", text.empty() ? "" : ", ", *ags);
+    return text;
 }
 
 }  // namespace culet

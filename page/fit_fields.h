@@ -35,5 +35,7 @@ const nlohmann::json* facet_in(const nlohmann::json& fit, const std::string& nam
 
 /// A proportion with its sigma and unit.
 std::string proportion_text(const nlohmann::json& proportion);
+/// As laboratories round it, "GIA 34.5, AGS 34.5"; empty where they do not.
+std::string rounded_text(const nlohmann::json& proportion);
 
 }  // namespace culet

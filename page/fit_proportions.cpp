@@ -29,7 +29,8 @@ std::vector<View> calipers(const Json& proportions) {
         const Json* p = named_in(proportions, name);
         if (p == nullptr) continue;
         values.push_back({{"further", !values.empty()},
-                          {"value", std::string(words) + " " + proportion_text(*p)}});
+                          {"value", std::string(words) + " " + proportion_text(*p)},
+                          {"rounded", ""}});
     }
     return values;
 }
@@ -49,7 +50,9 @@ std::string fit_proportions_section(const FitView& view) {
         const Json* p = named_in(proportions, name);
         if (p != nullptr) {
             rows.push_back(row(name, name == "diameter" ? "the mean of all directions" : "",
-                               {{{"further", false}, {"value", proportion_text(*p)}}}));
+                               {{{"further", false},
+                                 {"value", proportion_text(*p)},
+                                 {"rounded", rounded_text(*p)}}}));
         }
         if (name != (round ? "diameter" : "width")) continue;
         const std::vector<View> around = calipers(proportions);
@@ -58,7 +61,8 @@ std::string fit_proportions_section(const FitView& view) {
     for (const Json& p : proportions) {
         const std::string name = text_at(p, "name");
         if (name.starts_with("caliper ") || std::ranges::find(first, name) != first.end()) continue;
-        rest.push_back({{"name", name}, {"value", proportion_text(p)}});
+        rest.push_back(
+            {{"name", name}, {"value", proportion_text(p)}, {"rounded", rounded_text(p)}});
     }
     if (rows.empty() && rest.empty()) return {};
     const std::string body =

@@ -85,8 +85,11 @@ int info(InfoOptions options) {
     if (options.describe.cutting.gear != 0 && options.sheet.out.empty() &&
         options.form.readings.empty())
         options.describe.cutting_list = true;
-    if (!options.sheet.report.empty() && options.sheet.out.empty())
-        throw InputError("--report goes with --cutting-sheet: give both");
+    if (!options.sheet.report.empty() && options.sheet.out.empty() && !options.describe.style)
+        throw InputError("--report goes with --cutting-sheet or --style: give both");
+    if (options.describe.style) options.describe.report = options.sheet.report;
+    if (options.describe.style && !is_solid_file(options.describe.file))
+        throw InputError(options.describe.file, "--style is for a mesh or a cut design");
     if (options.describe.cutting_list && !is_solid_file(options.describe.file)) {
         throw InputError(options.describe.file, "--cutting-list is of a mesh or a cut design");
     }
@@ -191,8 +194,20 @@ void add_solid_options(CLI::App& command, InfoOptions& options) {
         ->type_name("SHEET.html|.txt");
     command
         .add_option("--report", options.sheet.report,
-                    "report of the stone's fit: angles of the cutting sheet with their sigmas")
+                    "report of the stone's fit: angles of the cutting sheet, and proportions, with "
+                    "their sigmas")
         ->type_name("FIT.json");
+    command
+        .add_option_function<std::string>(
+            "--style",
+            [&options](const std::string& style) {
+                options.describe.style = style == "gia"   ? ReportStyle::gia
+                                         : style == "ags" ? ReportStyle::ags
+                                                          : ReportStyle::plain;
+            },
+            "of a mesh or cut design: all proportions by the trade's definitions, beside "
+            "them as GIA or AGS round them")
+        ->check(CLI::IsMember({"plain", "gia", "ags"}));
     command
         .add_option("--gear", options.describe.cutting.gear,
                     "teeth of the index wheel of cutting list and form (the design's own, or 96)")

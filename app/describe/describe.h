@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "stone/design/cut_measures.h"
 #include "stone/design/cutting_list.h"
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/material/material.h"
@@ -28,7 +30,9 @@ struct DescribeOptions {
     bool facet_table = false;
     bool cutting_list = false;
     CuttingOptions cutting;
-    double width_mm = 0;  ///< scale a mesh or a cut design to this width; 0: do not
+    double width_mm = 0;               ///< scale a mesh or a cut design to this width; 0: do not
+    std::optional<ReportStyle> style;  ///< lists the proportions, rounded so
+    std::filesystem::path report;      ///< of the stone's fit, for their sigmas; empty: none
 };
 
 /// Goes by the extension, for TOML files by their tables. Throws InputError for unknown kinds.
@@ -47,6 +51,9 @@ Description describe_difference(const DescribeOptions& options, const std::files
 
 /// Adds a solid's figures, facets and faults. `must_be_convex` is the stone's.
 void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, Description& about);
+/// Adds the trade's proportions (stone/design/cut_measures.h) as `proportions`; with a style, as
+/// lines too. With a report they are the fit's, with sigmas.
+void describe_measures(const Solid& solid, const DescribeOptions& options, Description& about);
 void describe_material(const Material& material, Description& about);
 
 }  // namespace culet

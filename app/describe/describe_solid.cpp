@@ -181,6 +181,7 @@ Description describe_solid_file(const DescribeOptions& options) {
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.solid.design) describe_design(*input.solid.design, about);
     describe_solid(input.solid, !options.may_be_concave, options.facet_table, about);
+    describe_measures(input.solid, options, about);
     if (options.cutting_list) {
         describe_cutting(input.solid, options.cutting, about);
         if (std::string ask = question_of_up(input.solid); !ask.empty() && !input.solid.design)

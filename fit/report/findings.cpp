@@ -2,6 +2,7 @@
 
 #include "fit/findings/words.h"
 #include "fit/report/json_number.h"
+#include "stone/design/cut_measures.h"
 
 namespace culet {
 
@@ -106,10 +107,16 @@ Json proposal_json(const Proposal& p) {
 }
 
 Json proportion_json(const FittedProportion& p) {
-    return {{"name", p.name},
-            {"value", json_number(p.value)},
-            {"sigma", json_number(p.sigma)},
-            {"unit", p.unit}};
+    Json json{{"name", p.name},
+              {"value", json_number(p.value)},
+              {"sigma", json_number(p.sigma)},
+              {"unit", p.unit}};
+    for (const auto& [key, style] :
+         {std::pair("gia", ReportStyle::gia), std::pair("ags", ReportStyle::ags)}) {
+        const double step = rounding_step(style, p.name, p.unit);
+        if (step > 0) json[key] = json_number(rounded_to(p.value, step));
+    }
+    return json;
 }
 
 Json help_json(const NextReading& h) {

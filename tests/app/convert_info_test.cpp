@@ -1,5 +1,6 @@
 // culet convert and culet info as a user runs them: exit codes, streams, files.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -145,6 +146,34 @@ TEST_F(ConvertInfo, DiffSaysWhatIsSetOtherwise) {
               (nlohmann::json{{"what", "angle"}, {"tier", "P"}, {"a", "45"}, {"b", "46"}}));
     refusal({"info", file("a.asc"), "--diff", file("b.asc"), "--width", "6mm"});
     refusal({"info", file("a.asc"), "--diff", file("none.asc")});
+}
+
+// GIA rounds crown angles to half degrees, AGS to tenths (docs/fit-report.md). A report's
+// proportions come with sigmas.
+TEST_F(ConvertInfo, ProportionsAreRoundedInTheLaboratoriesStyle) {
+    const auto json = nlohmann::json::parse(run_culet({"info", k_design, "--json", "-"}).out);
+    const auto named = [&](const char* name) {
+        for (const auto& one : json.at("proportions")) {
+            if (one.at("name") == name) return one;
+        }
+        return nlohmann::json();
+    };
+    const double crown = named("crown angle").at("value");
+    EXPECT_NEAR(named("crown angle").at("gia").get<double>(), crown, 0.25 + 1e-9);
+    EXPECT_NEAR(named("crown angle").at("ags").get<double>(), crown, 0.05 + 1e-9);
+    EXPECT_FALSE(named("crown angle min").contains("gia"));
+    const ProgramRun gia = run_culet({"info", k_design, "--style", "gia"});
+    EXPECT_EQ(gia.exit_code, 0) << gia.err;
+    EXPECT_THAT(gia.out, ::testing::ContainsRegex("crown angle +[0-9.]+ deg +[0-9]+(\\.5)?\n"));
+    write("fit.json",
+          R"({"proportions": [{"name": "table", "value": 56.61, "sigma": 0.12, "unit": "%",
+                   "gia": 57, "ags": 56.6}]})");
+    const ProgramRun sure =
+        run_culet({"info", k_design, "--style", "ags", "--report", file("fit.json")});
+    EXPECT_EQ(sure.exit_code, 0) << sure.err;
+    EXPECT_THAT(sure.out, ::testing::ContainsRegex("table +56.61 \\+- 0.12 % +56.6\n"));
+    EXPECT_EQ(run_culet({"info", k_design, "--report", file("fit.json")}).exit_code, 2);
+    EXPECT_EQ(run_culet({"info", k_design, "--style", "igi"}).exit_code, 2);
 }
 
 TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
