@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include "page/drawing.h"
 #include "page/html.h"
@@ -20,6 +22,37 @@ namespace {
 using NamedText = std::pair<std::string, std::string>;
 
 constexpr int k_places = 2;
+constexpr std::size_t k_columns = 80;
+
+// As GemCad heads its sheets.
+std::string side_of(const SheetRow& row) {
+    return row.part == "crown" || row.part == "table" ? "Crown" : "Pavilion";
+}
+
+std::string upper_case(std::string text) {
+    for (char& c : text) c = char(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+// Breaks behind blanks and hyphens; a longer word where it must.
+std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
+    std::vector<std::string> lines;
+    while (text.size() > width) {
+        std::size_t end = text.find_last_of(" -", width);
+        // A blank may stand behind the last column, a hyphen may not.
+        if (end == width && text[end] == '-') end = text.find_last_of(" -", width - 1);
+        if (end == std::string_view::npos || end == 0) {
+            end = width;
+            while (end > 1 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+        } else if (text[end] == '-') {
+            ++end;
+        }
+        lines.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(text.find_first_not_of(' ', end), text.size()));
+    }
+    lines.emplace_back(text);
+    return lines;
+}
 
 std::string angle_text(const CuttingSheet& sheet, std::size_t step) {
     const double sigma = step < sheet.sigmas_deg.size() ? sheet.sigmas_deg[step] : 0;
@@ -99,8 +132,10 @@ std::vector<SheetRow> sheet_rows(const CuttingSheet& sheet) {
     const double width = proportions(sheet.solid).width;
     for (std::size_t i = 0; i < sheet.steps.size(); ++i) {
         const CuttingStep& step = sheet.steps[i];
-        rows.push_back({step.tier, name_of(step.part), angle_text(sheet, i), index_words(step),
-                        depth_words(step, sheet.unit, width)});
+        std::string depth = depth_words(step, sheet.unit, width);
+        if (!depth.empty()) depth[0] = char(std::toupper(static_cast<unsigned char>(depth[0])));
+        rows.push_back({step.tier, name_of(step.part), angle_text(sheet, i),
+                        printed_indices(step, sheet.teeth), std::move(depth)});
     }
     return rows;
 }
@@ -126,13 +161,16 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
         if (!svg.empty())
             views.push_back({{"drawing_svg", std::move(svg)}, {"caption", caption_of(side)}});
     }
+    std::string last;
     for (const SheetRow& row : sheet_rows(sheet)) {
+        const std::string side = side_of(row);
         steps.push_back({{"number", fmt::format("{}", steps.size() + 1)},
+                         {"heading", side == last ? "" : side},
                          {"tier", row.tier},
-                         {"part", row.part},
                          {"angle", row.angle},
                          {"indices", row.indices},
                          {"depth", row.depth}});
+        last = side;
     }
     for (const auto& [name, value] : proportion_rows(sheet))
         rows.push_back({{"name", name}, {"value", value}});
@@ -153,28 +191,43 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
 }
 
 std::string cutting_sheet_text(const CuttingSheet& sheet) {
-    std::string text = sheet.name + "\n";
+    std::string text;
+    const auto add = [&](const std::string& words) {
+        for (const std::string& line : lines_of(words, k_columns)) text += line + "\n";
+    };
+    add(sheet.name);
     for (const std::string& line : sheet.design.headings) {
-        if (!line.empty()) text += line + "\n";
+        if (!line.empty()) add(line);
     }
-    text += about_sheet(sheet) + "\n\n";
+    add(about_sheet(sheet));
     std::vector<SheetRow> steps = sheet_rows(sheet);
-    std::size_t tier = 4, angle = 5, depth = 6;
+    std::size_t tier = 4, angle = 5, index = 5;
     for (SheetRow& row : steps) {
         row.angle = plain_signs(row.angle);
-        tier = std::max(tier, row.tier.size());
+        tier = std::max(tier, std::min<std::size_t>(row.tier.size(), 12));
         angle = std::max(angle, row.angle.size());
-        depth = std::max(depth, row.depth.size());
+        index = std::max(index, row.indices.size());
     }
-    text += fmt::format(" no  {:<{}}  part      {:>{}}  {:<{}}  index settings\n", "tier", tier,
-                        "angle", angle, "cut to", depth);
+    const std::size_t before = 3 + 2 + tier + 2 + angle + 2;
+    index = std::min(index, (k_columns - before) / 2);
+    std::string side;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const SheetRow& row = steps[i];
-        text += fmt::format("{:>3}  {:<{}}  {:<8}  {:>{}}  {:<{}}  {}\n", i + 1, row.tier, tier,
-                            row.part, row.angle, angle, row.depth, depth, row.indices);
+        if (side != side_of(row)) text += "\n" + upper_case(side_of(row)) + "\n";
+        side = side_of(row);
+        const auto names = lines_of(row.tier, tier), teeth = lines_of(row.indices, index),
+                   depth = lines_of(row.depth, k_columns - before - index - 2);
+        for (std::size_t l = 0; l < std::max({names.size(), teeth.size(), depth.size()}); ++l) {
+            const auto at = [&](const auto& list) { return l < list.size() ? list[l] : ""; };
+            std::string line = fmt::format(
+                "{:>3}  {:<{}}  {:>{}}  {:<{}}  {}", l == 0 ? fmt::format("{}", i + 1) : "",
+                at(names), tier, l == 0 ? row.angle : "", angle, at(teeth), index, at(depth));
+            line.erase(line.find_last_not_of(' ') + 1);
+            text += line + "\n";
+        }
     }
     text += "\n";
-    for (const std::string& note : word_notes(sheet)) text += note + "\n";
+    for (const std::string& note : word_notes(sheet)) add(note);
     text += "\n";
     for (const auto& [name, value] : proportion_rows(sheet))
         text += fmt::format("{:<26}{:>12}\n", name == "volume over W³" ? "volume over W^3" : name,

@@ -25,7 +25,7 @@ struct CuttingSheet {
 struct SheetRow {
     std::string tier, part;
     std::string angle;    ///< degrees, with its sigma where known
-    std::string indices;  ///< `index_words`
+    std::string indices;  ///< `printed_indices`
     std::string depth;    ///< `depth_words`
 };
 std::vector<SheetRow> sheet_rows(const CuttingSheet& sheet);
@@ -36,7 +36,7 @@ std::string about_sheet(const CuttingSheet& sheet);
 /// A page to print on one sheet of A4.
 std::string cutting_sheet_page(const CuttingSheet& sheet);
 
-/// The same as lines of text.
+/// The same as lines of text, at most 80 columns wide.
 std::string cutting_sheet_text(const CuttingSheet& sheet);
 
 }  // namespace culet

@@ -69,6 +69,10 @@ std::string depth_words(const CuttingStep& step, const std::string& unit, double
 /// facets.
 std::string index_words(const CuttingStep& step);
 
+/// The same as GemCad prints it on a wheel of so many teeth, beginning with the last tooth, which
+/// is zero: "96-08-16", "10-58 (cheater -0.24)", "08-40, 72 at 41.3".
+std::string printed_indices(const CuttingStep& step, double gear);
+
 /// "57 + 16": the facets without the girdle's, and the girdle's.
 std::string facet_count_words(const Solid& solid);
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "stone/design/cutting_list.h"
 
 namespace culet {
@@ -70,18 +73,43 @@ std::string depth_words(const CuttingStep& step, const std::string& unit, double
     return said ? step.instruction : own + "; " + words;
 }
 
-std::string index_words(const CuttingStep& step) {
-    if (step.part == StonePart::table || step.part == StonePart::culet) return "any";
+namespace {
+
+bool any_index(const CuttingStep& step) {
+    return step.part == StonePart::table || step.part == StonePart::culet;
+}
+
+std::string setting_words(const IndexSetting& own, const char* between, int digits) {
     std::string text;
-    for (const IndexSetting& own : step.settings) {
-        if (!text.empty()) text += ", ";
-        for (std::size_t i = 0; i < own.teeth.size(); ++i) {
-            const IndexSetting::Tooth& tooth = own.teeth[i];
-            text += fmt::format("{}{}", i == 0 ? "" : " ", tooth.tooth);
-            if (tooth.own_deg > 0) text += fmt::format(" at {:.1f}", tooth.own_deg);
-            if (tooth.own_deg > 0 && i + 1 < own.teeth.size()) text += ',';
-        }
-        if (own.cheater != 0) text += fmt::format(" (cheater {:+.2f})", own.cheater);
+    for (std::size_t i = 0; i < own.teeth.size(); ++i) {
+        const IndexSetting::Tooth& tooth = own.teeth[i];
+        const bool apart = i > 0 && (tooth.own_deg > 0 || own.teeth[i - 1].own_deg > 0);
+        text += fmt::format("{}{:0{}}", i == 0 ? "" : apart ? ", " : between, tooth.tooth, digits);
+        if (tooth.own_deg > 0) text += fmt::format(" at {:.1f}", tooth.own_deg);
+    }
+    if (own.cheater != 0) text += fmt::format(" (cheater {:+.2f})", own.cheater);
+    return text;
+}
+
+}  // namespace
+
+std::string index_words(const CuttingStep& step) {
+    if (any_index(step)) return "any";
+    std::string text;
+    for (const IndexSetting& own : step.settings)
+        text += (text.empty() ? "" : ", ") + setting_words(own, " ", 1);
+    return text;
+}
+
+std::string printed_indices(const CuttingStep& step, double gear) {
+    if (any_index(step)) return "any";
+    const int last = int(std::lround(gear)), digits = int(std::to_string(last).size());
+    std::string text;
+    for (IndexSetting own : step.settings) {
+        std::stable_partition(
+            own.teeth.begin(), own.teeth.end(),
+            [&](const IndexSetting::Tooth& tooth) { return tooth.tooth == last; });
+        text += (text.empty() ? "" : ", ") + setting_words(own, "-", digits);
     }
     return text;
 }

@@ -79,14 +79,40 @@ TEST(CuttingSheet, PageAndTextSayTheSame) {
     EXPECT_THAT(text, HasSubstr("34.50 +- 0.12"));
     EXPECT_THAT(page, HasSubstr(" ± 0.03"));
     EXPECT_THAT(page, Not(HasSubstr("± 0.034")));
+    EXPECT_THAT(page, ::testing::ContainsRegex("Pavilion</th>.*Crown</th>"));
     test::keep_page("cutting-sheet-on-paper", page);
     sheet.name = test::hostile_name();
     test::keep_page("cutting-sheet", cutting_sheet_page(sheet));
     for (const char* both :
-         {"meet G, U", "12 24 36 48 60 72 84", "0.5700", "6.5 mm", "57 + 16 facets", "8-fold"}) {
+         {"Meet G, U", "96-12-24-36-48", "0.5700", "6.5 mm", "57 + 16 facets", "8-fold"}) {
         EXPECT_THAT(page, HasSubstr(both));
         EXPECT_THAT(text, HasSubstr(both));
     }
+}
+
+// GemCad prints two headings, settings from the wheel's last tooth with two digits, and what a tier
+// meets; a page of text has 80 columns.
+TEST(CuttingSheet, TextIsPrintedAsGemCadDoes) {
+    CuttingSheet sheet = brilliant();
+    sheet.name = "A name of a design that is longer than a line of text has columns, by many words";
+    sheet.sigmas_deg.assign(sheet.steps.size(), 0.12);
+    const std::string text = cutting_sheet_text(sheet);
+    std::istringstream lines(text);
+    std::vector<std::string> all;
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(line.size(), 80u) << line;
+        EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
+        all.push_back(line);
+    }
+    const auto place = [&](const std::string& line) {
+        return std::find(all.begin(), all.end(), line) - all.begin();
+    };
+    EXPECT_LT(place("PAVILION"), place("CROWN"));
+    EXPECT_LT(place("CROWN"), std::ssize(all));
+    EXPECT_THAT(text, ::testing::ContainsRegex("\n  3  G [^\n]*90\\.00 [^\n]*Meet L, P\n"));
+    EXPECT_EQ(printed_indices(step_called(sheet, "P"), 96), "96-12-24-36-48-60-72-84");
+    EXPECT_EQ(printed_indices(step_called(sheet, "T"), 96), "any");
+    EXPECT_TRUE(printed_indices(step_called(sheet, "L"), 120).starts_with("003-009"));
 }
 
 }  // namespace

@@ -149,11 +149,12 @@ TEST(Design, OfAFittedStoneHasWholeTeethAndOwnAngles) {
     fitted.design = solid.design;
     const auto a_words = [](const Solid& of) {
         for (const CuttingStep& step : cutting_list(of)) {
-            if (step.tier == "A") return index_words(step);
+            if (step.tier == "A") return index_words(step) + "; " + printed_indices(step, 96);
         }
         return std::string();
     };
-    EXPECT_EQ(a_words(fitted), "24 at 30.4, 72 96, 48 (cheater +0.40)");
+    EXPECT_EQ(a_words(fitted),
+              "24 at 30.4, 72 96, 48 (cheater +0.40); 96, 24 at 30.4, 72, 48 (cheater +0.40)");
     // Written as a design it needs a line per facet; read back it is one tier again.
     write_cut(fitted, design, folder / "fitted.asc");
     const Solid again = read_cut(folder / "fitted.asc").solid;
