@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "stone/mesh/face_soup.h"
+#include "stone/mesh/mesh_formats.h"
 #include "stone/mesh/mesh_io.h"
 #include "stone/mesh/surface_mesh.h"
 #include "stone/text/errors.h"
@@ -99,15 +100,16 @@ SolidInput solid_in(const std::filesystem::path& file, const std::string* held,
     const auto format = mesh_format(file);
     if (held != nullptr && !format)
         throw InputError(file, "is not read here: .obj, .off, .ply, .stl, .asc and .gem are");
-    if (!format && !is_gltf(file)) {
+    if (!format && !is_gltf(file) && !is_step(file)) {
         if (const std::string other = foreign_kind_of(file); !other.empty())
             throw InputError(file, other);
         throw InputError(file,
                          "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, "
-                         ".stl, .gltf, .glb, .asc, .gem or .gcs");
+                         ".stl, .gltf, .glb, .step, .asc, .gem or .gcs");
     }
     ReadSolid mesh = held != nullptr ? parse_mesh(*held, *format, file)
                      : is_gltf(file) ? solid_of_gltf(file)
+                     : is_step(file) ? solid_from_faces(read_step(file))
                                      : read_mesh(file);
     input.solid = std::move(mesh.solid);
     input.notes = std::move(mesh.notes);
@@ -126,7 +128,7 @@ SolidFile solid_file(SolidInput input) {
 }  // namespace
 
 bool is_solid_file(const std::filesystem::path& file) {
-    return mesh_format(file).has_value() || is_gltf(file) || is_cut(file);
+    return mesh_format(file).has_value() || is_gltf(file) || is_step(file) || is_cut(file);
 }
 
 SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {

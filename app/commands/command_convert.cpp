@@ -173,7 +173,8 @@ void add_command_convert(CLI::App& program, int& exit_code) {
     command
         ->add_option(
             "IN", options->in,
-            "mesh (.obj .off .ply .stl), cut (.asc .gem .gcs), stone file or scene (.toml)")
+            "mesh (.obj .off .ply .stl .glb .gltf .step), cut (.asc .gem .gcs), stone file or "
+            "scene (.toml)")
         ->required();
     command
         ->add_option(

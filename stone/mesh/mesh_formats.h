@@ -14,6 +14,10 @@ FaceSoup parse_obj(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_off(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
+/// .step, .stp: in mm, with the names of the faces. Throws InputError for curved faces, and where
+/// culet is built without Open CASCADE.
+bool is_step(const std::filesystem::path& file);
+FaceSoup read_step(const std::filesystem::path& file);
 FaceSoup soup_of(std::string_view bytes, MeshFormat format, const std::filesystem::path& file);
 
 /// `with_planes`: write the facets' planes in comments.

@@ -395,6 +395,10 @@ TEST_F(ForeignGltf, WhatContributesToTheSurfaceIsRead) {
     // Only the sparse part gives the first corner.
     std::vector<float> moved = corners_;
     moved[0] = moved[1] = 7;
+    std::vector<float> split;
+    for (const std::uint16_t corner : triangles_) {
+        for (std::size_t k = 0; k < 3; ++k) split.push_back(corners_[3u * corner + k]);
+    }
     const struct {
         const char* what;
         std::string file;
@@ -410,6 +414,20 @@ TEST_F(ForeignGltf, WhatContributesToTheSurfaceIsRead) {
                            "," + indices(12) + "]",
                        {bytes(moved), bytes(triangles_), bytes(std::vector<std::uint8_t>{0}),
                         bytes(std::vector<float>{0, 0, 0})})},
+        // As Blender writes what was modelled in mm and z up.
+        {"a node that turns and scales, indices of a byte",
+         glb(scene(",\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476],\"scale\":[0.001,"
+                   "0.001,0.001]",
+                   4) +
+                 "\"accessors\":[" + float3 + "," + accessor(1, 5121, 12, "SCALAR") + "]",
+             {bytes(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}),
+              bytes(std::vector<std::uint8_t>(triangles_.begin(), triangles_.end()))})},
+        // As flat shading has it.
+        {"corners of each triangle by itself, without normals",
+         glb(scene("", 4) + "\"accessors\":[" + accessor(0, 5126, 12, "VEC3") + "," +
+                 accessor(1, 5125, 12, "SCALAR") + "]",
+             {bytes(split),
+              bytes(std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11})})},
         {"buffer stated shorter than it is",
          glb(scene("", 4) + "\"accessors\":[" + float3 + "," + indices(12) + "]",
              {bytes(corners_), bytes(triangles_)}, 16)},
@@ -448,6 +466,18 @@ TEST_F(ForeignGltf, WhatIsRequiredAndNotKnownIsRefusedByName) {
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), says(name, "export it without"));
         }
+    }
+}
+
+// With Open CASCADE or without, a line says what it is; tests/exports reads good files.
+using ForeignStep = FolderTest;
+
+TEST_F(ForeignStep, IsReadOrToldOf) {
+    try {
+        load_solid(write("a.step", "ISO-10303-21;\nHEADER;\n"));
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), says("a.step: ", "STEP"));
     }
 }
 

@@ -11,6 +11,7 @@
 #include "stone/design/tiers.h"
 #include "stone/gemcad/gemcad_io.h"
 #include "stone/material/wavelength_table.h"
+#include "stone/mesh/mesh_formats.h"
 #include "stone/mesh/surface_mesh.h"
 #include "stone/solid/half_edges.h"
 #include "stone/stone.h"
@@ -57,6 +58,12 @@ TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
 }
 TriangleMesh read_gltf(const std::filesystem::path& file) {
     refuse(file);
+}
+FaceSoup read_step(const std::filesystem::path& file) {
+    refuse(file);
+}
+bool is_step(const std::filesystem::path&) {
+    return false;
 }
 bool is_gltf(const std::filesystem::path&) {
     return false;
