@@ -1,5 +1,7 @@
 #include "render/export/exported_stone.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "render/export/gltf_look.h"
@@ -26,7 +28,9 @@ ExportedStone gltf(const Stone& stone, bool has_material, GltfForm form) {
         return {gltf_bytes(stone, std::nullopt, form),
                 {"no material: a grey surface (--material NAME)"}};
     }
-    const GltfMaterial material = gltf_material(stone.material, outline_width(stone.solid));
+    GltfMaterial material = gltf_material(stone.material, outline_width(stone.solid));
+    if (const std::string frosted = frosted_tiers(stone.solid); !frosted.empty())
+        material.notes.push_back(fmt::format("frosting: tier {} is polished", frosted));
     return {gltf_bytes(stone, material.look, form), material.notes};
 }
 

@@ -171,10 +171,12 @@ ViewItem item_of(const ViewSource& as_given, std::vector<std::string>& notes, Sc
     item.refused =
         scene.has_stone() ? refused_by_page(scene) : "beams draw a stone, and this scene has none";
     if (scene.has_stone()) {
-        if (const std::optional<Stone> before = catalogue_of(source, scene.stone)) {
+        if (std::optional<Stone> before = catalogue_of(source, scene.stone)) {
+            std::vector<std::string> said;
+            polish(before->solid, said);
             ViewedStone catalogue;
             catalogue.role = "catalogue";
-            catalogue.stone = *before;
+            catalogue.stone = std::move(*before);
             item.stones.push_back(std::move(catalogue));
         }
         ViewedStone viewed;
