@@ -14,12 +14,12 @@ endforeach()
 find_program(CULET_HELP2MAN help2man)
 set(manuals ${CMAKE_BINARY_DIR}/man)
 if(CULET_HELP2MAN)
-  add_custom_command(OUTPUT ${manuals}/culet.1
+  add_custom_command(OUTPUT ${manuals}/culet.1.gz
     COMMAND sh ${CMAKE_SOURCE_DIR}/cmake/manuals/make_man_pages.sh $<TARGET_FILE:culet> ${manuals}
     DEPENDS culet ${CMAKE_SOURCE_DIR}/cmake/manuals/make_man_pages.sh VERBATIM)
-  add_custom_target(man ALL DEPENDS ${manuals}/culet.1)
+  add_custom_target(man ALL DEPENDS ${manuals}/culet.1.gz)
   file(MAKE_DIRECTORY ${manuals})
-  install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
+  install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1.gz")
 else()
   # The package is then made without manual pages.
   add_custom_target(man)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Manual pages made from the program's own help by help2man: make_man_pages.sh PROGRAM FOLDER writes
-# culet.1 and a page for each command.
+# culet.1.gz and a page for each command.
 set -eu
 program=$1
 folder=$2
@@ -15,6 +15,7 @@ page() { # NAME SUMMARY WORDS...: the help of "culet WORDS"
     # It takes every page for that of the program.
     title=$(echo "$name" | tr '[:lower:]' '[:upper:]')
     sed -i "s/^\\.TH CULET /.TH $title /" "$folder/$name.1"
+    gzip -9nf "$folder/$name.1"
 }
 page culet "fit, render and compare models of cut gemstones"
 "$program" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print } on && /^$/ { exit }' |
