@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
     add_command_setting(program, exit_code);
     add_command_convert(program, exit_code);
     add_command_info(program, exit_code);
+    add_command_help(program, exit_code);
     std::vector<std::string> commands;
     for (const CLI::App* command : program.get_subcommands({})) {
         commands.push_back(command->get_name());

@@ -104,7 +104,8 @@ Turntable ordered(const OutlineArguments& a, std::vector<BackLitOutline>& outlin
 }
 
 Json contours_json(const std::vector<PlacedOutline>& placed, const Turntable& table, double scale) {
-    Json json{{"unit", "mm"},
+    Json json{{"schema", 1},
+              {"unit", "mm"},
               {"turntable",
                {{"pixel_mm", scale},
                 {"axis_px", table.axis_px},

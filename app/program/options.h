@@ -61,5 +61,6 @@ void add_command_study(CLI::App& program, int& exit_code);
 void add_command_batch(CLI::App& program, int& exit_code);
 void add_command_view(CLI::App& program, int& exit_code);
 void add_command_studio(CLI::App& program, int& exit_code);
+void add_command_help(CLI::App& program, int& exit_code);
 
 }  // namespace culet

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -51,6 +52,21 @@ int wait_for(pid_t child, double stop_at, double& cpu_after_stop) {
     return status;
 }
 
+// Keeps the JSON that a run wrote, in files or on its output, for the test of the schemas.
+void keep_json(const std::vector<std::string>& arguments, const std::string& out) {
+    const char* folder = std::getenv("CULET_KEPT_JSON");
+    if (folder == nullptr) return;
+    static int number = 0;
+    const auto kept = [&] {
+        return std::filesystem::path(folder) / (std::to_string(++number) + ".json");
+    };
+    if (out.starts_with("{")) std::ofstream(kept()) << out;
+    std::error_code missing;
+    for (const std::string& file : arguments) {
+        if (file.ends_with(".json")) std::filesystem::copy_file(file, kept(), missing);
+    }
+}
+
 }  // namespace
 
 ProgramRun run_culet(const std::vector<std::string>& arguments, double stop_at) {
@@ -77,6 +93,7 @@ ProgramRun run_culet(const std::vector<std::string>& arguments, double stop_at) 
     posix_spawn_file_actions_destroy(&actions);
     run.out = content(out);
     run.err = content(err);
+    keep_json(arguments, run.out);
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
     return run;
