@@ -65,3 +65,9 @@ convert "$work/overlay.png" -gravity center -crop 700x560+0+0 +repage -resize 56
     docs/pictures/photograph/overlay.jpg
 "$culet" compare $dravite/simulated-photo.png "$work/scene.toml" -o "$work/comparison" --simulated -q
 page "$work/comparison/report.html" docs/pictures/photograph/report.png 1150
+
+# The first stone in the studio.
+python3 docs/pictures/studio.py "$culet" "$work/studio"
+for picture in "$work"/studio/*.png; do
+    convert "$picture" -resize 900x +dither -colors 200 "docs/pictures/studio/$(basename "$picture")"
+done
