@@ -66,8 +66,11 @@ FitPaint residuals(const Json& fit, const std::vector<std::string>& names) {
         } else {
             own.colour =
                 css_colour(ColourMap::residual, std::abs(worst[f].normalized) / k_worst_shown);
-            own.about += fmt::format("worst of {} readings {}, {} times its ± off", worst[f].count,
-                                     worst[f].reading, decimals(worst[f].normalized, 2));
+            const std::string which = worst[f].count == 1
+                                          ? "its reading"
+                                          : fmt::format("of its {} readings", worst[f].count);
+            own.about += fmt::format("{} {} is {} times its ± off", which, worst[f].reading,
+                                     decimals(std::abs(worst[f].normalized), 2));
         }
         paint.facets.push_back(std::move(own));
     }

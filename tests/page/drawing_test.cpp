@@ -282,7 +282,7 @@ TEST(FitPaint, ColoursFacetsByTheirWorstReading) {
     };
     EXPECT_EQ(of("C").colour, css_colour(ColourMap::residual, 1));
     EXPECT_EQ(of("T").colour, css_colour(ColourMap::residual, 0.5));
-    EXPECT_THAT(of("C").about, HasSubstr("worst of 2 readings r0"));
+    EXPECT_THAT(of("C").about, HasSubstr("of its 2 readings r0 is"));
     EXPECT_THAT(of("E").about, HasSubstr("no reading of its own"));
     EXPECT_TRUE(of("C").marked);
     EXPECT_FALSE(of("T").marked);
