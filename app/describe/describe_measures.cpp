@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/describe/describe.h"
-#include "page/fit_fields.h"
 #include "page/json_fields.h"
 #include "page/quantity.h"
 #include "stone/text/output_file.h"

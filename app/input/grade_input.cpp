@@ -121,7 +121,7 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         make_ready(choices, input);
         if (const std::string frosted = frosted_tiers(input.stone.solid); !frosted.empty())
             input.notes.push_back(
-                fmt::format("tier {} is frosted, and graded as if polished", frosted));
+                fmt::format("frosted tiers are graded as if polished: {}", frosted));
         if (!choices.report.empty())
             input.uncertainty = uncertainty_in(choices.report, input.stone);
     }

@@ -276,7 +276,7 @@ std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
     if (scene.has_objects()) return "beams draw one stone alone, without objects around it";
     if (!scene.stone.convex) return "beams are for convex stones only";
     if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
-        return fmt::format("beams draw polished facets, and tier {} is frosted", frosted);
+        return fmt::format("beams draw polished facets, and some are frosted (tiers {})", frosted);
     for (const Band& band : setup.bands) {
         if (!(band.n > band.n_outside)) {
             return fmt::format(

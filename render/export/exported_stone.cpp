@@ -30,7 +30,7 @@ ExportedStone gltf(const Stone& stone, bool has_material, GltfForm form) {
     }
     GltfMaterial material = gltf_material(stone.material, outline_width(stone.solid));
     if (const std::string frosted = frosted_tiers(stone.solid); !frosted.empty())
-        material.notes.push_back(fmt::format("frosting: tier {} is polished", frosted));
+        material.notes.push_back(fmt::format("frosting: polished here are tiers {}", frosted));
     return {gltf_bytes(stone, material.look, form), material.notes};
 }
 

@@ -60,7 +60,7 @@ MetalIndex finite_index_of(const MetalMaterial& metal) {
 void note_left_out(const Scene& scene, std::vector<std::string>& notes) {
     const OpticalSetup setup = make_optical_setup(scene);
     if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
-        add_note(notes, fmt::format("frosted facets: tier {} is polished", frosted));
+        add_note(notes, fmt::format("frosting: polished here are tiers {}", frosted));
     if (setup.polarised) add_note(notes, "polarisation by the faces");
     if (setup.on(Effects::aperture)) add_note(notes, "the lens: the picture is that of a pinhole");
 }

@@ -125,7 +125,8 @@ std::string refused_by_gpu(const Scene& scene) {
         return "the GPU kernel draws one stone alone, without objects around it";
     if (!scene.stone.convex) return "the GPU kernel is for convex stones only";
     if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
-        return fmt::format("the GPU kernel draws polished facets, and tier {} is frosted", frosted);
+        return fmt::format("the GPU kernel draws polished facets, and some are frosted (tiers {})",
+                           frosted);
     if (scene.camera.optics.two_windows)
         return "the GPU kernel draws one window, a dichroscope has two";
     if (scene.camera.cone)

@@ -108,7 +108,8 @@ TableRays table_rays(const Scene& scene, std::span<const double> wavelengths_nm)
 std::string refused_by_table(const Scene& scene, const OpticalSetup& setup) {
     if (!scene.has_stone()) return "a ray table is of a stone, and the scene has none";
     if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
-        return fmt::format("a ray table holds no scattered light, and tier {} is frosted", frosted);
+        return fmt::format(
+            "a ray table holds no scattered light, and facets are frosted (tiers {})", frosted);
     if (setup.stokes && !scene.settings.spectral && !polarised(scene.lights) &&
         !scene.camera.optics.analyzer)
         return "a ray table holds no light that polished metal, glass or another stone polarises "

@@ -169,8 +169,9 @@ void require_scatters(const Scene& scene, const OpticalSetup& setup) {
     const std::string frosted = frosted_tiers(scene.stone.solid);
     if (frosted.empty() || !setup.general) return;
     throw InputError(fmt::format(
-        "tier {} is frosted, and frosted facets are drawn in convex stones in air, in unpolarised "
-        "light, and without birefringence: leave that out of effects, or set frosting to 0",
+        "frosted facets (tiers {}) are drawn in convex stones in air, in unpolarised light, and "
+        "without birefringence: leave that out of effects, or convert the design to .asc, which "
+        "keeps no frosting",
         frosted));
 }
 

@@ -109,8 +109,7 @@ RenderResult shaded_picture(const Scene& scene, const std::string& engine, const
     if (listener.stopped()) throw Interrupted();
     result.stats = stats_of(engine, camera, rows);
     if (const std::string frosted = frosted_tiers(scene.stone.solid); !frosted.empty())
-        result.stats.notes.push_back(
-            fmt::format("tier {} is frosted, and drawn polished", frosted));
+        result.stats.notes.push_back(fmt::format("frosted tiers are drawn polished: {}", frosted));
     result.stats.seconds_shade =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

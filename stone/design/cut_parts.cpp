@@ -44,8 +44,9 @@ std::vector<Edge> edges_between_halves(const Solid& solid, const CutRoles& roles
         const auto other = facets.find({edge.second, edge.first});
         if (other == facets.end() || !is_half(f) || !is_half(other->second)) continue;
         if (rim.contains(edge.first) || !rim.contains(edge.second)) continue;
+        const int tip = edge.first;
         const auto touching = std::count_if(mains.begin(), mains.end(), [&](int main) {
-            return contains(solid.facets[std::size_t(main)].corners, edge.first);
+            return contains(solid.facets[std::size_t(main)].corners, tip);
         });
         if (touching >= 2) edges.push_back(edge);
     }

@@ -9,8 +9,8 @@ namespace culet {
 struct GcsUnread {
     pugi::xml_node curved;   ///< the first tier that is cut and says that it is not flat; or empty
     std::string curved_by;   ///< its words: `radius="0.4"`
-    std::string elements;    ///< "<a>, <b>": unknown ones; empty: none
-    std::string attributes;  ///< "a of <tier>, b of <facet>"; likewise
+    std::string elements;    ///< unknown ones, in angle brackets, with commas; empty: none
+    std::string attributes;  ///< likewise, each with its element
 };
 
 /// Names stand once each, in the file's order.

@@ -103,7 +103,7 @@ TEST(Engines, DrawFrostedFacetsOrSayWhyNot) {
         const RenderResult result = engine->draw(scene, {});
         const std::vector<std::string>& notes = result.stats.notes;
         const bool said = std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-            return note.find("is frosted, and drawn polished") != std::string::npos;
+            return note.find("frosted tiers are drawn polished") != std::string::npos;
         });
         EXPECT_EQ(said, !scatters) << engine->name();
         if (scatters) {

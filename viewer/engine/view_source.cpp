@@ -141,7 +141,7 @@ std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_
 void polish(Solid& solid, std::vector<std::string>& notes) {
     const std::string frosted = frosted_tiers(solid);
     if (frosted.empty()) return;
-    notes.push_back(fmt::format("tier {} is frosted, and shown polished", frosted));
+    notes.push_back(fmt::format("frosted tiers are shown polished: {}", frosted));
     Design design = *solid.design;
     for (DesignTier& tier : design.tiers) tier.frosting = 0;
     solid.design = std::make_shared<const Design>(std::move(design));
