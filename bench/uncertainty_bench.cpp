@@ -9,8 +9,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "app/input/fit_uncertainty.h"
 #include "fit/fit.h"
+#include "refine/fit_uncertainty.h"
 #include "render/render.h"
 #include "render/scene/light_presets.h"
 #include "render/uncertainty/picture_uncertainty.h"

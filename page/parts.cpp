@@ -9,19 +9,20 @@ namespace culet {
 
 namespace embedded {
 extern const char* const page_css;
-extern const char* const page_js;
+extern const char *const page_js, *const slider_js;
 }  // namespace embedded
 
 std::string html_page(const std::string& title, const std::string& body,
                       const std::string& data_json, const std::string& viewer_html) {
     const std::string viewer =
         viewer_html.empty() ? "" : json_for_script(nlohmann::json(viewer_html).dump());
-    return filled(templates::page, {{"title", title},
-                                    {"page_css", embedded::page_css},
-                                    {"body_html", body},
-                                    {"data_json", json_for_script(data_json)},
-                                    {"viewer_json", viewer},
-                                    {"page_js", embedded::page_js}});
+    return filled(templates::page,
+                  {{"title", title},
+                   {"page_css", embedded::page_css},
+                   {"body_html", body},
+                   {"data_json", json_for_script(data_json)},
+                   {"viewer_json", viewer},
+                   {"page_js", std::string(embedded::page_js) + embedded::slider_js}});
 }
 
 std::string turn_button() {

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "app/commands/compare_options.h"
-#include "app/input/fit_uncertainty.h"
 #include "app/program/file_kinds.h"
 #include "app/program/report_viewer.h"
 #include "app/program/terminal.h"
@@ -13,6 +12,7 @@
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
 #include "compare/report/several_page.h"
+#include "refine/fit_uncertainty.h"
 #include "render/scene/scene_io.h"
 #include "stone/solid_input.h"
 #include "stone/text/errors.h"

@@ -7,7 +7,6 @@
 #include "app/program/file_kinds.h"
 #include "app/program/options.h"
 #include "app/program/terminal.h"
-#include "compare/calibration/scene_comparison.h"
 #include "compare/photo/photo.h"
 #include "compare/pose/find_pose.h"
 #include "render/scene/scene_io.h"
@@ -42,33 +41,6 @@ PoseOptions options_of(const RegisterArguments& a) {
     return options;
 }
 
-void say_result(const RegisterArguments& a, const FoundPose& pose) {
-    const bool quiet = a.common.quiet;
-    for (const std::string& warning : pose.warnings) say(warning, quiet);
-    if (!pose.usable()) {
-        say("refused: " + pose.trouble + ". " + pose.remedy + ".", quiet);
-        return;
-    }
-    say(fmt::format("found: {:.1f} degrees from the start, {:.3f} times its size; uncertainty "
-                    "±{:.2f} degrees, ±{:.2f} px (99 %)",
-                    degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
-                    pose.sigmas.shift_99_px),
-        quiet);
-    if (pose.sigmas.angle_99 > k_sure_pose)
-        say("the view is uncertain: photograph the stone larger and tilted by 10 to 20 degrees, or "
-            "fit it to more readings; culet compare refines the view by the picture itself",
-            quiet);
-    if (pose.mirrored)
-        say("the photograph is mirrored: flip it left to right before comparing it", quiet);
-    if (!pose.chirality_known)
-        say("a stone of this symmetry equals its mirror image: taken as not mirrored", quiet);
-    if (pose.look_alikes > 0)
-        say(fmt::format("the stone looks the same from {} other view{}: the one nearest to the "
-                        "scene's camera was taken",
-                        pose.look_alikes, pose.look_alikes == 1 ? "" : "s"),
-            quiet);
-}
-
 int run_register(const RegisterArguments& a) {
     require_kind(a.photo, {FileKind::picture}, "culet register", {});
     require_kind(a.scene, {FileKind::scene}, "culet register", a.common.set);
@@ -89,7 +61,7 @@ int run_register(const RegisterArguments& a) {
     if (!a.overlay.empty()) write_text(a.overlay, pose_overlay(photo, scene.stone.solid, pose));
     if (!a.json.empty()) write_text(a.json, json);
     write_text(out, text);
-    say_result(a, pose);
+    for (const std::string& words : pose_words(pose)) say(words, a.common.quiet);
     if (pose.usable())
         say(fmt::format("next: culet compare {} {} -o report", a.photo, a.out), a.common.quiet);
     return pose.usable() ? exit_good : exit_untrusted;

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "app/input/fit_uncertainty.h"
 #include "app/input/grade_input.h"
 #include "app/input/readings_form.h"
 #include "page/cutting_sheet.h"
+#include "refine/fit_uncertainty.h"
 #include "stone/mesh/mesh_io.h"
 #include "stone/numbers/units.h"
 #include "stone/solid_input.h"

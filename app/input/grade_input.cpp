@@ -4,11 +4,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/input/fit_uncertainty.h"
 #include "app/program/file_kinds.h"
 #include "app/program/terminal.h"
 #include "fit/fit.h"
 #include "fit/readings/measurement.h"
+#include "refine/fit_uncertainty.h"
 #include "stone/cuts/cuts.h"
 #include "stone/design/design.h"
 #include "stone/material/material_io.h"

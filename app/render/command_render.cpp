@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 
-#include "app/input/fit_uncertainty.h"
 #include "app/program/terminal.h"
 #include "app/render/movie.h"
 #include "app/render/picture_output.h"
@@ -17,6 +16,7 @@
 #include "app/render/render_options.h"
 #include "app/render/render_words.h"
 #include "app/render/saved_plan.h"
+#include "refine/fit_uncertainty.h"
 #include "render/engine/engine.h"
 #include "render/planner/explain.h"
 #include "render/planner/quick_picture.h"

@@ -11,12 +11,8 @@
 #include "compare/scores/compare.h"
 #include "render/render.h"
 #include "render/uncertainty/drawn_stones.h"
-#include "stone/numbers/units.h"
 
 namespace culet {
-
-/// 99 % uncertainty of a pose, radians, up to which it is not refined.
-constexpr double k_sure_pose = radians(2.0);
 
 struct SceneCompareOptions {
     CompareOptions compare;

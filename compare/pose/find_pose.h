@@ -23,6 +23,9 @@
 
 namespace culet {
 
+/// 99 % uncertainty of a view, radians (2 degrees), up to which it needs no look at the picture.
+constexpr double k_sure_pose = 2 * 3.14159265358979323846 / 180;
+
 /// Limits beyond which a pose is refused. docs/registration.md derives them.
 struct PoseLimits {
     /// 99 % uncertainty of the view's angle to the stone, radians (10 degrees), and of the stone's
@@ -142,6 +145,10 @@ std::string pose_overlay(const Photo& photo, const Solid& solid, const FoundPose
 
 /// One JSON object (schema 1) without the marks.
 std::string pose_json(const FoundPose& pose);
+
+/// For people, a sentence each: how sure the pose is, and what to look at; or why it is refused,
+/// and what to do.
+std::vector<std::string> pose_words(const FoundPose& pose);
 
 /// The [camera] keys of a scene file as overrides (`read_scene`): "camera.position=[1, 2, 3]", ...
 /// `without`: which of `fov`, `orthographic_width` and `principal_point` must be left out.

@@ -77,6 +77,34 @@ std::string pose_json(const FoundPose& pose) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::vector<std::string> pose_words(const FoundPose& pose) {
+    std::vector<std::string> words = pose.warnings;
+    if (!pose.usable()) {
+        words.push_back("refused: " + pose.trouble + ". " + pose.remedy + ".");
+        return words;
+    }
+    words.push_back(
+        fmt::format("found: {:.1f} degrees from the start, {:.3f} times its size; uncertainty "
+                    "±{:.2f} degrees, ±{:.2f} px (99 %)",
+                    degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
+                    pose.sigmas.shift_99_px));
+    if (pose.sigmas.angle_99 > k_sure_pose)
+        words.emplace_back(
+            "the view is uncertain: photograph the stone larger and tilted by 10 to 20 degrees, or "
+            "fit it to more readings; culet compare refines the view by the picture itself");
+    if (pose.mirrored)
+        words.emplace_back("the photograph is mirrored: flip it left to right before comparing it");
+    if (!pose.chirality_known)
+        words.emplace_back(
+            "a stone of this symmetry equals its mirror image: taken as not mirrored");
+    if (pose.look_alikes > 0)
+        words.push_back(
+            fmt::format("the stone looks the same from {} other view{}: the one nearest to the "
+                        "scene's camera was taken",
+                        pose.look_alikes, pose.look_alikes == 1 ? "" : "s"));
+    return words;
+}
+
 CameraSettings camera_settings(const Camera& camera) {
     const auto vector = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
     CameraSettings settings;

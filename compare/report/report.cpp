@@ -53,6 +53,13 @@ std::string report_page(const Report& report) {
                      report.viewer_html);
 }
 
+std::string comparison_part(const Report& report) {
+    if (!report.comparison) return {};
+    const Json scores = Json::parse(scores_json(*report.comparison, {}, report.calibrated));
+    return headline_section(report, {}) + pictures_section(report) + maps_section(report) +
+           reflexes_section(report) + scores_section(report, scores) + registration_section(report);
+}
+
 void write_report(const Report& report, const std::filesystem::path& file) {
     write_text(file, report_page(report));
 }

@@ -55,6 +55,10 @@ struct Report {
 /// Throws InputError for invalid JSON texts.
 std::string report_page(const Report& report);
 
+/// What the page says of `report.comparison`, as HTML without a page around it: verdict, pictures,
+/// maps, scores and registration. Empty without one.
+std::string comparison_part(const Report& report);
+
 /// Writes the whole page or nothing.
 void write_report(const Report& report, const std::filesystem::path& file);
 

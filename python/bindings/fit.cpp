@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "app/input/fit_uncertainty.h"
 #include "fit/findings/summary.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bind_functions.h"
 #include "python/bindings/long_work.h"
 #include "python/bindings/python_stone.h"
+#include "refine/fit_uncertainty.h"
 
 namespace py = pybind11;
 

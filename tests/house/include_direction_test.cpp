@@ -24,8 +24,7 @@ const std::map<std::string, std::set<std::string>> k_may_see = {
     {"refine", {"refine", "compare", "page", "render", "fit", "stone"}},
     {"studio", {"studio", "refine", "compare", "viewer", "page", "render", "fit", "stone"}},
     {"app", {"app", "studio", "refine", "compare", "viewer", "page", "render", "fit", "stone"}},
-    {"python",
-     {"python", "app", "studio", "refine", "compare", "viewer", "page", "render", "fit", "stone"}},
+    {"python", {"python", "refine", "compare", "viewer", "page", "render", "fit", "stone"}},
 };
 
 bool is_source(const fs::path& file) {

@@ -1,4 +1,4 @@
-#include "app/input/fit_uncertainty.h"
+#include "refine/fit_uncertainty.h"
 
 #include <fmt/format.h>
 
