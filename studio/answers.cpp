@@ -58,6 +58,7 @@ Answer Answers::to(const Call& call) {
         if (call.posts && call.path.starts_with("/api/begin/"))
             return {200, k_json, begin(call, lock)};
         if (call.path.starts_with("/api/cut")) return {200, k_json, cut(call, lock)};
+        if (call.path.starts_with("/api/photograph")) return photograph(call, lock);
         if (call.posts) return {200, k_json, post(call)};
         if (call.path == "/api/state") return {200, k_json, state()};
         if (call.path == "/api/begin") return {200, k_json, culet::begin_json(folder_)};
@@ -194,6 +195,7 @@ std::string Answers::begin(const Call& call, std::unique_lock<std::mutex>& lock)
     if (call.path != "/api/begin/leave") throw NoSuchCall();
     jobs_.cancel("fit");
     files_.cancel("file");
+    photographs_.cancel("photograph");
     project_.reset();
     ++opened_;
     events_.send("opened", state());
@@ -211,6 +213,8 @@ std::string Answers::open(const fs::path& stone_file, const std::string& window)
     files_.cancel("file");
     made_ = {made_.number};
     forget_cuts();
+    photographs_.cancel("photograph");
+    photo_ = {photo_.step + 1};
     fit_revision_ = 0;
     drawings_ = plain_drawings(project_->loaded()->file.stone.solid);
     ask_for_fit(window);
@@ -268,6 +272,7 @@ void Answers::window_opened(const std::string& window) {
 void Answers::window_closed(const std::string& window) {
     jobs_.cancel_of(window);
     files_.cancel_of(window);
+    photographs_.cancel_of(window);
     const std::vector<std::string> others = events_.windows();
     const std::lock_guard lock(mutex_);
     if (project_ && fit_runs_ && !others.empty()) ask_for_fit(others.front());

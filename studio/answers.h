@@ -14,6 +14,7 @@
 #include "studio/cut_work.h"
 #include "studio/events.h"
 #include "studio/job_queue.h"
+#include "studio/photograph_work.h"
 #include "studio/project.h"
 
 namespace culet {
@@ -55,6 +56,20 @@ struct TriedCuts {
     int graded_job = 0;  ///< that made the page
 };
 
+/// The photograph that all windows show.
+struct ShownPhotograph {
+    int step = 0;            ///< changes with everything but `fraction`
+    PhotographAsk ask = {};  ///< its file is empty: none is shown
+    std::string png = {}, about = {}, wire = {}, card_html = {},
+                html = {};  ///< `about`, `wire`: JSON
+    std::string notes = "[]";
+    std::string phase = {};  ///< of the work under way: laying, quick, nearby, open; empty: none
+    std::string by = {}, trouble = {};
+    double fraction = 0;
+    bool found = false, sure = false;
+    int fit_revision = 0;  ///< of the stone that was laid on it
+};
+
 class Answers {
 public:
     /// `input` as in StudioOptions. Throws InputError.
@@ -94,6 +109,13 @@ private:
     Answer made_file() const;
     void look_at_marks();
     void require_opened(int opened) const;
+    // answers_photograph.cpp
+    Answer photograph(const Call& call, std::unique_lock<std::mutex>& lock);
+    std::string photograph_json(std::unique_lock<std::mutex>& lock) const;
+    void take_photograph(const Call& call, std::unique_lock<std::mutex>& lock);
+    void work_on_photograph(const std::string& phase, const std::string& window);
+    void photograph_ended(const WorkEnd& end);
+    void photograph_changed();
 
     // answers_cut.cpp
     std::string cut(const Call& call, std::unique_lock<std::mutex>& lock);
@@ -117,11 +139,12 @@ private:
     std::set<std::string> marks_;  // as last told
     MadeFile made_;
     TriedCuts cuts_;
+    ShownPhotograph photo_;
     int fit_revision_ = 0;
     bool fit_runs_ = false;
     Events events_;
     // Last: their threads use the rest. A picture keeps no fit waiting.
-    JobQueue jobs_{mutex_}, files_{mutex_};
+    JobQueue jobs_{mutex_}, files_{mutex_}, photographs_{mutex_};
 };
 
 /// Most bytes of an uploaded file, and of any other call.

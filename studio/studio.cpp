@@ -156,7 +156,7 @@ Server::HandlerResponse Studio::Parts::let_in(const Request& request, Response& 
             break;
     }
     const auto length = request.get_header_value<std::uint64_t>("Content-Length");
-    const bool uploads = request.path == "/api/begin/upload";
+    const bool uploads = request.path.ends_with("/upload");
     if (length > (uploads ? k_largest_upload : k_largest_call))
         return refused(k_too_large, "This is too large.\n");
     if (request.method == "POST" &&

@@ -38,4 +38,15 @@ async function call(path, body, parameters = "") {
   return null;
 }
 
+/** A file that is dropped onto a place. */
+function take_drops(place, take) {
+  place.addEventListener("dragover", (event) => { event.preventDefault(); place.classList.add("over"); });
+  place.addEventListener("dragleave", () => place.classList.remove("over"));
+  place.addEventListener("drop", (event) => {
+    event.preventDefault();
+    place.classList.remove("over");
+    take(event.dataTransfer.files[0]);
+  });
+}
+
 function say(text) { by_id("say").textContent = text; }

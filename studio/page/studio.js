@@ -14,7 +14,8 @@ class StudioPage {
     this.bench = new BenchScreen();
     this.exports = new ExportScreen();
     this.cut = new CutScreen(this);
-    this.screens = {begin: this.begin, readings: null, stone: new StoneScreen(this), cut: this.cut, bench: this.bench, export: this.exports};
+    this.photograph = new PhotographScreen();
+    this.screens = {begin: this.begin, readings: null, stone: new StoneScreen(this), photograph: this.photograph, cut: this.cut, bench: this.bench, export: this.exports};
     addEventListener("hashchange", () => this.show_screen());
     const on = (id, act) => by_id(id).addEventListener("click", act);
     on("trouble-close", () => show_trouble(""));
@@ -42,6 +43,7 @@ class StudioPage {
     events.addEventListener("cut", (event) => { if (this.screen === "cut" && JSON.parse(event.data).by !== window_id) this.cut.show(); });
     events.addEventListener("cut-progress", (event) => this.cut.progress(JSON.parse(event.data).fraction));
     events.addEventListener("bench", () => this.screen === "bench" && this.bench.show());
+    events.addEventListener("photograph", (event) => this.screen === "photograph" && this.photograph.hear(JSON.parse(event.data)));
     events.addEventListener("file", (event) => this.exports.draw(JSON.parse(event.data)));
     events.addEventListener("error", () => show_trouble(events.readyState === EventSource.CLOSED
       ? "Five windows of the studio are open: close one of them, and load this one again." : "The studio does not answer; trying again. What was saved is safe."));
@@ -117,7 +119,7 @@ class StudioPage {
     this.wait_for_fit(fit.runs);
     this.show_card(fit.fit);
     this.paint();
-    if (!fit.runs && ["bench", "stone", "cut"].includes(this.screen)) this.screens[this.screen].show();
+    if (!fit.runs && ["bench", "stone", "photograph", "cut"].includes(this.screen)) this.screens[this.screen].show();
   }
 
   /** The one thing to do next: a marked row first, which the fit may not have seen yet. */
@@ -177,6 +179,7 @@ class StudioPage {
       location.hash = links[(at + 1) % links.length].hash;
     }
     if (this.screen === "bench" && !by_id("help").open) this.bench.on_key(event);
+    if (this.screen === "photograph" && !by_id("help").open) this.photograph.on_key(event);
     if (this.screen !== "readings") return;
     const typing = this.sheet.place_of(document.activeElement) && document.activeElement.value !== document.activeElement.dataset.shown;
     const key = event.key.toLowerCase();
