@@ -98,6 +98,7 @@ std::string Answers::photograph_json(std::unique_lock<std::mutex>& lock) const {
                  {"wire", parsed(photo_.wire)},
                  {"view", parsed(photo_.ask.view)},
                  {"light", photo_.ask.light},
+                 {"placed", photo_.ask.placed},
                  {"by_hand", photo_.ask.by_hand},
                  {"found", photo_.found},
                  {"card_html", photo_.card_html},
@@ -219,8 +220,9 @@ void Answers::photograph_ended(const WorkEnd& end) {
     photo_.sure = json.at("sure").get<bool>() || photo_.ask.by_hand;
     photo_.wire = text_of(json.at("wire"));
     photo_.card_html = json.at("card_html").get<std::string>();
-    if (photo_.found) return work_on_photograph("quick", photo_.by);
-    photograph_changed();
+    if (!photo_.found) return photograph_changed();
+    photo_.ask.placed = false;
+    work_on_photograph("quick", photo_.by);
 }
 
 void Answers::photograph_changed() {

@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double k_margin = 0.3;  // around the stone, share of its extent
 constexpr double k_far = 1e6;     // pixels
+constexpr const char* k_no_view = "the outline is not as the page makes it: start it anew";
 
 int divided(int value, int by) {
     return (value + by - 1) / by;
@@ -62,14 +63,14 @@ Json json_of(const StoneView& view) {
             {"sight", {view.sight.x, view.sight.y}}};
 }
 
-StoneView view_of(const std::string& json, const WireSolid& wire) {
+StoneView view_of(const std::string& json, const WireSolid& wire) try {
     const Json read = Json::parse(json);
     const auto numbers = [&](const char* key, std::size_t count) {
-        const auto values = read.at(key).get<std::vector<double>>();
+        auto values = read.at(key).get<std::vector<double>>();
         const bool good =
             values.size() == count &&
             std::all_of(values.begin(), values.end(), [](double v) { return std::abs(v) < k_far; });
-        if (!good) throw InputError("the outline is not as the page makes it: start it anew");
+        if (!good) throw InputError(k_no_view);
         return values;
     };
     const std::vector<double> turn = numbers("turn", 9), at = numbers("at", 2),
@@ -85,10 +86,12 @@ StoneView view_of(const std::string& json, const WireSolid& wire) {
     const Vec3 away = glm::normalize(glm::cross(right, Vec3(turn[3], turn[4], turn[5])));
     view.turn = glm::transpose(glm::dmat3(right, glm::cross(away, right), away));
     const bool good = view.scale > 0 && view.scale < k_far && view.nearness >= 0 &&
-                      view.nearness * wire.diameter < 1 && std::isfinite(view.turn[0][0]) &&
-                      std::isfinite(view.turn[0][1]);
-    if (!good) throw InputError("the outline is not as the page makes it: start it anew");
+                      view.nearness * wire.diameter < 1 && std::isfinite(right.x) &&
+                      std::isfinite(away.x);
+    if (!good) throw InputError(k_no_view);
     return view;
+} catch (const Json::exception&) {
+    throw InputError(k_no_view);
 }
 
 Json json_of(const WireSolid& wire) {

@@ -71,10 +71,13 @@ Setup set_up(const PhotographAsk& ask, const PhotographJob& job) {
     return {std::move(scene), std::move(wire)};
 }
 
-Photo photo_of(const PhotographAsk& ask, const PhotographJob& job) {
+bool is_of_job(const PhotographAsk& ask, const PhotographJob& job) {
     std::error_code ignored;
-    const bool masked = !job.mask.empty() && fs::equivalent(ask.file, job.photo, ignored);
-    return read_photo(ask.file, masked ? job.mask : fs::path());
+    return fs::equivalent(ask.file, job.photo, ignored);
+}
+
+Photo photo_of(const PhotographAsk& ask, const PhotographJob& job) {
+    return read_photo(ask.file, is_of_job(ask, job) ? job.mask : fs::path());
 }
 
 double focal_of(const Photo& photo) {
@@ -144,6 +147,7 @@ PhotographJob photograph_job(const fs::path& folder) {
     if (const auto compare = root.table("compare")) {
         job.photo = compare->path("photo").value_or("");
         job.mask = compare->path("mask").value_or("");
+        job.simulated = compare->boolean("simulated").value_or(false);
     }
     if (const auto render = root.table("render")) job.scene = render->path("scene").value_or("");
     return job;
@@ -260,6 +264,7 @@ std::string compared_photograph(const PhotographAsk& ask, PhotographLook look,
     const Photo photo = working(whole, part, ask, setup, laid);
     setup.scene.camera = camera_in(laid, part, setup.scene);
     SceneCompareOptions options;
+    options.compare.simulated = job.simulated && is_of_job(ask, job);
     options.find_pose = look == PhotographLook::nearby;
     if (look == PhotographLook::quick) options.budget_seconds = k_quick_seconds;
     if (look == PhotographLook::open) {

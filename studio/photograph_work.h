@@ -28,6 +28,7 @@ struct PhotographAsk {
 /// Of the folder's job.toml; empty where it names none.
 struct PhotographJob {
     std::filesystem::path photo, mask, scene;
+    bool simulated = false;
 };
 /// Throws InputError; without a job.toml all are empty.
 PhotographJob photograph_job(const std::filesystem::path& folder);

@@ -49,6 +49,8 @@ class PhotographScreen {
     on("photo-lay", () => this.lay());
     on("photo-anew", () => this.place(structuredClone(this.state.about.view), false));
     on("photo-look", () => this.ask("/api/photograph/look", {opened: this.state.opened}));
+    // In another light the stone lies where it lay.
+    by_id("photo-light").addEventListener("change", () => { this.placed = this.state.found; this.lay(); });
     on("photo-cancel", () => call("/api/photograph/cancel", {}));
     on("stage-whole", () => this.look_whole(!this.whole));
     on("stage-larger", () => this.size(0.02));
@@ -93,17 +95,19 @@ class PhotographScreen {
       onclick: () => this.ask("/api/photograph/open", {opened: state.opened, file})}, file)));
     by_id("photo-note").textContent = state.files.length ? "Or one that lies in the stone's folder:" : "It is kept in the stone's folder.";
     by_id("photo-stage").hidden = !state.file;
+    by_id("photograph").classList.toggle("chosen", state.file !== "");
     if (state.trouble && state.trouble !== "stopped") show_trouble(state.trouble);
     const key = JSON.stringify([state.opened, state.file, state.about]), fresh = key !== this.key;
-    if (!state.file) { this.key = ""; by_id("photo-report").replaceChildren(); return; }
+    if (!state.file) { this.key = ""; return this.look_at_report(); }
     if (fresh) this.load(key);
     // A person's own move is not undone by news of the same work.
-    if (fresh || !before || JSON.stringify(before.view) !== JSON.stringify(state.view)) this.place(structuredClone(state.view), false);
+    if (fresh || !before || JSON.stringify(before.view) !== JSON.stringify(state.view)) this.place(structuredClone(state.view), state.placed);
     by_id("photo-about").textContent = state.about.notes.map((note) => note[0].toUpperCase() + note.slice(1)).join(". ") + ".";
     const card = by_id("photo-card");
     // The program's own page parts, in which it escapes all texts.
     if (state.card_html) card.innerHTML = state.card_html;
     else card.replaceChildren(made("p", {}, state.phase ? "" : "Draw the outline onto the stone, about as it lies, and lay it on."));
+    if (state.card_html && !state.found) by_id("photo-by-person").open = true;
     by_id("photo-stale").hidden = !state.stale;
     by_id("photo-look").hidden = !state.card_html || (state.found && !state.can_look);
     by_id("photo-look").textContent = state.found ? "What the readings leave open" : "Compare all the same";
@@ -146,8 +150,8 @@ class PhotographScreen {
     place.innerHTML = report.html.replaceAll(/ style="background:([^"]*)"/g, ' data-background="$1"');
     for (const bar of place.querySelectorAll("[data-background]")) bar.style.background = bar.dataset.background;
     place.querySelectorAll(".slider").forEach(move_divider);
-    const word = place.querySelector(".word");
-    if (word) say(word.textContent);
+    // Beside the stone; its part of the report tells the figures.
+    by_id("photo-verdict").replaceChildren(...place.querySelectorAll(".headline > .verdict"));
   }
 
   lay() {
@@ -161,7 +165,7 @@ class PhotographScreen {
     const points = projected(this.state.wire, view), paths = wire_paths(this.state.wire, points);
     by_id("stage-outline").setAttribute("d", paths.outline);
     by_id("stage-crown").setAttribute("d", paths.crown);
-    if (!by_person) this.look_whole(this.whole);
+    if (!by_person || !this.stage.hasAttribute("viewBox")) this.look_whole(this.whole);
   }
 
   /** The whole photograph, or the stone with what is around it. */

@@ -155,6 +155,43 @@ class StudioPageTest(unittest.TestCase):
         self.assertTrue(saved and saved[0].read_text().startswith("ISO-10303-21"))
         self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 1280)
 
+    def test_the_photograph_by_the_keyboard(self):
+        """The sample's photograph matches (docs/photograph-against-render.md)."""
+        shutil.copytree(SOURCE / "samples" / "dravite-step", self.folder / "dravite")
+        self.open(self.folder / "dravite" / "stone.toml")
+        self.wait("studio.fit && studio.fit.fit && studio.fit.fit.status === 'converged'")
+        self.keys(Keys.F8)
+        self.wait("studio.photograph.state && document.querySelector('#photos button')")
+        self.browser.run("document.querySelector('#photos button').focus()")
+        self.keys(Keys.ENTER)
+        self.wait("document.querySelector('#photo-card .word') && document.querySelector('#photo-verdict .word')")
+        self.assertIn("Laid on", self.browser.run("return document.querySelector('#photo-card .word').textContent"))
+        self.browser.run("document.getElementById('photo-cancel').click()")
+        self.wait("!studio.photograph.state.phase")
+        # The page's outline is the program's: it spans what the photograph shows of the stone, and never mirrored.
+        self.assertGreater(self.browser.run("""const p = studio.photograph, t = p.view.turn, x = projected(p.state.wire, p.view).map((c) => c[0]);
+            const det = t[0] * (t[4] * t[8] - t[5] * t[7]) - t[1] * (t[3] * t[8] - t[5] * t[6]) + t[2] * (t[3] * t[7] - t[4] * t[6]);
+            return Math.min(det, (Math.max(...x) - Math.min(...x)) / p.state.about.width)"""), 0.3)
+        self.assertGreater(self.browser.run("return document.getElementById('stage-outline').getAttribute('d').length"), 50)
+        before = self.browser.run("document.getElementById('stage').focus(); return structuredClone(studio.photograph.view)")
+        self.keys(Keys.RIGHT, Keys.RIGHT, "+", "]")
+        self.keys(Keys.DOWN, held=Keys.CONTROL)
+        after = self.browser.run("return studio.photograph.view")
+        self.assertGreater(after["at"][0], before["at"][0])
+        self.assertEqual(after["at"][1], before["at"][1])
+        self.assertAlmostEqual(after["scale"] / before["scale"], 1.02, 2)
+        # Clockwise as seen, and the near side moved down.
+        self.assertGreater(after["turn"][3] * before["turn"][0] - after["turn"][0] * before["turn"][3], 0.02)
+        self.assertTrue(self.browser.run("return studio.photograph.placed"))
+        self.keys("b")
+        self.assertEqual(self.browser.run("return document.querySelector('#photo-report .blink').getAttribute('aria-pressed')"), "true")
+        self.keys("b", Keys.ENTER)
+        self.wait("!studio.photograph.placed && studio.photograph.state.found && document.querySelector('#photo-card .word')")
+        for width in (390, 1280):
+            self.browser.resize(width, 800)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+        self.browser.run("document.getElementById('photo-cancel').click()")
+
     def test_another_programs_change_is_asked_about(self):
         self.open_sample()
         theirs = self.csv().replace("C1,33.8", "C1,33.4")
