@@ -70,6 +70,9 @@ struct ShownPhotograph {
     int fit_revision = 0;  ///< of the stone that was laid on it
 };
 
+/// Thrown for a path that is none of the page's: 404.
+struct NoSuchCall {};
+
 class Answers {
 public:
     /// `input` as in StudioOptions. Throws InputError.

@@ -102,7 +102,7 @@ void Answers::forget_cuts() {
 
 void Answers::cut_job(const Call& call, const Json& body) {
     const bool grades = call.path == "/api/cut/grade";
-    if (!grades && call.path != "/api/cut/optimise") throw InputError("there is no such page");
+    if (!grades && call.path != "/api/cut/optimise") throw NoSuchCall();
     if (!cuts_.runs.empty()) throw InputError("the last one still runs: wait for it, or stop it");
     Job job{"cut", call.window, {}, {}, {}};
     if (grades) {
