@@ -54,19 +54,22 @@ void print_schema(const Json& schemas, const std::string& name) {
                                  like.empty() ? "" : ", did you mean " + listed(like) + "?"));
 }
 
-int run_help(const HelpArguments& a, CLI::App& program) {
-    if (a.word.empty()) {
-        print_lines(program.help());
-    } else if (a.word != "json") {
-        const CLI::App* command = nullptr;
-        for (const CLI::App* one : program.get_subcommands({}))
-            if (one->check_name(a.word)) command = one;
-        if (command == nullptr)
-            throw InputError(
-                fmt::format("no command \"{}\": culet --help lists them, culet help json the JSON "
-                            "files",
-                            a.word));
-        print_lines(command->help());
+std::string help_of(const CLI::App& command, const std::string& name) {
+    return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
+}
+
+std::string help_of_command(const CLI::App& program, const std::string& word) {
+    for (const CLI::App* one : program.get_subcommands({})) {
+        if (one->check_name(word)) return help_of(*one, "culet " + word);
+    }
+    throw InputError(fmt::format(
+        "no command \"{}\": culet --help lists them, culet help json the JSON files", word));
+}
+
+int run_help(const HelpArguments& a, const CLI::App& program) {
+    if (a.word != "json") {
+        write_text("-",
+                   a.word.empty() ? help_of(program, "culet") : help_of_command(program, a.word));
     } else if (const Json schemas = Json::parse(embedded::json_schemas); a.schema.empty()) {
         list_schemas(schemas);
     } else {

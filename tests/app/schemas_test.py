@@ -103,6 +103,10 @@ class SchemasTest(unittest.TestCase):
             subprocess.run([CULET, command, "--help"], check=True, capture_output=True)
             printed = subprocess.run([CULET, "help", "json", name], check=True, capture_output=True).stdout
             self.assertEqual(json.loads(printed), schema)
+        # The help of a command, either way, and of the program.
+        for words, same in ((["help", "fit"], ["fit", "--help"]), (["help"], ["--help"])):
+            self.assertEqual(subprocess.run([CULET, *words], check=True, capture_output=True).stdout,
+                             subprocess.run([CULET, *same], check=True, capture_output=True).stdout)
         # Every command with such an option is named.
         commands = re.findall(r"(?m)^  ([a-z]+) ", subprocess.run(
             [CULET, "--help"], check=True, capture_output=True, text=True).stdout.partition("Subcommands:")[2].partition("Examples:")[0])
