@@ -160,7 +160,7 @@ class StudioPageTest(unittest.TestCase):
         shutil.copytree(SOURCE / "samples" / "dravite-step", self.folder / "dravite")
         self.open(self.folder / "dravite" / "stone.toml")
         self.wait("studio.fit && studio.fit.fit && studio.fit.fit.status === 'converged'")
-        self.keys(Keys.F8)
+        self.browser.run("location.hash = '#/photograph'")
         self.wait("studio.photograph.state && document.querySelector('#photos button')")
         self.browser.run("document.querySelector('#photos button').focus()")
         self.keys(Keys.ENTER)
