@@ -128,7 +128,13 @@ PhotoPart part_around(const Photo& photo, const WireSolid& wire, const StoneView
 }
 
 Photo cut_out(const Photo& photo, const PhotoPart& part) {
-    Photo result = photo;
+    Photo result;  // what is said of the photograph, and only a part of its pixels
+    result.saturation = photo.saturation;
+    result.photometric = photo.photometric;
+    result.not_photometric = photo.not_photometric;
+    result.shot = photo.shot;
+    result.encoding = photo.encoding;
+    result.notes = photo.notes;
     result.width = part.width;
     result.height = part.height;
     const auto mean = [&](const std::vector<float>& values, int channels) {
@@ -138,7 +144,6 @@ Photo cut_out(const Photo& photo, const PhotoPart& part) {
     result.coverage = mean(photo.coverage, 1);
     result.mask = mean(photo.mask, 1);
     result.saturated = mean(photo.saturated, 1);
-    result.variance.clear();
     return result;
 }
 
