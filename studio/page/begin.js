@@ -13,14 +13,7 @@ class BeginScreen {
       this.describe(by_id("words").value.trim());
     });
     by_id("file").addEventListener("change", (event) => this.take(event.target.files[0]));
-    const drop = by_id("drop");
-    drop.addEventListener("dragover", (event) => { event.preventDefault(); drop.classList.add("over"); });
-    drop.addEventListener("dragleave", () => drop.classList.remove("over"));
-    drop.addEventListener("drop", (event) => {
-      event.preventDefault();
-      drop.classList.remove("over");
-      this.take(event.dataTransfer.files[0]);
-    });
+    take_drops(by_id("drop"), (file) => this.take(file));
   }
 
   async show() {
