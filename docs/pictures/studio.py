@@ -42,6 +42,15 @@ def main(browser, folder):
     show("stone", "document.getElementById('stone-frame').src")
     time.sleep(12)  # the stone's last refinement
     shot("stone")
+    # A photograph, simulated: as dealers photograph stones.
+    stone = pathlib.Path(folder) / "cutters-evening"
+    subprocess.run([culet, "render", stone / "stone.toml", "--light", "photograph", "--size", "900,700", "-q",
+                    "-o", stone / "simulated-photo.png"], check=False)
+    show("photograph", "document.querySelector('#photos button')")
+    browser.run("document.querySelector('#photos button').click()")
+    wait("document.querySelector('#photo-card .word') && document.querySelector('#photo-verdict .word')")
+    browser.run("document.getElementById('photo-cancel').click(); document.getElementById('photo-stage').scrollIntoView()")
+    shot("photograph")
     show("cut", "studio.cut.rows")
     browser.run("studio.cut.turn(0, 13.4, true)")
     wait("studio.cut.cut.at === 1")
