@@ -142,9 +142,14 @@ std::vector<SheetRow> sheet_rows(const CuttingSheet& sheet) {
 
 std::string about_sheet(const CuttingSheet& sheet) {
     const Design& design = sheet.design;
-    std::string text = fmt::format("{} facets; {}-fold{} symmetry; index wheel of {:g} teeth",
-                                   facet_count_words(sheet.solid), design.symmetry,
-                                   design.mirror ? ", mirror-image" : "", sheet.teeth);
+    std::string text = fmt::format("{} facets", facet_count_words(sheet.solid));
+    if (design.symmetry > 1) {
+        text += fmt::format("; {}-fold{} symmetry", design.symmetry,
+                            design.mirror ? ", mirror-image" : "");
+    } else if (design.mirror) {
+        text += "; mirror-image symmetry";
+    }
+    text += fmt::format("; index wheel of {:g} teeth", sheet.teeth);
     if (design.refractive_index)
         text += fmt::format("; refractive index {:g}", *design.refractive_index);
     text += ". Angles in degrees from the girdle's plane";

@@ -132,8 +132,9 @@ class StudioPageTest(unittest.TestCase):
 
     def test_the_bench_and_an_export_by_the_keyboard(self):
         self.open_sample()
-        for _ in range(8):
-            if self.browser.run("return location.hash") != "#/bench": self.keys(Keys.F8)
+        for screen in ("stone", "photograph", "cut", "bench"):
+            self.keys(Keys.F8)
+            self.wait(f"studio.screen === '{screen}'")
         self.wait("studio.bench.bench && studio.bench.bench.fitted")
         self.keys(" ")
         self.keys(" ")
