@@ -142,6 +142,7 @@ std::string Answers::open(const fs::path& stone_file, const std::string& window)
     files_.cancel("file");
     made_ = {made_.number};
     forget_cuts();
+    engines_.clear();
     photographs_.cancel("photograph");
     photo_ = {photo_.step + 1};
     fit_revision_ = 0;
@@ -203,7 +204,9 @@ void Answers::window_closed(const std::string& window) {
     files_.cancel_of(window);
     photographs_.cancel_of(window);
     const std::vector<std::string> others = events_.windows();
+    std::shared_ptr<ViewEngine> ended;  // outside of the lock
     const std::lock_guard lock(mutex_);
+    if (const auto engine = engines_.extract(window)) ended = engine.mapped();
     if (project_ && fit_runs_ && !others.empty()) ask_for_fit(others.front());
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
@@ -16,6 +17,7 @@
 #include "studio/job_queue.h"
 #include "studio/photograph_work.h"
 #include "studio/project.h"
+#include "studio/view_engine.h"
 
 namespace culet {
 
@@ -84,6 +86,8 @@ public:
     Answer view();
     /// The grade of the cut that is tried; likewise.
     Answer grade_page();
+    /// A picture of the stone that turns, or what else its page asks of the engine.
+    Answer engine(const Call& call);
     Events& events() { return events_; }
     /// A window begins to listen, or was closed: what it asked for is cancelled, unless another
     /// window shows it too.
@@ -142,6 +146,7 @@ private:
     std::set<std::string> marks_;  // as last told
     MadeFile made_;
     TriedCuts cuts_;
+    std::map<std::string, std::shared_ptr<ViewEngine>> engines_;  // by window
     ShownPhotograph photo_;
     int fit_revision_ = 0;
     bool fit_runs_ = false;

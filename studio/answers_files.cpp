@@ -1,5 +1,6 @@
 // The answers of the other screens: the stone that turns, the bench, and files to be saved.
 
+#include <algorithm>
 #include <cmath>
 
 #include "stone/text/errors.h"
@@ -29,6 +30,26 @@ Answer Answers::view() {
     const WorkEnd end = run_apart(work, mutex_, {});
     if (end.how == WorkEnd::How::done) return {200, "text/html; charset=utf-8", end.text};
     return {400, "text/plain; charset=utf-8", end.text + "\n"};
+}
+
+Answer Answers::engine(const Call& call) {
+    std::unique_lock lock(mutex_);
+    if (!project_) return {404, "application/json", R"({"trouble":"no stone is open"})"};
+    // Windows that listen are few, and their engine ends with them.
+    const std::vector<std::string> windows = events_.windows();
+    if (std::find(windows.begin(), windows.end(), call.window) == windows.end())
+        return {400, "application/json", R"({"trouble":"no window of this studio asks this"})"};
+    if (!engines_.contains(call.window)) {
+        engines_[call.window] = std::make_shared<ViewEngine>(
+            version_, project_->loaded()->file.mesh_file.parent_path(), mutex_);
+    }
+    const std::shared_ptr<ViewEngine> engine = engines_[call.window];
+    lock.unlock();
+    ViewEngine::Reply reply = engine->answer(call.body);
+    if (reply.how == ViewEngine::Reply::How::done)
+        return {200, "application/octet-stream", std::move(reply.text)};
+    const Json json{{"trouble", reply.text}, {"died", reply.how == ViewEngine::Reply::How::died}};
+    return {400, "application/json", text_of(json)};
 }
 
 // In a process of its own: a mesh from anybody decides how hard that is.

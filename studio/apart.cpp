@@ -39,12 +39,7 @@ void put_end(int pipe, Word word, const std::string& text) {
 }
 
 [[noreturn]] void be_the_copy(const std::function<std::string(const Progress&)>& work, int pipe) {
-    // The copy would hold the studio's connections open, and outlive it.
-    if (pipe > 3) syscall(SYS_close_range, 3, pipe - 1, 0);
-    syscall(SYS_close_range, pipe + 1, ~0U, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    std::signal(SIGINT, SIG_IGN);
-    std::signal(SIGPIPE, SIG_DFL);
+    leave_the_studio(pipe);
     const Progress progress = [pipe](double fraction) {
         const Word word = Word::progress;
         put(pipe, &word, 1);
@@ -80,6 +75,15 @@ void take_progress(std::string& read, double& fraction) {
 }
 
 }  // namespace
+
+void leave_the_studio(int kept) {
+    // The copy would hold the studio's connections open, and outlive it.
+    if (kept > 3) syscall(SYS_close_range, 3, kept - 1, 0);
+    syscall(SYS_close_range, kept + 1, ~0U, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGPIPE, SIG_DFL);
+}
 
 WorkEnd run_apart(const std::function<std::string(const Progress&)>& work, std::mutex& quiet,
                   const Progress& progress) {

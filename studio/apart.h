@@ -14,6 +14,10 @@ struct WorkEnd {
     std::string text;  ///< the result, or what is wrong in one line for people
 };
 
+/// In a copy of this process, made by fork: closes what the studio has open but for `kept`, and
+/// sees to it that the copy ends with the studio.
+void leave_the_studio(int kept);
+
 /// Runs `work` in a copy of this process, which may crash or be killed and shares no memory. What
 /// it throws, and a crash, is `failed`; `stopped` when `progress`, which hears of it at least
 /// twenty times a second, returns false. Holds `quiet` while the copy is made: no other thread may

@@ -156,7 +156,7 @@ Server::HandlerResponse Studio::Parts::let_in(const Request& request, Response& 
             break;
     }
     const auto length = request.get_header_value<std::uint64_t>("Content-Length");
-    const bool uploads = request.path.ends_with("/upload");
+    const bool uploads = request.path.ends_with("/upload") || request.path == "/api/engine";
     if (length > (uploads ? k_largest_upload : k_largest_call))
         return refused(k_too_large, "This is too large.\n");
     if (request.method == "POST" &&
@@ -193,6 +193,11 @@ void Studio::Parts::add_routes() {
                                 fmt::format("attachment; filename=\"{}\"", answer.file));
     };
     server.Get("/api/.*", answered);
+    server.Post("/api/engine", [this](const Request& request, Response& response) {
+        const Answer answer = answers.engine(call_of(request));
+        response.status = answer.status;
+        response.set_content(answer.body, answer.type);
+    });
     server.Post("/api/.*", answered);
 }
 

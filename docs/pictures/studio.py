@@ -57,8 +57,6 @@ def main(browser, folder):
     shot("cut")
     show("bench", "document.querySelector('#bench-views .facet.lit')")
     shot("bench")
-    show("export", "studio.exports.file")
-    shot("export")
 
 
 with tempfile.TemporaryDirectory(prefix="my-stones-") as folder, Browser(1180, 760) as browser:

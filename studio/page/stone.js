@@ -2,7 +2,10 @@
 
 class StoneScreen {
   /** `studio`: the page, whose fit is shown. */
-  constructor(studio) { this.studio = studio; }
+  constructor(studio) {
+    this.studio = studio;
+    serve_engine(by_id("stone-frame"));
+  }
 
   show() {
     const {fit, opened} = this.studio;

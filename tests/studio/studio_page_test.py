@@ -255,6 +255,10 @@ class StudioPageTest(unittest.TestCase):
         while not drawn() and time.time() < until: time.sleep(0.1)
         self.assertIn("Round brilliant", drawn())
         self.assertEqual(self.browser.driver.execute_script("return self.origin"), "null")
+        self.browser.wait("while (typeof culet_page === 'undefined' || !culet_page.ready()) await new Promise((r) => setTimeout(r, 50));")
+        self.browser.rest()
+        # The program is its engine; the frame has none running of its own.
+        self.assertEqual(self.browser.run("return [culet_page.engine.worker instanceof Worker, document.getElementById('trouble').hidden]"), [False, True])
         self.browser.driver.switch_to.default_content()
 
     def test_words_choose_the_sliders(self):

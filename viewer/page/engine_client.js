@@ -31,8 +31,29 @@ class EngineClient {
     return block ? block.textContent.trim() : "";
   }
 
+  // In the studio the page around this one offers the program as the engine, which is faster.
+  static offered() {
+    if (parent === window) return Promise.resolve(null);
+    const k_offer_ms = 300;
+    const {port1, port2} = new MessageChannel();
+    return new Promise((resolve) => {
+      port1.onmessage = () => resolve(port1);
+      setTimeout(() => resolve(null), k_offer_ms);
+      parent.postMessage({culet: "engine"}, "*", [port2]);
+    });
+  }
+
   async start() {
     this.stop("started again");
+    const port = await EngineClient.offered();
+    if (port) {
+      this.worker = {
+        postMessage: (message, transfer) => port.postMessage(message, transfer),
+        terminate: () => port.close(),
+      };
+      port.onmessage = (event) => this.answered(event.data);
+      return this.call("start");
+    }
     const address = URL.createObjectURL(
       new Blob([EngineClient.text_of("culet-worker")], {type: "text/javascript"}));
     const worker = this.worker = new Worker(address);

@@ -116,15 +116,10 @@ class WasmEngine {
                                      this.exports.culet_pixels_size()).slice();
     }
 
-    /// Fills in the textures of an answer to "gpu".
-    fillTextures(answer) {
-        const all = new Float32Array(this.exports.memory.buffer, this.exports.culet_texels(),
-                                     this.exports.culet_texels_size());
-        for (const texture of answer.textures ?? []) {
-            const count = 4 * texture.width * texture.height;
-            texture.values = all.slice(texture.first, texture.first + count);
-        }
-        return answer;
+    /// RGBA of all textures of the last "gpu"; valid until the next call.
+    texels() {
+        return new Float32Array(this.exports.memory.buffer, this.exports.culet_texels(),
+                                this.exports.culet_texels_size());
     }
 
     /// Linear RGB of the last "radiance".

@@ -40,7 +40,7 @@ class EngineWorker {
             const { result, transfer } = await this.result(call, args);
             this.post({ id, ok: true, ...result }, transfer);
         } catch (problem) {
-            const lost = problem instanceof WebAssembly.RuntimeError || problem instanceof RangeError;
+            const lost = problem.lost || problem instanceof WebAssembly.RuntimeError || problem instanceof RangeError;
             if (lost) this.engine = null;
             const words = lost ? `the engine stopped: ${problem.message}` : problem.message;
             this.post({ id, ok: false, error: words, died: lost }, []);
@@ -49,6 +49,8 @@ class EngineWorker {
 
     async result(call, args) {
         if (call === "start") {
+            // The studio gives its own.
+            if (this.engine !== null) return { result: {}, transfer: [] };
             const bytes = typeof args.engine === "string" ? WasmEngine.bytesOfBase64(args.engine)
                                                           : new Uint8Array(args.engine);
             this.engine = await WasmEngine.from(bytes);
@@ -58,20 +60,22 @@ class EngineWorker {
         if (call === "open") {
             const { document, ...rest } = args;
             const text = typeof document === "string" ? document : JSON.stringify(document);
-            return { result: this.engine.call(call, rest, text), transfer: [] };
+            return { result: await this.engine.call(call, rest, text), transfer: [] };
         }
         if (call === "panorama" || call === "stone") {
             const { bytes, ...rest } = args;
-            return { result: this.engine.call(call, rest, new Uint8Array(bytes)), transfer: [] };
+            return { result: await this.engine.call(call, rest, new Uint8Array(bytes)), transfer: [] };
         }
-        const result = this.engine.call(call, args);
+        const result = await this.engine.call(call, args);
         if (call === "draw") {
             result.pixels = this.engine.pixels();
             return { result, transfer: [result.pixels.buffer] };
         }
         if (call === "gpu") {
-            const { textures } = this.engine.fillTextures(result);
-            return { result, transfer: (textures ?? []).map(texture => texture.values.buffer) };
+            const textures = result.textures ?? [], all = this.engine.texels();
+            for (const texture of textures)
+                texture.values = all.slice(texture.first, texture.first + 4 * texture.width * texture.height);
+            return { result, transfer: textures.map(texture => texture.values.buffer) };
         }
         if (call === "radiance") {
             result.radiance = this.engine.radiance();
