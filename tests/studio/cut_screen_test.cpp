@@ -15,6 +15,7 @@ using Json = nlohmann::json;
 class CutScreen : public StudioOverTheNetwork {
 protected:
     void SetUp() override {
+        more_ = "material = \"quartz\"\n";  // whose light leaves it sooner than a diamond's
         StudioOverTheNetwork::SetUp();
         ASSERT_EQ(fit()["runs"], false);
         now_ = Json::parse(get("/api/cut?window=w", cookie_)->body);

@@ -31,7 +31,8 @@ protected:
               "5,0.015,\n");
         write("stone.toml",
               "[stone]\nname = \"<b>bold</b>\"\nmesh = \"start.obj\"\nup = \"T\"\n"
-              "readings = \"readings.csv\"\n");
+              "readings = \"readings.csv\"\n" +
+                  more_);
         start();
     }
     void TearDown() override { end(); }
@@ -96,6 +97,7 @@ protected:
         return heard;
     }
 
+    std::string more_;  ///< of the stone file
     std::unique_ptr<Studio> studio_;
     std::atomic<bool> running_{false};
     std::thread runs_;
