@@ -39,9 +39,12 @@ class CutScreen {
 
   draw(cut) {
     this.cut = cut;
-    const same = this.rows && this.rows.length === cut.now.tiers.length;
-    if (!same) this.build(cut);
-    cut.now.tiers.forEach((tier, i) => this.rows[i].show(tier, cut.start.tiers[i]));
+    const names = cut.now.tiers.map((tier) => `${tier.name} ${tier.part}`).join("\n");
+    if (this.names !== names) this.build(cut);
+    this.names = names;
+    // A cut may lose the stone's symmetry, which ties tiers.
+    const before = (tier) => cut.start.tiers.find((one) => one.name === tier.name && one.part === tier.part) || tier;
+    cut.now.tiers.forEach((tier, i) => this.rows[i].show(tier, before(tier)));
     this.draw_shown(cut.now);
     const history = (id, words) => {
       by_id(id).disabled = !words;
