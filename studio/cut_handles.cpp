@@ -12,16 +12,6 @@ namespace culet {
 
 namespace {
 
-std::string name_of_tied(const TierDesign& design, const std::vector<int>& tied,
-                         const Solid& solid) {
-    std::string name;
-    for (const int t : tied) {
-        name += (name.empty() ? "" : ", ") +
-                tier_words(solid, cutting_design(solid), design.tiers()[std::size_t(t)]);
-    }
-    return name;
-}
-
 CutHandle height_handle(const TierDesign& design, StonePart part, const Solid& solid) {
     CutHandle handle{
         part == StonePart::crown ? "Height of the crown" : "Depth of the pavilion", part, {}, true};
@@ -44,15 +34,17 @@ CutHandle height_handle(const TierDesign& design, StonePart part, const Solid& s
 }  // namespace
 
 std::vector<CutHandle> handles_of(const TierDesign& design, const Solid& solid) {
+    const std::vector<std::string> words = tier_words(solid, cutting_design(solid), design.tiers());
     std::vector<CutHandle> handles;
     for (const StonePart part : {StonePart::crown, StonePart::pavilion}) {
         CutHandle height = height_handle(design, part, solid);
         if (height.tiers.size() > 1) handles.push_back(std::move(height));
         for (const std::vector<int>& tied : design.tied_tiers()) {
             const FacetTier& first = design.tiers()[std::size_t(tied.front())];
-            if (first.part == part)
-                handles.push_back({name_of_tied(design, tied, solid), part, tied, false,
-                                   degrees(mean_angle(solid, first))});
+            if (first.part != part) continue;
+            std::string name;
+            for (const int t : tied) name += (name.empty() ? "" : ", ") + words[std::size_t(t)];
+            handles.push_back({name, part, tied, false, degrees(mean_angle(solid, first))});
         }
     }
     return handles;

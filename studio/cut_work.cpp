@@ -90,9 +90,10 @@ Json figures_json(const Solid& solid, const MeritOptions& options) {
     return json;
 }
 
-TriedCut tried(const CutGround& ground, Solid solid, std::string done) {
+// `design`: of `solid`.
+TriedCut tried(const CutGround& ground, const TierDesign& design, Solid solid, std::string done) {
     if (!solid.design) solid.design = std::make_shared<const Design>(drawn_design(solid));
-    const Json shown{{"tiers", tiers_json(TierDesign(solid), solid)},
+    const Json shown{{"tiers", tiers_json(design, solid)},
                      {"figures", figures_json(solid, merit_options(ground, true))},
                      {"volume", volume(solid)},
                      {"drawings", Json::parse(plain_drawings(solid))["mesh"]},
@@ -116,7 +117,8 @@ TriedCut tried_cut_in(const std::string& text) {
 
 TriedCut first_cut(const CutGround& ground) {
     const Stone stone = in_export_frame(stone_shown(*ground.loaded, ground.fitted.solid));
-    return tried(ground, TierDesign(stone.solid).start(), "the stone as it is");
+    const Solid start = TierDesign(stone.solid).start();
+    return tried(ground, TierDesign(start), start, "the stone as it is");
 }
 
 TriedCut changed_cut(const CutGround& ground, const std::string& solid_text, std::size_t which,
@@ -145,8 +147,9 @@ TriedCut changed_cut(const CutGround& ground, const std::string& solid_text, std
                         "a meet or a facet. Change another tier first, or all of the "
                         "crown or pavilion",
                         handle.name, handle.value, unit, value));
-    const CutHandle now = handles_of(TierDesign(*changed), *changed).at(which);
-    return tried(ground, *changed,
+    const TierDesign after(*changed);
+    const CutHandle now = handles_of(after, *changed).at(which);
+    return tried(ground, after, *changed,
                  fmt::format("{} at {:.2f} {}", handle.name, now.value, unit) +
                      (whole ? "" : fmt::format("; {:.2f} would lose a meet or a facet", value)));
 }
@@ -161,8 +164,9 @@ TriedCut optimised_cut(const CutGround& ground, const std::string& solid_text,
     const Optimized result = optimize_cut(solid, options, progress);
     if (!result.found)
         throw InputError("nothing better was found within 8 degrees: the angles stay as they are");
+    const Solid better = about_its_axis(result);
     TriedCut cut =
-        tried(ground, about_its_axis(result),
+        tried(ground, TierDesign(better), better,
               fmt::format("{} for {}: {:.1f} -> {:.1f} %", wishes.recut ? "cut anew" : "optimised",
                           wishes.objective, result.at_start.total, result.at_better.total));
     cut.optimized = optimized_json(result, cutting_design(solid), options, wishes.objective);

@@ -21,6 +21,7 @@
 #include "stone/text/toml_file.h"
 #include "studio/json_text.h"
 #include "studio/sample_stones.h"
+#include "viewer/engine/viewer_document.h"
 
 namespace culet {
 
@@ -223,24 +224,11 @@ void remember_project(const fs::path& stone_file) {
 
 std::string begin_json(const std::filesystem::path& folder) {
     using Json = nlohmann::ordered_json;
-    Json json{{"folder", folder.string()},      {"cuts", Json::array()},
+    Json json{{"folder", folder.string()},      {"cuts", Json::parse(cut_list_json())},
               {"materials", catalogue_names()}, {"stones", Json::array()},
               {"recent", Json::array()},        {"samples", Json::array()}};
     for (const SampleStone& sample : sample_stones())
         json["samples"].push_back({{"name", sample.name}, {"words", sample.words}});
-    for (const CutKind& kind : cut_kinds()) {
-        Json parameters = Json::array();
-        for (const CutParameter& p : kind.parameters) {
-            parameters.push_back({{"name", p.name},
-                                  {"value", p.value},
-                                  {"least", p.least},
-                                  {"most", p.most},
-                                  {"unit", p.unit},
-                                  {"what", p.what}});
-        }
-        json["cuts"].push_back(
-            {{"name", kind.name}, {"summary", kind.summary}, {"parameters", parameters}});
-    }
     for (const auto& file : stone_files_in(folder)) json["stones"].push_back(file.string());
     for (const auto& file : recent_projects()) json["recent"].push_back(file.string());
     return text_of(json);

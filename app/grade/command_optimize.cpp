@@ -62,10 +62,10 @@ void print_result(const Optimized& result, const Design& design, const OptimizeC
         "scaled as a whole)\n",
         command.objective, result.at_start.total, result.at_better.total,
         result.by_two_factors.total);
-    for (const OptimizedTier& tier : result.tiers)
-        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n",
-                            tier_words(result.start, design, tier.tier), degrees(tier.from),
-                            degrees(tier.to));
+    const std::vector<std::string> names = tier_words(result, design);
+    for (std::size_t t = 0; t < names.size(); ++t)
+        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", names[t],
+                            degrees(result.tiers[t].from), degrees(result.tiers[t].to));
     text += fmt::format("  table {:.1f} -> {:.1f} % of the width; ",
                         100 * table_share(result.start), 100 * table_share(result.better));
     text += command.recut ? fmt::format("{:.2f} % of the weight is cut away\n",

@@ -19,19 +19,30 @@ nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) 
 
 }  // namespace
 
-std::string tier_words(const Solid& solid, const Design& design, const FacetTier& tier) {
+std::vector<std::string> tier_words(const Solid& solid, const Design& design,
+                                    const std::vector<FacetTier>& tiers) {
     Solid designed = solid;
     designed.design = std::make_shared<const Design>(design);
     const std::vector<std::string> titles = tier_titles(design);
     const std::vector<DesignPlace> places = places_of(designed);
     std::vector<std::string> words;
-    for (const int f : tier.facets) {
-        const int t = places[std::size_t(f)].tier;
-        const std::string& title =
-            t < 0 ? solid.facets[std::size_t(f)].name : titles[std::size_t(t)];
-        if (std::find(words.begin(), words.end(), title) == words.end()) words.push_back(title);
+    for (const FacetTier& tier : tiers) {
+        std::vector<std::string> own;
+        for (const int f : tier.facets) {
+            const int t = places[std::size_t(f)].tier;
+            const std::string& title =
+                t < 0 ? solid.facets[std::size_t(f)].name : titles[std::size_t(t)];
+            if (std::find(own.begin(), own.end(), title) == own.end()) own.push_back(title);
+        }
+        words.push_back(fmt::format("{}", fmt::join(own, " ")));
     }
-    return fmt::format("{}", fmt::join(words, " "));
+    return words;
+}
+
+std::vector<std::string> tier_words(const Optimized& result, const Design& design) {
+    std::vector<FacetTier> tiers;
+    for (const OptimizedTier& tier : result.tiers) tiers.push_back(tier.tier);
+    return tier_words(result.start, design, tiers);
 }
 
 std::string optimized_json(const Optimized& result, const Design& design,
@@ -52,12 +63,14 @@ std::string optimized_json(const Optimized& result, const Design& design,
                                   {"better", 100 * table_share(result.better)}}},
                                 {"evaluations", result.evaluations},
                                 {"tiers", nlohmann::ordered_json::array()}};
-    for (const OptimizedTier& tier : result.tiers) {
+    const std::vector<std::string> names = tier_words(result, design);
+    for (std::size_t t = 0; t < names.size(); ++t) {
+        const OptimizedTier& tier = result.tiers[t];
         nlohmann::ordered_json facets = nlohmann::ordered_json::array();
         for (const int f : tier.tier.facets)
             facets.push_back(result.start.facets[static_cast<std::size_t>(f)].name);
         json["tiers"].push_back(
-            {{"name", tier_words(result.start, design, tier.tier)},
+            {{"name", names[t]},
              {"part", tier.tier.part == StonePart::crown ? "crown" : "pavilion"},
              {"facets", facets},
              {"from_deg", degrees(tier.from)},

@@ -9,8 +9,11 @@
 
 namespace culet {
 
-/// The titles of the design's tiers that hold the facets of `tier`: "P1", "C1 C2".
-std::string tier_words(const Solid& solid, const Design& design, const FacetTier& tier);
+/// For each tier, the titles of the design's tiers that hold its facets: "P1", "C1 C2".
+std::vector<std::string> tier_words(const Solid& solid, const Design& design,
+                                    const std::vector<FacetTier>& tiers);
+/// Of the tiers of `result`; `design` as of its start.
+std::vector<std::string> tier_words(const Optimized& result, const Design& design);
 
 /// Merits before and after, and the tiers' angles; `design` as of `result.start`. `objective`: the
 /// merit's weights as words.

@@ -62,6 +62,21 @@ protected:
                          const httplib::Headers& headers) const {
         return client().Post(path.c_str(), headers, body, "application/json");
     }
+    /// Announces two gigabytes, which must be refused before they are sent.
+    void expect_too_large(const std::string& path) const {
+        auto one = client();
+        const auto answer = one.Post(
+            path.c_str(), cookie_, std::size_t(2) << 30,
+            [](std::size_t, std::size_t, httplib::DataSink& sink) {
+                const std::string piece(1 << 16, 'x');
+                return sink.write(piece.data(), piece.size());
+            },
+            "application/octet-stream");
+        if (answer) {
+            EXPECT_EQ(answer->status, 413);
+        }
+        EXPECT_EQ(get("/api/state", cookie_)->status, 200);
+    }
     nlohmann::json table() const { return nlohmann::json::parse(get("/api/table", cookie_)->body); }
     int edit(int row, const std::string& column, const std::string& text) const {
         const nlohmann::json now = table();

@@ -166,18 +166,7 @@ TEST_F(StudioPhotograph, ReadsNothingOutsideOfTheFolder) {
 }
 
 TEST_F(StudioPhotograph, TooLargeAnUploadIsRefusedUnread) {
-    auto one = client();
-    const auto answer = one.Post(
-        "/api/photograph/upload?name=large.jpg", cookie_, std::size_t(2) << 30,
-        [](std::size_t, std::size_t, httplib::DataSink& sink) {
-            const std::string piece(1 << 16, 'x');
-            return sink.write(piece.data(), piece.size());
-        },
-        "application/octet-stream");
-    if (answer) {
-        EXPECT_EQ(answer->status, 413);
-    }
-    EXPECT_EQ(get("/api/state", cookie_)->status, 200);
+    expect_too_large("/api/photograph/upload?name=large.jpg");
     EXPECT_FALSE(files().contains("large.jpg"));
 }
 

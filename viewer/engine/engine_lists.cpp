@@ -83,6 +83,10 @@ Json cut_list() {
     return list;
 }
 
+std::string cut_list_json() {
+    return cut_list().dump();
+}
+
 Json summary_of(const ViewedStone& viewed) {
     const Solid& solid = viewed.stone.solid;
     Json facets = Json::array();

@@ -42,6 +42,9 @@ struct ViewDocument {
     std::vector<ViewItem> items;
 };
 
+/// The standard cuts, as pages have them: JSON, a list of name, summary, convex and parameters.
+std::string cut_list_json();
+
 /// Schema "culet-view-1"; numbers are exact.
 std::string document_json(const ViewDocument& document);
 
