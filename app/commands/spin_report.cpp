@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t k_most_pictures = 64;
+constexpr std::size_t k_most_drawn = 64;
 
 struct Words {
     const char *name, *words, *unit;
@@ -109,7 +109,7 @@ void write_spin_report(const fs::path& folder, const std::vector<SpinFrame>& fra
     for (const int f : found.unseen) page.seen[std::size_t(f)] = false;
     page.width = frames.front().picture.width;
     page.height = frames.front().picture.height;
-    const std::size_t every = (frames.size() + k_most_pictures - 1) / k_most_pictures;
+    const std::size_t every = (frames.size() + k_most_drawn - 1) / k_most_drawn;
     for (std::size_t f = 0; f < frames.size(); ++f) {
         const SpinFrameResult& frame = found.frames[f];
         if (!frame.turn || (f % every != 0 && !frames[f].held_out)) continue;

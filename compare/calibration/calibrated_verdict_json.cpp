@@ -8,27 +8,27 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr auto number_or_null = json_number<Json>;
+using OrderedJson = nlohmann::ordered_json;
+constexpr auto number_or_null = json_number<OrderedJson>;
 
-Json equivalent_json(const EquivalentError& error) {
+OrderedJson equivalent_json(const EquivalentError& error) {
     return {{"deg", number_or_null(error.deg)},
-            {"low_deg", error.deg ? number_or_null(error.low_deg) : Json(nullptr)},
-            {"high_deg", error.deg ? number_or_null(error.high_deg) : Json(nullptr)},
+            {"low_deg", error.deg ? number_or_null(error.low_deg) : OrderedJson(nullptr)},
+            {"high_deg", error.deg ? number_or_null(error.high_deg) : OrderedJson(nullptr)},
             {"at_least", error.at_least},
             {"at_most", error.at_most}};
 }
 
 }  // namespace
 
-Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
+OrderedJson calibrated_verdict_json(const CalibratedVerdict& verdict) {
     const Calibration& calibration = verdict.calibration;
-    Json json;
+    OrderedJson json;
     json["headline"] = verdict.headline;
     json["geometry_only"] = verdict.geometry_only;
     json["equivalent_facet_error"] = equivalent_json(verdict.equivalent);
     json["evidence"] = number_or_null(verdict.evidence);
-    json["nulls"] = Json::array();
+    json["nulls"] = OrderedJson::array();
     for (const NullStatistics& null : verdict.nulls) {
         json["nulls"].push_back({{"world", name_of(null.alternative)},
                                  {"draws", null.draws},
@@ -40,7 +40,7 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
                                  {"least_deg", number_or_null(null.least_deg)},
                                  {"median_deg", number_or_null(null.median_deg)}});
     }
-    json["hypotheses"] = Json::array();
+    json["hypotheses"] = OrderedJson::array();
     for (const HypothesisScore& h : verdict.hypotheses) {
         json["hypotheses"].push_back({{"world", name_of(h.alternative)},
                                       {"name", h.name},
@@ -58,11 +58,11 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
     return json;
 }
 
-Json sensitivity_json(const CalibratedVerdict& verdict) {
-    Json rows = Json::array();
+OrderedJson sensitivity_json(const CalibratedVerdict& verdict) {
+    OrderedJson rows = OrderedJson::array();
     if (verdict.curves.empty()) return rows;
     for (std::size_t level = 0; level < verdict.curves.front().levels.size(); ++level) {
-        Json row;
+        OrderedJson row;
         row["facet_error_deg"] =
             number_or_null(verdict.curves.front().levels[level].facet_error_deg);
         for (const SensitivityCurve& curve : verdict.curves) {

@@ -8,8 +8,8 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr auto number = json_number<Json>;
+using OrderedJson = nlohmann::ordered_json;
+constexpr auto number = json_number<OrderedJson>;
 
 constexpr int k_schema = 3;  // 1: scored against a sharp render; 2: without the facets' tilts
 constexpr std::size_t k_most_draws = 100000;
@@ -48,7 +48,7 @@ const char* name_of(Alternative alternative) {
 }
 
 std::string calibration_json(const Calibration& calibration) {
-    Json json;
+    OrderedJson json;
     json["schema"] = k_schema;
     json["kind"] = "calibration";
     json["hash"] = calibration.hash;
@@ -58,22 +58,22 @@ std::string calibration_json(const Calibration& calibration) {
     json["electrons"] = number(calibration.electrons);
     json["keys"] = calibration.keys;
     json["notes"] = calibration.notes;
-    json["draws"] = Json::array();
+    json["draws"] = OrderedJson::array();
     for (const CalibrationDraw& draw : calibration.draws) {
-        Json one = {{"world", name_of(draw.alternative)},
-                    {"name", draw.name},
-                    {"facet_error_deg", number(draw.facet_error_deg)},
-                    {"scores", Json::array()}};
+        OrderedJson one = {{"world", name_of(draw.alternative)},
+                           {"name", draw.name},
+                           {"facet_error_deg", number(draw.facet_error_deg)},
+                           {"scores", OrderedJson::array()}};
         for (const auto& score : draw.scores) one["scores"].push_back(number(score));
         json["draws"].push_back(std::move(one));
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::optional<Calibration> calibration_from(const std::string& text) {
     // Whatever is wrong with a cached file, the calibration is made anew.
     try {
-        const Json json = Json::parse(text);
+        const OrderedJson json = OrderedJson::parse(text);
         if (json.at("schema") != k_schema || json.at("kind") != "calibration") return std::nullopt;
         Calibration result;
         result.hash = json.at("hash").get<std::string>();
@@ -84,14 +84,14 @@ std::optional<Calibration> calibration_from(const std::string& text) {
         result.keys = json.at("keys").get<std::vector<std::string>>();
         result.notes = json.at("notes").get<std::vector<std::string>>();
         if (json.at("draws").size() > k_most_draws) return std::nullopt;
-        for (const Json& one : json.at("draws")) {
+        for (const OrderedJson& one : json.at("draws")) {
             CalibrationDraw draw;
             const auto alternative = alternative_named(one.at("world").get<std::string>());
             if (!alternative) return std::nullopt;
             draw.alternative = *alternative;
             draw.name = one.at("name").get<std::string>();
             draw.facet_error_deg = one.at("facet_error_deg").get<double>();
-            for (const Json& score : one.at("scores")) {
+            for (const OrderedJson& score : one.at("scores")) {
                 draw.scores.push_back(score.is_null() ? std::nullopt
                                                       : std::optional(score.get<double>()));
             }

@@ -14,8 +14,7 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr auto number = json_number<Json>;
+using OrderedJson = nlohmann::ordered_json;
 
 EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     EquivalentError result;
@@ -46,10 +45,11 @@ EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     return result;
 }
 
-Json equivalent_json(const EquivalentError& error) {
-    return {{"deg", number(error.deg)},
-            {"low_deg", error.deg ? number(error.low_deg) : Json(nullptr)},
-            {"high_deg", error.deg ? number(error.high_deg) : Json(nullptr)}};
+OrderedJson equivalent_json(const EquivalentError& error) {
+    return {
+        {"deg", json_number<OrderedJson>(error.deg)},
+        {"low_deg", error.deg ? json_number<OrderedJson>(error.low_deg) : OrderedJson(nullptr)},
+        {"high_deg", error.deg ? json_number<OrderedJson>(error.high_deg) : OrderedJson(nullptr)}};
 }
 
 }  // namespace
@@ -109,25 +109,25 @@ SeveralPhotographs together(const std::vector<PhotographRow>& rows) {
 
 std::string several_json(const SeveralPhotographs& several,
                          const std::vector<PhotographRow>& rows) {
-    Json json;
+    OrderedJson json;
     json["schema"] = 1;
     json["command"] = "compare";
     json["verdict"] = name_of(several.verdict);
     json["reason"] = several.reason;
-    json["equivalent_facet_error_deg"] = number(several.together.deg);
+    json["equivalent_facet_error_deg"] = json_number<OrderedJson>(several.together.deg);
     json["equivalent_facet_error"] = equivalent_json(several.together);
-    json["leave_one_out"] = Json::array();
+    json["leave_one_out"] = OrderedJson::array();
     for (std::size_t i = 0; i < rows.size(); ++i) {
         json["leave_one_out"].push_back(
             {{"without", rows[i].name},
              {"equivalent_facet_error", equivalent_json(several.without[i])}});
     }
-    json["largest_change_factor"] = number(several.largest_change);
-    json["photographs"] = Json::array();
+    json["largest_change_factor"] = json_number<OrderedJson>(several.largest_change);
+    json["photographs"] = OrderedJson::array();
     for (const PhotographRow& row : rows) {
-        json["photographs"].push_back(Json::parse(row.scores_json, nullptr, false));
+        json["photographs"].push_back(OrderedJson::parse(row.scores_json, nullptr, false));
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace culet

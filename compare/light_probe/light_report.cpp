@@ -19,8 +19,8 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr auto number = json_number<Json>;
+using OrderedJson = nlohmann::ordered_json;
+constexpr auto number = json_number<OrderedJson>;
 
 constexpr int k_sheet_width = 900;
 constexpr int k_caption = 34, k_scale = 44;
@@ -64,12 +64,12 @@ void draw_panel(cv::Mat& sheet, int top, const std::string& caption, const cv::M
     write(sheet, to, 608, y + 12);
 }
 
-Json list_of(const Vec3& v) {
+OrderedJson list_of(const Vec3& v) {
     return {number(v.x), number(v.y), number(v.z)};
 }
 
-Json json_of(const ProbeViewResult& view) {
-    Json rotation = Json::array();
+OrderedJson json_of(const ProbeViewResult& view) {
+    OrderedJson rotation = OrderedJson::array();
     for (int row = 0; row < 3; ++row) {
         rotation.push_back({view.world_from_camera[0][row], view.world_from_camera[1][row],
                             view.world_from_camera[2][row]});
@@ -91,15 +91,15 @@ Json json_of(const ProbeViewResult& view) {
             {"world_from_camera", rotation}};
 }
 
-Json json_of(const NearLight& light) {
-    Json json{{"status", light.usable() ? "good" : "doubtful"},
-              {"doubt", light.doubt},
-              {"from", light.from},
-              {"radiance", light.radiance},
-              {"over_exposed", number(light.over)},
-              {"distance", number(light.distance)},
-              {"distance_sigma", number(light.distance_sigma)},
-              {"residual_deg", number(degrees(light.residual))}};
+OrderedJson json_of(const NearLight& light) {
+    OrderedJson json{{"status", light.usable() ? "good" : "doubtful"},
+                     {"doubt", light.doubt},
+                     {"from", light.from},
+                     {"radiance", light.radiance},
+                     {"over_exposed", number(light.over)},
+                     {"distance", number(light.distance)},
+                     {"distance_sigma", number(light.distance_sigma)},
+                     {"residual_deg", number(degrees(light.residual))}};
     if (!light.usable()) return json;
     json["point"] = list_of(light.window.middle);
     json["normal"] = list_of(light.normal);
@@ -114,7 +114,7 @@ Json json_of(const NearLight& light) {
 }  // namespace
 
 std::string light_json(const LightProbe& probe, const ProbeOptions& options) {
-    Json json{
+    OrderedJson json{
         {"schema", 1},
         {"status", probe.usable() ? "good" : "doubtful"},
         {"doubt", probe.doubt},
@@ -127,9 +127,9 @@ std::string light_json(const LightProbe& probe, const ProbeOptions& options) {
           {"worst_percent_stops", number(probe.worst_disagreement)}}},
         {"reflectance", options.reflectance},
         {"towards_deg", {degrees(options.towards_azimuth), degrees(options.towards_elevation)}}};
-    json["views"] = Json::array();
+    json["views"] = OrderedJson::array();
     for (const ProbeViewResult& view : probe.views) json["views"].push_back(json_of(view));
-    json["alignments"] = Json::array();
+    json["alignments"] = OrderedJson::array();
     for (const ViewAlignment& a : probe.alignments) {
         json["alignments"].push_back({{"correlation", number(a.correlation)},
                                       {"next_best_correlation", number(a.rival)},
@@ -140,12 +140,12 @@ std::string light_json(const LightProbe& probe, const ProbeOptions& options) {
     }
     if (!probe.near_lights.empty()) {
         json["ball_radius"] = number(options.ball_radius);
-        json["near_lights"] = Json::array();
+        json["near_lights"] = OrderedJson::array();
         for (const NearLight& light : probe.near_lights)
             json["near_lights"].push_back(json_of(light));
     }
     json["notes"] = probe.notes;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string light_toml(const LightProbe& probe, const std::string& environment) {
@@ -153,9 +153,9 @@ std::string light_toml(const LightProbe& probe, const std::string& environment) 
         return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z);
     };
     // JSON's escapes of a path are valid in TOML.
-    std::string toml =
-        fmt::format("[light]\nenvironment = {}\n",
-                    Json(environment).dump(-1, ' ', false, Json::error_handler_t::replace));
+    std::string toml = fmt::format(
+        "[light]\nenvironment = {}\n",
+        OrderedJson(environment).dump(-1, ' ', false, OrderedJson::error_handler_t::replace));
     for (const NearLight& light : probe.near_lights) {
         if (!light.usable()) continue;
         const std::string how =

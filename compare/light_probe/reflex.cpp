@@ -11,11 +11,11 @@ namespace culet {
 
 namespace {
 
-constexpr int k_least_pixels = 9;
+constexpr int k_least_reflex_pixels = 9;
 // Share of the radius: the last 23 degrees before the blind cone are only a few pixels wide.
 constexpr double k_inside = 0.98;
-constexpr int k_blur = 10;        // pixels: light farther from its edge is another light
-constexpr double k_faint = 0.02;  // share of the step at the edge up to which blur is followed
+constexpr int k_reflex_blur = 10;  // pixels: light farther from its edge is another light
+constexpr double k_faint = 0.02;   // share of the step at the edge up to which blur is followed
 constexpr int k_rounds = 6;
 
 // The seed's 4-connected component above a level, with holes filled; empty if the seed is not above
@@ -108,7 +108,7 @@ ReflexSearch reflex_at(const Photo& picture, const BallCircle& ball, const Pixel
     inside = grown(light, on_ball, level, at);
     if (inside.empty()) return {std::nullopt, NoReflex::not_brighter};
     reflex.pixels = cv::countNonZero(inside);
-    if (reflex.pixels < k_least_pixels) return {std::nullopt, NoReflex::too_small};
+    if (reflex.pixels < k_least_reflex_pixels) return {std::nullopt, NoReflex::too_small};
     if (cv::countNonZero(dilated(inside, 1) & ~on_ball) > 0)
         return {std::nullopt, NoReflex::at_the_rim};
 
@@ -123,7 +123,7 @@ ReflexSearch reflex_at(const Photo& picture, const BallCircle& ball, const Pixel
         reflex.over = cv::mean(over, inside)[0];
     }
     const double faint = reflex.around + k_faint * (reflex.within - reflex.around);
-    cv::Mat blur = grown(light, on_ball & dilated(inside, k_blur), faint, at);
+    cv::Mat blur = grown(light, on_ball & dilated(inside, k_reflex_blur), faint, at);
     if (blur.empty()) blur = inside;
     reflex.touched = flags_of(dilated(inside | blur, 2));
     reflex.inside = flags_of(inside);

@@ -9,16 +9,16 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json vector_of(const Vec3& v) {
+OrderedJson vector_of(const Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-Json camera_json(const Camera& camera) {
-    Json json{{"position", vector_of(camera.position)},
-              {"look_at", vector_of(camera.look_at)},
-              {"up", vector_of(camera.up)}};
+OrderedJson camera_json(const Camera& camera) {
+    OrderedJson json{{"position", vector_of(camera.position)},
+                     {"look_at", vector_of(camera.look_at)},
+                     {"up", vector_of(camera.up)}};
     if (camera.orthographic_width) {
         json["orthographic_width"] = *camera.orthographic_width;
     } else {
@@ -32,7 +32,7 @@ Json camera_json(const Camera& camera) {
 }  // namespace
 
 std::string pose_json(const FoundPose& pose) {
-    Json json{{"schema", 1}};
+    OrderedJson json{{"schema", 1}};
     json["status"] = pose.usable() ? "found" : "refused";
     json["trouble"] = pose.trouble;
     json["remedy"] = pose.remedy;
@@ -65,7 +65,7 @@ std::string pose_json(const FoundPose& pose) {
                      {"log_odds", pose.evidence.log_odds}};
     json["facet_error_deg"] = degrees(pose.facet_error);
     json["facet_offset"] = pose.facet_offset;
-    json["others"] = Json::array();
+    json["others"] = OrderedJson::array();
     for (const TriedPose& other : pose.others) {
         json["others"].push_back({{"camera", camera_json(other.camera)},
                                   {"mirrored", other.mirrored},
@@ -74,7 +74,7 @@ std::string pose_json(const FoundPose& pose) {
                                   {"symmetric", other.symmetric}});
     }
     json["warnings"] = pose.warnings;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::vector<std::string> pose_words(const FoundPose& pose) {

@@ -96,8 +96,8 @@ ReflexCount counted(const ReflexMatch& match, const cv::Point& corner) {
                       match.coloured,
                       match.same_hue,
                       {}};
-    const auto add = [&](const std::vector<Reflex>& reflexes, bool of_photo) {
-        for (const Reflex& reflex : reflexes) {
+    const auto add = [&](const std::vector<MatchedReflex>& reflexes, bool of_photo) {
+        for (const MatchedReflex& reflex : reflexes) {
             count.marks.push_back({{reflex.middle.x + corner.x, reflex.middle.y + corner.y},
                                    std::sqrt(reflex.area / std::numbers::pi),
                                    of_photo,

@@ -35,7 +35,7 @@ cv::Mat smoothed_light(const cv::Mat& colour, const MatchedPictures& pictures) {
 
 // Reflexes and their pixels: `labels` holds 1 + a reflex's index, 0 elsewhere.
 struct Found {
-    std::vector<Reflex> reflexes;
+    std::vector<MatchedReflex> reflexes;
     cv::Mat labels;
 };
 
@@ -130,8 +130,8 @@ std::optional<ReflexMatch> match_reflexes(const MatchedPictures& pictures) {
         distances.push_back(apart);
         common += a[i].area + b[j].area;
     }
-    for (const Reflex& reflex : a) all += reflex.area;
-    for (const Reflex& reflex : b) all += reflex.area;
+    for (const MatchedReflex& reflex : a) all += reflex.area;
+    for (const MatchedReflex& reflex : b) all += reflex.area;
 
     match.in_photo = static_cast<int>(a.size());
     match.in_render = static_cast<int>(b.size());

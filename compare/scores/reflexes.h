@@ -9,14 +9,14 @@
 
 namespace culet {
 
-struct Reflex {
+struct MatchedReflex {
     cv::Point2d middle;
     double area = 0;   ///< pixels
     int partner = -1;  ///< index in the other picture's list; -1: none
 };
 
 struct ReflexMatch {
-    std::vector<Reflex> photo, render;
+    std::vector<MatchedReflex> photo, render;
     int in_photo = 0, in_render = 0, matched = 0;
     double f1 = 0;       ///< 2 matched / (in_photo + in_render)
     double area_f1 = 0;  ///< the same, weighted by the reflexes' areas

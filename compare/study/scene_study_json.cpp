@@ -14,10 +14,10 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-constexpr auto number = json_number<Json>;
+using OrderedJson = nlohmann::ordered_json;
+constexpr auto number = json_number<OrderedJson>;
 
-Json errors(const PictureError& error) {
+OrderedJson errors(const PictureError& error) {
     return {{"error", number(error.mean)},
             {"rmse", number(error.rmse)},
             {"psnr", number(error.psnr)},
@@ -26,8 +26,8 @@ Json errors(const PictureError& error) {
             {"flip_mean", number(error.flip)}};
 }
 
-Json effects_of(const RenderStats& stats) {
-    Json effects = Json::array();
+OrderedJson effects_of(const RenderStats& stats) {
+    OrderedJson effects = OrderedJson::array();
     for (const EffectDecision& decision : stats.effects) {
         effects.push_back({{"name", name_of(decision.effect)},
                            {"on", decision.on},
@@ -57,51 +57,53 @@ std::string names_of_effects(const RenderStats& stats) {
 }
 
 // The fields of a table row.
-Json row_of(const StudiedRender& render) {
+OrderedJson row_of(const StudiedRender& render) {
     const RenderSettings& asked = render.settled;
-    Json row = {{"id", render.id},
-                {"sweep", render.sweep},
-                {"setting", render.setting},
-                {"words", render.words},
-                {"automatic", render.automatic},
-                {"engine", render.stats.engine},
-                {"tolerance", render.automatic ? render.settings.tolerance : asked.tolerance},
-                {"depth_asked", asked.depth},
-                {"depth", render.stats.depth},
-                {"samples", asked.samples},
-                {"wavelengths", render.stats.wavelengths_nm.size()},
-                {"cut_weight", asked.cut_weight ? Json(*asked.cut_weight) : Json(nullptr)},
-                {"effects_asked", effects_asked(render.settings)},
-                {"names_of_effects", names_of_effects(render.stats)},
-                {"crystal_beams", !asked.crystal_beams                           ? "auto"
-                                  : *asked.crystal_beams == CrystalBeams::merged ? "merged"
-                                                                                 : "split"}};
+    OrderedJson row = {
+        {"id", render.id},
+        {"sweep", render.sweep},
+        {"setting", render.setting},
+        {"words", render.words},
+        {"automatic", render.automatic},
+        {"engine", render.stats.engine},
+        {"tolerance", render.automatic ? render.settings.tolerance : asked.tolerance},
+        {"depth_asked", asked.depth},
+        {"depth", render.stats.depth},
+        {"samples", asked.samples},
+        {"wavelengths", render.stats.wavelengths_nm.size()},
+        {"cut_weight", asked.cut_weight ? OrderedJson(*asked.cut_weight) : OrderedJson(nullptr)},
+        {"effects_asked", effects_asked(render.settings)},
+        {"names_of_effects", names_of_effects(render.stats)},
+        {"crystal_beams", !asked.crystal_beams                           ? "auto"
+                          : *asked.crystal_beams == CrystalBeams::merged ? "merged"
+                                                                         : "split"}};
     row.update(errors(render.error));
     row.update(
-        Json{{"claimed_error", number(render.claimed_error)},
-             {"at_noise", render.at_noise},
-             {"runs", render.runs},
-             {"cpu_seconds", render.cpu.median},
-             {"cpu_least", render.cpu.least},
-             {"cpu_most", render.cpu.most},
-             {"checked_cpu_seconds", render.automatic ? Json(render.checked_cpu) : Json(nullptr)},
-             {"wall_seconds", render.wall.median},
-             {"wall_least", render.wall.least},
-             {"wall_most", render.wall.most},
-             {"beams", render.stats.beams},
-             {"rays", render.stats.rays},
-             {"front", render.on_front}});
+        OrderedJson{{"claimed_error", number(render.claimed_error)},
+                    {"at_noise", render.at_noise},
+                    {"runs", render.runs},
+                    {"cpu_seconds", render.cpu.median},
+                    {"cpu_least", render.cpu.least},
+                    {"cpu_most", render.cpu.most},
+                    {"checked_cpu_seconds",
+                     render.automatic ? OrderedJson(render.checked_cpu) : OrderedJson(nullptr)},
+                    {"wall_seconds", render.wall.median},
+                    {"wall_least", render.wall.least},
+                    {"wall_most", render.wall.most},
+                    {"beams", render.stats.beams},
+                    {"rays", render.stats.rays},
+                    {"front", render.on_front}});
     return row;
 }
 
-Json id_or_null(const std::optional<int>& id) {
-    return id ? Json(*id) : Json(nullptr);
+OrderedJson id_or_null(const std::optional<int>& id) {
+    return id ? OrderedJson(*id) : OrderedJson(nullptr);
 }
 
 }  // namespace
 
 std::string scene_study_json(const SceneStudy& study) {
-    Json object;
+    OrderedJson object;
     object["schema"] = 1;
     object["kind"] = "scene";
     object["name"] = study.name;
@@ -123,17 +125,18 @@ std::string scene_study_json(const SceneStudy& study) {
                            {"mean_radiance", number(reference.mean_radiance)},
                            {"white", number(reference.white)},
                            {"effects", effects_of(reference.stats)}};
-    Json rows = Json::array();
+    OrderedJson rows = OrderedJson::array();
     for (const StudiedRender& render : study.renders) {
-        Json row = row_of(render);
+        OrderedJson row = row_of(render);
         row["effects"] = effects_of(render.stats);
-        row["error_bound"] = render.automatic ? number(render.stats.error_bound) : Json(nullptr);
-        if (render.stats.plan) row["plan"] = Json::parse(plan_json(*render.stats.plan));
+        row["error_bound"] =
+            render.automatic ? number(render.stats.error_bound) : OrderedJson(nullptr);
+        if (render.stats.plan) row["plan"] = OrderedJson::parse(plan_json(*render.stats.plan));
         rows.push_back(std::move(row));
     }
     object["settings"] = std::move(rows);
     object["front"] = study.front;
-    Json advice = Json::array();
+    OrderedJson advice = OrderedJson::array();
     for (const StudyAdvice& one : study.advice) {
         advice.push_back({{"tolerance", one.tolerance},
                           {"cheapest", id_or_null(one.cheapest)},
@@ -152,13 +155,13 @@ std::string scene_study_json(const SceneStudy& study) {
                          {"runs", study.options.runs},
                          {"seed", study.asked.seed}};
     // A name need not be UTF-8.
-    return object.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return object.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::string scene_study_csv(const SceneStudy& study) {
     std::string text;
     for (const StudiedRender& render : study.renders) {
-        const Json row = row_of(render);
+        const OrderedJson row = row_of(render);
         std::string head, line;
         for (const auto& [key, value] : row.items()) {
             head += (head.empty() ? "" : ",") + key;

@@ -19,7 +19,7 @@ namespace {
 // Share of the picture's 95 % quantile; darker pixels are not ground.
 constexpr double k_ground = 0.5;
 constexpr double k_least_contrast = 0.3;
-constexpr int k_least_pixels = 400;
+constexpr int k_least_outline_pixels = 400;
 // Range of the search across the outline, pixels; a lens's blur is within it.
 constexpr double k_reach = 4, k_sample = 0.25;
 // Pixels between points: a lens's blur correlates nearer ones.
@@ -70,7 +70,8 @@ cv::Mat stone_before(const cv::Mat& relative) {
             stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(largest, cv::CC_STAT_AREA))
             largest = i;
     }
-    if (largest == 0 || stats.at<int>(largest, cv::CC_STAT_AREA) < k_least_pixels) return {};
+    if (largest == 0 || stats.at<int>(largest, cv::CC_STAT_AREA) < k_least_outline_pixels)
+        return {};
     return labels == largest;
 }
 

@@ -17,7 +17,7 @@ namespace culet {
 namespace {
 
 // Of the derivative along the normal, pixels: that of a camera's own edges.
-constexpr double k_blur = 0.7;
+constexpr double k_edge_blur = 0.7;
 // Levels a pixel: dust, noise and soft shadows stay below; root mean square of R, G, B.
 constexpr float k_sharp = 5;
 constexpr double k_steep = 6.5;  // of linear light: 4 levels a pixel at a ground of level 200
@@ -41,7 +41,7 @@ cv::Mat view_of(const LevelPicture& picture) {
 cv::Mat steepness(const cv::Mat& levels) {
     cv::Mat smooth, along_x, along_y;
     levels.convertTo(smooth, CV_32FC3);
-    cv::GaussianBlur(smooth, smooth, {0, 0}, k_blur);
+    cv::GaussianBlur(smooth, smooth, {0, 0}, k_edge_blur);
     cv::Sobel(smooth, along_x, CV_32F, 1, 0, 1, 0.5);
     cv::Sobel(smooth, along_y, CV_32F, 0, 1, 1, 0.5);
     const cv::Mat squares = along_x.mul(along_x) + along_y.mul(along_y);
@@ -127,10 +127,10 @@ std::vector<double> steepness_along(const LevelPicture& picture, const Walk& out
     for (int i = 0; i < count; ++i) {
         std::array<double, 3> slope{};
         for (int k = -k_half; k <= k_half; ++k) {
-            const double t = k * k_fine / k_blur;
+            const double t = k * k_fine / k_edge_blur;
             // Derivative of a Gaussian.
             const double weight = t * std::exp(-t * t / 2) * k_fine /
-                                  (k_blur * k_blur * std::sqrt(2 * std::numbers::pi));
+                                  (k_edge_blur * k_edge_blur * std::sqrt(2 * std::numbers::pi));
             for (std::size_t c = 0; c < 3; ++c)
                 slope[c] += weight * profile[std::size_t(i + k + k_half)][c];
         }

@@ -12,7 +12,7 @@ namespace {
 
 // Pixels: distance of a side's points from its chord; reach of blur along the sides; largest
 // distance of a corner from its blurred image.
-constexpr double k_one_side = 0.5, k_blurred = 3, k_farthest = 6;
+constexpr double k_one_side = 0.5, k_blurred = 3, k_farthest_px = 6;
 constexpr double k_turn = 0.14;  // radians, 8 degrees: a flatter corner is blurred by less than 0.1
 constexpr std::size_t k_least = 4;
 
@@ -82,7 +82,7 @@ SharpOutline sharpened(const std::vector<glm::dvec2>& points) {
         const glm::dvec2 seen = corner(i);
         std::optional<glm::dvec2> found;
         if (before && after) found = crossing_of(*before, *after);
-        if (found && glm::distance(*found, seen) > k_farthest) found.reset();
+        if (found && glm::distance(*found, seen) > k_farthest_px) found.reset();
         result.corners.push_back(found.value_or(seen));
         const glm::dvec2 in = glm::normalize(seen - corner(i + sides - 1)),
                          out = glm::normalize(corner(i + 1) - seen);

@@ -27,7 +27,7 @@ bool is_left_out(const FitResult& result, const std::string& id) {
     });
 }
 
-std::string without_doubted(const FitResult& result) {
+std::string doubts_told(const FitResult& result) {
     const bool one = result.findings.doubts.size() == 1;
     std::string figures;
     for (const Change& change : result.log.changed) {
@@ -57,7 +57,7 @@ std::string verdict(const FitResult& result) {
             }
             return "The readings agree with this stone: they are " + misfit_words(statistics) + ".";
         case FitStatus::contradictory:
-            if (!result.findings.doubts.empty()) return without_doubted(result);
+            if (!result.findings.doubts.empty()) return doubts_told(result);
             return "The readings contradict each other: " +
                    (statistics.dof > 0 && statistics.chi2 > statistics.chi2_limit
                         ? "they are " + misfit_words(statistics) + "."

@@ -11,7 +11,7 @@ namespace culet {
 namespace {
 
 // How the message of an InputError for this row begins.
-std::string place_of(const WrittenReading& written) {
+std::string file_and_line(const WrittenReading& written) {
     return fmt::format("{}:{}: ", written.file.string(), written.line);
 }
 
@@ -25,13 +25,13 @@ std::vector<Reading> bind_by_row(std::vector<WrittenReading>& written, const Sto
         } catch (const InputError& error) {
             const std::string message = error.what();
             const auto row = std::find_if(written.begin(), written.end(), [&](const auto& w) {
-                return !w.skipped && w.line > 0 && message.starts_with(place_of(w));
+                return !w.skipped && w.line > 0 && message.starts_with(file_and_line(w));
             });
             if (row == written.end()) {
                 problems.push_back({0, message});
                 return {};
             }
-            problems.push_back({row->line, message.substr(place_of(*row).size())});
+            problems.push_back({row->line, message.substr(file_and_line(*row).size())});
             row->skipped = true;
             row->value.reset();
         }

@@ -18,13 +18,13 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::json;
-using Rows = std::vector<std::vector<double>>;
+using MatrixRows = std::vector<std::vector<double>>;
 using Projections = std::map<std::string, glm::dmat4x3>;  // by the frame's file
 
 // Points whose spread across is more than this part of that along are on no line.
 constexpr double k_roundest = 0.5;
 
-std::optional<glm::dmat4x3> matrix_of(const Rows& rows) {
+std::optional<glm::dmat4x3> matrix_of(const MatrixRows& rows) {
     glm::dmat4x3 matrix(0.0);
     if (rows.size() != 3) return std::nullopt;
     for (int r = 0; r < 3; ++r) {
@@ -41,7 +41,7 @@ Projections read_projections(const std::filesystem::path& file) {
         const Json spin = Json::parse(read_text(file));
         for (const Json& frame : spin.at("frames")) {
             if (!frame.contains("projection")) continue;
-            const auto matrix = matrix_of(frame["projection"].get<Rows>());
+            const auto matrix = matrix_of(frame["projection"].get<MatrixRows>());
             if (!matrix) throw InputError(file, "a `projection` is not three rows of four numbers");
             found.emplace(frame.at("file").get<std::string>(), *matrix);
         }
@@ -85,7 +85,8 @@ glm::dmat4x3 projection_of(const TomlTable& table,
 SeenLine line_of(const TomlTable& table, std::map<std::filesystem::path, Projections>& files) {
     const glm::dmat4x3 projection = projection_of(table, files);
     std::vector<glm::dvec2> points;
-    for (const auto& p : table.rows("points", 2).value_or(Rows())) points.emplace_back(p[0], p[1]);
+    for (const auto& p : table.rows("points", 2).value_or(MatrixRows()))
+        points.emplace_back(p[0], p[1]);
     try {
         SeenLine line = line_through(std::move(points), projection);
         line.series = table.text("file").value_or("");

@@ -58,9 +58,10 @@ Vec3 widest_along(const Solid& solid) {
 
 // A facet's partner is so far off (one sigma), while the axis is looked for and then; the axis so
 // far from where the stone is widest.
-constexpr double k_roughly_alike = radians(3.0), k_alike = radians(1.5), k_furthest = radians(25.0);
+constexpr double k_roughly_alike = radians(3.0), k_alike_normals = radians(1.5),
+                 k_furthest = radians(25.0);
 constexpr double k_least_share = 0.3;
-const double k_across = std::cos(radians(20.0));
+const double k_most_upright = std::cos(radians(20.0));
 
 // Part of the seen facets' area that half a turn about the axis brings onto other seen facets.
 double half_turn_share(const Solid& solid, const std::vector<double>& areas, const Vec3& axis,
@@ -69,7 +70,7 @@ double half_turn_share(const Solid& solid, const std::vector<double>& areas, con
     for (std::size_t f = 0; f < areas.size(); ++f) {
         const Vec3& n = solid.facets[f].plane.normal;
         // A facet across the axis is its own partner, and says nothing.
-        if (!(areas[f] > 0) || std::abs(glm::dot(n, axis)) > k_across) continue;
+        if (!(areas[f] > 0) || std::abs(glm::dot(n, axis)) > k_most_upright) continue;
         const Vec3 turned = 2 * glm::dot(n, axis) * axis - n;
         double nearest = std::numbers::pi;
         for (std::size_t g = 0; g < areas.size(); ++g) {
@@ -97,15 +98,16 @@ Vec3 axis_of_half_turn(const Solid& solid, const std::vector<bool>& seen, const 
         best = axis;
         return true;
     };
-    const int steps = int(k_furthest / k_alike);
+    const int steps = int(k_furthest / k_alike_normals);
     for (int i = -steps; i <= steps; ++i) {
         for (int k = -steps; k <= steps; ++k)
-            look(glm::normalize(about + std::tan(i * k_alike) * t + std::tan(k * k_alike) * u));
+            look(glm::normalize(about + std::tan(i * k_alike_normals) * t +
+                                std::tan(k * k_alike_normals) * u));
     }
     if (most == k_least_share) return about;
-    alike = k_alike;
+    alike = k_alike_normals;
     most = half_turn_share(solid, areas, best, alike);
-    climb(best, k_alike / 2, look);
+    climb(best, k_alike_normals / 2, look);
     return best;
 }
 

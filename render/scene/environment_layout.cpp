@@ -78,11 +78,11 @@ std::size_t texel_at(const EnvironmentMap& map, const MapPlace& place) {
                 static_cast<std::size_t>(x));
 }
 
-constexpr double k_infinite = std::numeric_limits<double>::infinity();
+constexpr double k_unlimited = std::numeric_limits<double>::infinity();
 
 // Of the light up to `most`.
 template <class Layout>
-Rgb energy_of(const Layout& layout, const Rgb& most = {k_infinite, k_infinite, k_infinite}) {
+Rgb energy_of(const Layout& layout, const Rgb& most = {k_unlimited, k_unlimited, k_unlimited}) {
     Rgb sum{};
     const EnvironmentMap& map = layout.map;
     for (int y = 0; y < map.height; ++y) {

@@ -9,8 +9,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
-
 // Enough to reproduce a light's colour, and for illuminants.
 std::vector<double> usual_wavelengths() {
     std::vector<double> nm;
@@ -23,7 +21,7 @@ Rgb mean_of(const EnvironmentMap& map) {
     Rgb sum{0, 0, 0};
     double weights = 0;
     for (int row = 0; row < map.height; ++row) {
-        const double weight = std::sin(k_pi * (row + 0.5) / map.height);
+        const double weight = std::sin(std::numbers::pi * (row + 0.5) / map.height);
         for (int column = 0; column < map.width; ++column) {
             const float* texel =
                 &map.rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(map.width) +
@@ -73,7 +71,8 @@ void PlainLights::add(const Light& light, const Vec3& middle) {
         share = 2 / (lobe->exponent + 2);
     } else if (const auto* cap = std::get_if<DiscLight>(&light)) {
         // Light from beyond 90 degrees does not reach a surface that faces the cap.
-        const double to = std::min(cap->to, k_pi / 2), from = std::min(cap->from, k_pi / 2);
+        const double to = std::min(cap->to, std::numbers::pi / 2),
+                     from = std::min(cap->from, std::numbers::pi / 2);
         plain.distant = true;
         plain.at = cap->direction;
         share = std::pow(std::sin(to), 2) - std::pow(std::sin(from), 2);
@@ -85,7 +84,7 @@ void PlainLights::add(const Light& light, const Vec3& middle) {
         const double area = 4 * glm::length(glm::cross(*plane->u, *plane->v));
         if (!(plain.middle_distance > 0)) return;
         // `incoming` adds the cosine at the light.
-        share = area / (k_pi * plain.middle_distance * plain.middle_distance);
+        share = area / (std::numbers::pi * plain.middle_distance * plain.middle_distance);
     } else {
         // A hemisphere.
         ambient_ += 0.5 * radiance;

@@ -1,12 +1,11 @@
 #pragma once
 // Girdle outlines seen from above, with the places of the mains and of the breaks between them.
 
-#include <glm/vec2.hpp>
 #include <vector>
 
-namespace culet {
+#include "stone/solid/solid.h"
 
-using Vec2 = glm::dvec2;
+namespace culet {
 
 /// Points in counter-clockwise order: mains[0] (azimuth 0), breaks[0], mains[1], breaks[1], ...
 /// `tangents[i]` is the girdle's direction at main i.

@@ -11,17 +11,15 @@ namespace culet {
 
 namespace {
 
-using Vec2d = glm::dvec2;
-
 constexpr double k_round = 1.05;
 
-double cross(const Vec2d& a, const Vec2d& b) {
+double cross(const Vec2& a, const Vec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
 // Andrew's monotone chain (1979), counter-clockwise; drops corners within rounding of an edge.
-std::vector<int> hull_of(const std::vector<Vec2d>& points, double size) {
-    const auto at = [&](int p) -> const Vec2d& { return points[std::size_t(p)]; };
+std::vector<int> hull_of(const std::vector<Vec2>& points, double size) {
+    const auto at = [&](int p) -> const Vec2& { return points[std::size_t(p)]; };
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -44,7 +42,7 @@ std::vector<int> hull_of(const std::vector<Vec2d>& points, double size) {
     return hull;
 }
 
-double half_turn(const Vec2d& direction) {
+double half_turn(const Vec2& direction) {
     const double angle =
         std::fmod(std::atan2(direction.y, direction.x) + 2 * std::numbers::pi, std::numbers::pi);
     // Just below a half turn counts as 0.
@@ -67,18 +65,18 @@ PlanFrame plan_frame(const Vec3& up) {
 CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
     CaliperWidths widths;
     const PlanFrame frame = plan_frame(up);
-    std::vector<Vec2d> points;
+    std::vector<Vec2> points;
     for (const Vec3& v : solid.vertices) {
         points.push_back({glm::dot(frame.x, v), glm::dot(frame.y, v)});
     }
     if (points.size() < 3) return widths;
     widths.outline = hull_of(points, diameter(solid));
     if (widths.outline.size() < 3) return {};
-    std::vector<Vec2d> hull;
+    std::vector<Vec2> hull;
     for (const int p : widths.outline) hull.push_back(points[std::size_t(p)]);
-    const auto extent = [&](const Vec2d& direction) {
+    const auto extent = [&](const Vec2& direction) {
         double low = INFINITY, high = -INFINITY;
-        for (const Vec2d& p : hull) {
+        for (const Vec2& p : hull) {
             low = std::min(low, glm::dot(direction, p));
             high = std::max(high, glm::dot(direction, p));
         }
@@ -86,10 +84,10 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
     };
     widths.least = INFINITY;
     for (std::size_t i = 0; i < hull.size(); ++i) {
-        const Vec2d edge = hull[(i + 1) % hull.size()] - hull[i];
+        const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
         const double length = glm::length(edge);
         widths.mean += length / std::numbers::pi;
-        const Vec2d across{-edge.y / length, edge.x / length};
+        const Vec2 across{-edge.y / length, edge.x / length};
         // Of equal widths (to rounding) take the first, so that the last digit does not decide.
         if (const double width = extent(across); width < widths.least * (1 - 1e-12)) {
             widths.least = width;
@@ -98,7 +96,7 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
             widths.length = extent(edge / length);
         }
         for (std::size_t j = i + 1; j < hull.size(); ++j) {
-            const Vec2d between = hull[j] - hull[i];
+            const Vec2 between = hull[j] - hull[i];
             if (const double width = glm::length(between); width > widths.largest * (1 + 1e-12)) {
                 widths.largest = width;
                 widths.largest_between = {i, j};

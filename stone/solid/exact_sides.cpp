@@ -25,13 +25,13 @@ Kernel::Point_3 point(const Vec3& p) {
     return {p.x, p.y, p.z};
 }
 Kernel::Point_2 point(const Vec2& p) {
-    return {p[0], p[1]};
+    return {p.x, p.y};
 }
 
 // For p on the line through a and b.
 bool lies_between(const Vec2& a, const Vec2& b, const Vec2& p) {
-    return p[0] >= std::min(a[0], b[0]) && p[0] <= std::max(a[0], b[0]) &&
-           p[1] >= std::min(a[1], b[1]) && p[1] <= std::max(a[1], b[1]);
+    return p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) && p.y >= std::min(a.y, b.y) &&
+           p.y <= std::max(a.y, b.y);
 }
 
 }  // namespace

@@ -51,12 +51,11 @@ bool is_convex_outline(const std::vector<Vec2>& outline, double allowance) {
     double turned = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec2 &a = outline[i], &b = outline[(i + 1) % n], &c = outline[(i + 2) % n];
-        const double abx = b[0] - a[0], aby = b[1] - a[1];
-        const double bcx = c[0] - b[0], bcy = c[1] - b[1];
-        turned += std::atan2(abx * bcy - aby * bcx, abx * bcx + aby * bcy);
+        const Vec2 ab = b - a, bc = c - b;
+        turned += std::atan2(ab.x * bc.y - ab.y * bc.x, ab.x * bc.x + ab.y * bc.y);
         if (turn(a, b, c) >= 0) continue;
-        const double acx = c[0] - a[0], acy = c[1] - a[1];
-        const double dent = std::abs(acx * aby - acy * abx) / std::hypot(acx, acy);
+        const Vec2 ac = c - a;
+        const double dent = std::abs(ac.x * ab.y - ac.y * ab.x) / std::hypot(ac.x, ac.y);
         if (!(dent <= allowance)) return false;
     }
     // The sum is a whole number of full turns, so rounding cannot mislead.
@@ -67,8 +66,8 @@ bool crosses_itself(const std::vector<Vec2>& outline) {
     const std::size_t n = outline.size();
     if (n < 4 || is_convex_outline(outline, 0)) return false;
     const auto end = [&](std::size_t i) -> const Vec2& { return outline[(i + 1) % n]; };
-    const auto left = [&](std::size_t i) { return std::min(outline[i][0], end(i)[0]); };
-    const auto right = [&](std::size_t i) { return std::max(outline[i][0], end(i)[0]); };
+    const auto left = [&](std::size_t i) { return std::min(outline[i].x, end(i).x); };
+    const auto right = [&](std::size_t i) { return std::max(outline[i].x, end(i).x); };
     // Sorted by their left ends; only edges that overlap in x are compared.
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -83,9 +82,9 @@ bool crosses_itself(const std::vector<Vec2>& outline) {
                 const Vec2& shared = outline[follows ? j : 0];
                 const Vec2& before = outline[follows ? i : j];
                 const Vec2& after = follows ? end(j) : end(i);
-                const double along = (shared[0] - before[0]) * (after[0] - shared[0]) +
-                                     (shared[1] - before[1]) * (after[1] - shared[1]);
-                if (turn(before, shared, after) == 0 && along < 0) return true;
+                if (turn(before, shared, after) == 0 &&
+                    glm::dot(shared - before, after - shared) < 0)
+                    return true;
             } else if (segments_touch(outline[i], end(i), outline[j], end(j))) {
                 return true;
             }

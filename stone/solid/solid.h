@@ -3,6 +3,7 @@
 // Frame: right-handed, z up through the table, x to azimuth 0.
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -12,6 +13,7 @@
 
 namespace culet {
 
+using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
 
 struct Design;  // design.h

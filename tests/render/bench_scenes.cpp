@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-Solid round_brilliant() {
+Solid class_angles_brilliant() {
     return read_solid(CULET_SOURCE_DIR "/tests/stone/designs/srb_class_angles.asc").solid;
 }
 
@@ -47,7 +47,7 @@ Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion
 }
 
 std::vector<BenchStone> bench_stones() {
-    const Solid brilliant = round_brilliant();
+    const Solid brilliant = class_angles_brilliant();
     const std::vector<Ring> few{{8, 65},   {16, 45},  {16, 28},  {16, 0},
                                 {16, -40}, {16, -45}, {16, -52}, {16, -62}};
     const std::vector<Ring> many{{15, 70},  {24, 52},  {24, 40},  {24, 28},  {24, 0},
@@ -116,7 +116,7 @@ Lights near_lights(double diameter) {
 
 Scene base_scene(int pixels) {
     Scene scene;
-    scene.stone.solid = round_brilliant();
+    scene.stone.solid = class_angles_brilliant();
     scene.stone.material = catalogue_material("diamond");
     scene.camera = bench_camera(scene.stone.solid, 6, bench_view(), pixels);
     scene.lights = smooth_lights();

@@ -13,20 +13,20 @@
 namespace culet {
 namespace {
 
-constexpr int k_size = 64;
+constexpr int k_side = 64;
 constexpr double k_blur = 1.5;
 
 cv::Mat blurred_noise(Chance& chance) {
-    cv::Mat noise(k_size, k_size, CV_32F), blurred;
+    cv::Mat noise(k_side, k_side, CV_32F), blurred;
     for (float& v : cv::Mat_<float>(noise)) v = float(chance.normal());
     cv::GaussianBlur(noise, blurred, cv::Size(), k_blur);
     return blurred;
 }
 
 Eigen::VectorXd values(const cv::Mat& picture) {
-    Eigen::VectorXd all(k_size * k_size);
-    for (int i = 0; i < k_size * k_size; ++i) {
-        all[i] = double(picture.at<float>(i / k_size, i % k_size));
+    Eigen::VectorXd all(k_side * k_side);
+    for (int i = 0; i < k_side * k_side; ++i) {
+        all[i] = double(picture.at<float>(i / k_side, i % k_side));
     }
     return all;
 }
@@ -34,14 +34,14 @@ Eigen::VectorXd values(const cv::Mat& picture) {
 // Eight moves and two nuisances with patterns as smooth as the noise.
 PictureEquations equations(Chance& chance) {
     PictureEquations e;
-    e.mask = cv::Mat(k_size, k_size, CV_8U, cv::Scalar(255));
-    e.changes.resize(k_size * k_size, 8);
+    e.mask = cv::Mat(k_side, k_side, CV_8U, cv::Scalar(255));
+    e.changes.resize(k_side * k_side, 8);
     for (int k = 0; k < 8; ++k) e.changes.col(k) = values(blurred_noise(chance));
-    e.nuisances.resize(k_size * k_size, 2);
+    e.nuisances.resize(k_side * k_side, 2);
     e.nuisances.col(0).setOnes();
     e.nuisances.col(1) = values(blurred_noise(chance));
-    e.noise = Eigen::VectorXd::Constant(k_size * k_size, 0.01);
-    e.nonlinearity = Eigen::VectorXd::Zero(k_size * k_size);
+    e.noise = Eigen::VectorXd::Constant(k_side * k_side, 0.01);
+    e.nonlinearity = Eigen::VectorXd::Zero(k_side * k_side);
     e.spread = Eigen::VectorXd::Constant(8, 1.0);
     e.blur = k_blur;
     return e;
@@ -94,7 +94,7 @@ TEST(PictureEquations, AreBlindToNuisances) {
 TEST(PictureEquations, OfEqualPicturesAreFinite) {
     Chance chance(11);
     PictureEquations e = equations(chance);
-    e.difference = Eigen::VectorXd::Zero(k_size * k_size);
+    e.difference = Eigen::VectorXd::Zero(k_side * k_side);
     const DeterminedMoves determined = solved_moves(e);
     EXPECT_TRUE(determined.rows.allFinite());
     EXPECT_LT(solved(determined).norm(), 1e-12);
@@ -116,7 +116,7 @@ TEST(PictureEquations, TellNothingOfWhatDoesNotShow) {
 TEST(PictureMisfit, FindsAFlashAndNoneInNoise) {
     Chance chance(9);
     cv::Mat difference = 0.02 * blurred_noise(chance);
-    const cv::Mat mask(k_size, k_size, CV_8U, cv::Scalar(255));
+    const cv::Mat mask(k_side, k_side, CV_8U, cv::Scalar(255));
     EXPECT_TRUE(picture_misfit(difference, mask).contradictions.empty());
     cv::circle(difference, {40, 12}, 3, cv::Scalar(-0.5), cv::FILLED);
     const auto found = picture_misfit(difference, mask).contradictions;

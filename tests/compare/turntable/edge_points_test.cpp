@@ -9,15 +9,15 @@
 namespace culet {
 namespace {
 
-constexpr int k_size = 120;
+constexpr int k_columns = 120;
 
 // Levels by place, from the picture's middle, x to the right, y up.
 template <class Level>
 LevelPicture picture_of(const Level& level) {
-    LevelPicture picture{k_size, k_size, {}};
-    for (int y = 0; y < k_size; ++y) {
-        for (int x = 0; x < k_size; ++x) {
-            const double value = level(x - (k_size - 1) / 2.0, (k_size - 1) / 2.0 - y);
+    LevelPicture picture{k_columns, k_columns, {}};
+    for (int y = 0; y < k_columns; ++y) {
+        for (int x = 0; x < k_columns; ++x) {
+            const double value = level(x - (k_columns - 1) / 2.0, (k_columns - 1) / 2.0 - y);
             picture.rgb.insert(picture.rgb.end(), 3, std::uint8_t(std::lround(value)));
         }
     }

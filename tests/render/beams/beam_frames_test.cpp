@@ -53,7 +53,7 @@ TEST(Frames, WithOtherLightsAreThoseOfAFreshRenderer) {
         scene.settings.samples = 16;
         FrameRenderer frames(scene);
         const Picture first = frames.draw().picture;
-        for (const auto& lights : {edged_lights(), smooth_lights()}) {
+        for (const auto& lights : {edged_lights(), edgeless_lights()}) {
             for (const NamedChange& light : lights) {
                 SCOPED_TRACE(light.name);
                 Scene changed = scene;
@@ -206,7 +206,7 @@ TEST(ErrorBounds, HoldAtSmallTolerances) {
         for (const std::string engine : {"beams", "preview"}) {
             Scene scene = brilliant_scene();
             scene.camera.width = scene.camera.height = 64;
-            smooth_lights()[1].make(scene);
+            edgeless_lights()[1].make(scene);
             scene.settings.tolerance = tolerance;
             scene.settings.depth = 16;
             expect_bound_holds(scene, engine, 16);
@@ -219,7 +219,7 @@ TEST(ErrorBounds, HoldThroughALens) {
         SCOPED_TRACE(aperture);
         Scene scene = brilliant_scene();
         scene.camera.width = scene.camera.height = 64;
-        smooth_lights()[1].make(scene);
+        edgeless_lights()[1].make(scene);
         scene.camera.aperture_radius = aperture;
         scene.camera.focus_distance = 10;
         expect_bound_holds(scene, "beams", 64);
@@ -235,7 +235,7 @@ TEST(Averages, AreWithin50DBOf256SamplesInSmoothLight) {
         Scene scene = plain_scene(i == 0 ? round_brilliant() : random_stone(random, 10 * i));
         scene.camera.width = scene.camera.height = 200;
         look(scene, {0.21, 0.34, 1}, i == 0 ? 12 : 15, i == 0 ? 1.05 : 1.5);
-        smooth_lights()[1].make(scene);
+        edgeless_lights()[1].make(scene);
         scene.lights.sources.pop_back();
         const RenderResult beams = with_engine(scene, "beams", 16),
                            exact = with_engine(scene, "reference", 256);

@@ -24,7 +24,7 @@ Scene hard_scene() {
 // surrounding medium.
 TEST(HardCases, RetracedRaysOfAnImmersedStoneAreTheReferences) {
     Scene scene = hard_scene();
-    smooth_lights()[1].make(scene);
+    edgeless_lights()[1].make(scene);
     scene.immersion = 1.33;
     scene.stone.material.index[0].n = 1.76;
     const RenderResult beams = with_engine(scene, "beams", 1),
@@ -56,7 +56,7 @@ TEST(HardCases, MapsOfFrontFacetsLoseAndDoubleNoArea) {
 // Parallel rays stay parallel: all kinds of map are equal and exact.
 TEST(HardCases, AllRefractionsDrawTheSameOrthographicPicture) {
     Scene scene = hard_scene();
-    smooth_lights()[1].make(scene);
+    edgeless_lights()[1].make(scene);
     scene.camera.orthographic_width = 2.2;
     const RenderResult exact = with_engine(scene, "beams", 16);
     for (const Refraction kind : {Refraction::perspective, Refraction::parallel}) {
@@ -205,7 +205,7 @@ TEST(HardCases, TheToleranceIsKeptInSmallPictures) {
 // A camera is more than a place: a lens needs a new plan.
 TEST(HardCases, AFrameThroughALensIsThatOfAFreshRenderer) {
     Scene scene = hard_scene();
-    smooth_lights()[1].make(scene);
+    edgeless_lights()[1].make(scene);
     scene.settings.samples = 16;
     FrameRenderer frames(scene);
     frames.draw();
@@ -218,7 +218,7 @@ TEST(HardCases, AFrameThroughALensIsThatOfAFreshRenderer) {
 // From far away another cut keeps the tolerance than from close by.
 TEST(HardCases, AFrameFromElsewhereHasTheLimitsOfAFreshRenderer) {
     Scene scene = hard_scene();
-    smooth_lights()[1].make(scene);
+    edgeless_lights()[1].make(scene);
     scene.settings.samples = 16;
     scene.settings.tolerance = 0.1;
     scene.settings.depth = 0;

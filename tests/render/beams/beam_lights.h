@@ -31,7 +31,7 @@ inline std::shared_ptr<const EnvironmentMap> smooth_environment(int width = 64) 
     return map;
 }
 
-inline std::vector<NamedChange> smooth_lights() {
+inline std::vector<NamedChange> edgeless_lights() {
     const auto dark = [](Scene& s) { s.lights = {}; };
     return {
         {"constant", [](Scene& s) { s.lights.constant = 1; }},

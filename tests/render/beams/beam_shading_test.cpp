@@ -49,7 +49,7 @@ Scene random_scene(std::mt19937_64& random, int planes) {
 
 TEST(SingleRays, AreTheReferencesInEveryLight) {
     std::mt19937_64 random(20280);
-    for (const auto& lights : {smooth_lights(), edged_lights()}) {
+    for (const auto& lights : {edgeless_lights(), edged_lights()}) {
         for (const NamedChange& light : lights) {
             SCOPED_TRACE("seed 20280, " + light.name);
             for (Scene scene : {shaded_scene(), random_scene(random, 16)}) {
@@ -65,7 +65,7 @@ TEST(SingleRays, AreTheReferencesThroughAllOptics) {
     for (const NamedChange& change : optics()) {
         SCOPED_TRACE("seed 20281, " + change.name);
         for (Scene scene : {shaded_scene(), random_scene(random, 16)}) {
-            smooth_lights()[1].make(scene);
+            edgeless_lights()[1].make(scene);
             scene.lights.constant = 0.3;
             nth_light<CosinePowerLight>(scene.lights, 0).radiance.value = Rgb{1.0, 2.0, 3.0};
             change.make(scene);
@@ -98,7 +98,7 @@ TEST(SingleRays, AreTheReferencesAtEveryDepth) {
     for (const int depth : {1, 2, 3, 12, 24}) {
         SCOPED_TRACE(depth);
         Scene scene = shaded_scene();
-        smooth_lights()[1].make(scene);
+        edgeless_lights()[1].make(scene);
         scene.settings.depth = depth;
         // Every facet met adds borders between paths, and rounding error.
         expect_as_reference(scene, 1e-3 * std::max(1, depth / 6));
@@ -111,7 +111,7 @@ TEST(SingleRays, AreTheReferencesFrom101DiametersAndNearer) {
         for (const double distance : {1.01 * 2, 1.2}) {
             SCOPED_TRACE(std::to_string(distance) + " from z " + std::to_string(from.z));
             Scene scene = plain_scene(solid);
-            smooth_lights()[1].make(scene);
+            edgeless_lights()[1].make(scene);
             look(scene, from, distance);
             expect_as_reference(scene);
         }
@@ -123,7 +123,7 @@ TEST(SingleRays, AreTheReferencesOfStonesWithSlivers) {
     for (int i = 0; i < 8; ++i) {
         SCOPED_TRACE("seed 20282, stone " + std::to_string(i));
         Scene scene = plain_scene(stone_with_slivers(random, 3 + 5 * i));
-        smooth_lights()[1].make(scene);
+        edgeless_lights()[1].make(scene);
         look(scene, random_direction(random), 9, 1.5);
         expect_as_reference(scene);
     }
@@ -131,7 +131,7 @@ TEST(SingleRays, AreTheReferencesOfStonesWithSlivers) {
 
 TEST(SingleRays, AreTheReferencesWhereOnlyAPartIsSeen) {
     Scene scene = shaded_scene();
-    smooth_lights()[1].make(scene);
+    edgeless_lights()[1].make(scene);
     scene.camera.look_at = {0.4, 0.3, 0};
     scene.camera.fov = 0.06;
     expect_as_reference(scene);
@@ -193,7 +193,7 @@ protected:
 TEST_F(Targets, OfEveryInstructionSetDrawTheSamePicture) {
     std::vector<NamedChange> lights = edged_lights();
     const std::size_t edged = lights.size();
-    lights.push_back(smooth_lights()[2]);
+    lights.push_back(edgeless_lights()[2]);
     lights.push_back({"environment", [](Scene& s) {
                           s.lights = {};
                           s.lights.environment = smooth_environment();

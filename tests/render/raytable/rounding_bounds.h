@@ -21,7 +21,7 @@ inline Scene lit(Scene scene, const Lights& lights) {
     return scene;
 }
 
-// The slope of smooth_lights' radiance with direction. The lobe L cos^e has a slope of at most L
+// The slope of edgeless_lights' radiance with direction. The lobe L cos^e has a slope of at most L
 // sqrt(e) exp(-1/2), and an exponent multiplies the rounding error of a cosine by e.
 inline double slope_of_lobes() {
     return std::exp(-0.5) * (4.7 * std::sqrt(16) + 2 * std::sqrt(8) + std::sqrt(4));
