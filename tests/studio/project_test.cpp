@@ -89,7 +89,7 @@ TEST_F(EditedFiles, NeverOverwriteAnothersChange) {
 
 using Windows = test::FolderTest;
 
-// Issue 65: closing the window cancels what it asked for.
+// Closing the window cancels what it asked for.
 TEST_F(Windows, CancelTheirFitWhenTheyAreClosed) {
     fs::copy(fs::path(CULET_SOURCE_DIR) / "samples" / "cutters-evening", folder_ / "evening");
     setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);

@@ -90,7 +90,7 @@ class StudioPageTest(unittest.TestCase):
         self.assertIn("inclination,C5,38.3,", self.csv())
 
     def test_a_typo_is_marked_before_the_next_row_is_typed(self):
-        """Issue 65: the flag within 0.2 s; here within a second, since other tests run beside it."""
+        """The flag is asked within 0.2 s; here within a second, since other tests run beside it."""
         self.open_sample()
         self.keys("333,8", Keys.ENTER)
         self.assertEqual(self.here(), "value, row 2, inclination C2")

@@ -175,7 +175,7 @@ TEST_F(StudioOverTheNetwork, SavesAndFlagsAndFits) {
     const Json flag = table()["rows"][3]["flag"];
     EXPECT_EQ(flag["suggested"], "33.8");
     EXPECT_NE(flag["what"].get<std::string>().find("from"), std::string::npos);
-    // Issue 65: within 0.2 s. Ten times that here: tests run beside others, under sanitizers.
+    // Asked: within 0.2 s. Ten times that here: tests run beside others, under sanitizers.
     EXPECT_LT(taken.count(), 2);
     EXPECT_EQ(table()["rows"][0]["facets"], Json({"C1"}));
     const Json done = fit();

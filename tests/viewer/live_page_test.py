@@ -56,7 +56,9 @@ class LivePageTest(PageActions, unittest.TestCase):
         for step in steps:
             self.assertEqual(step[0], "culet")
             culet(*step[1:], cwd=self.folder, good=(0,))
-        png = base64.b64encode((self.folder / "picture.png").read_bytes()).decode()
+        return self.differing_from(base64.b64encode((self.folder / "picture.png").read_bytes()).decode())
+
+    def differing_from(self, png):
         return self.browser.wait(f"""
             const image = new Image(); image.src = "data:image/png;base64,{png}"; await image.decode();
             const c = document.getElementById('picture'), copy = document.createElement('canvas');
@@ -72,7 +74,7 @@ class LivePageTest(PageActions, unittest.TestCase):
             return [off / (a.length / 4), worst, lit / (a.length / 4)];""")
 
     def test_pixels_are_those_of_the_command_line(self):
-        """Issue 40: 99.9 % of the pixels within 1 of 255; 99.95 here, because two thirds of a small picture are ground."""
+        """99.9 % of the pixels are asked to be within 1 of 255; 99.95 here, because two thirds of a small picture are ground."""
         changes = {
             "face up": "",
             "tilted, lights stay with the viewer": "culet_page.motion.turn_to(Turn.after(Turn.about([1, 0.4, 0.1], 0.5), culet_page.home()))",
@@ -167,11 +169,16 @@ class LivePageTest(PageActions, unittest.TestCase):
         self.open_page("fitted.html")
         self.browser.run("culet_page.state.set({light: 'daylight', material: 'sapphire_blue', axis: [40, 10], zoom: 1.4, lights_with: 'stone'})")
         self.drag(60, 30)
-        before = self.seen()
+        self.browser.rest()
+        before = self.browser.run("return document.getElementById('picture').toDataURL('image/png')").split(",")[1]
         link = self.browser.run("return culet_page.panels.save.link()")
         self.browser.driver.get("about:blank")
         self.browser.driver.get(link)
-        self.assertEqual(before[0], self.seen()[0])
+        self.browser.rest()
+        # A link has seven digits: the stone is turned by up to 1e-7, some pixels round the other way.
+        off, worst, lit = self.differing_from(before)
+        self.assertGreater(lit, 0.02)
+        self.assertLessEqual(off, 0.0005)
 
     def test_a_folder_is_a_gallery(self):
         folder = self.folder / "designs"

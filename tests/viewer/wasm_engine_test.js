@@ -3,7 +3,7 @@
 // The pages' engine, in WebAssembly, against the program's own: the same calls, the same pictures.
 // Expectation: the program's engine, whose bytes viewer_engine_test.cpp holds against `culet render`.
 // Vectors of other widths add up in another order and exponentials differ in their last digits, so
-// that a byte may round the other way: 99.9 % of pixels within 1 of 255 (issue 40).
+// that a byte may round the other way: 99.9 % of pixels are asked to be within 1 of 255.
 // usage: node wasm_engine_test.js viewer_engine_answers viewer-engine.wasm.gz
 
 const { execFileSync } = require("node:child_process");
