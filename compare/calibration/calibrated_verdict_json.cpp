@@ -11,6 +11,8 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 constexpr auto number_or_null = json_number<OrderedJson>;
 
+}  // namespace
+
 OrderedJson equivalent_json(const EquivalentError& error) {
     return {{"deg", number_or_null(error.deg)},
             {"low_deg", error.deg ? number_or_null(error.low_deg) : OrderedJson(nullptr)},
@@ -18,8 +20,6 @@ OrderedJson equivalent_json(const EquivalentError& error) {
             {"at_least", error.at_least},
             {"at_most", error.at_most}};
 }
-
-}  // namespace
 
 OrderedJson calibrated_verdict_json(const CalibratedVerdict& verdict) {
     const Calibration& calibration = verdict.calibration;

@@ -7,6 +7,8 @@
 
 namespace culet {
 
+/// "equivalent_facet_error"; degrees.
+nlohmann::ordered_json equivalent_json(const EquivalentError& error);
 /// "meaning": headline, equivalent facet error, nulls, hypotheses.
 nlohmann::ordered_json calibrated_verdict_json(const CalibratedVerdict& verdict);
 /// "sensitivity": for each facet error, the mean, spread and fitted curve of every score.

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "compare/calibration/calibrated_verdict_json.h"
 #include "page/html.h"
 #include "page/json_fields.h"
 
@@ -43,13 +44,6 @@ EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     result.low_deg = std::exp(mean - spread);
     result.high_deg = std::exp(mean + spread);
     return result;
-}
-
-OrderedJson equivalent_json(const EquivalentError& error) {
-    return {
-        {"deg", json_number<OrderedJson>(error.deg)},
-        {"low_deg", error.deg ? json_number<OrderedJson>(error.low_deg) : OrderedJson(nullptr)},
-        {"high_deg", error.deg ? json_number<OrderedJson>(error.high_deg) : OrderedJson(nullptr)}};
 }
 
 }  // namespace

@@ -15,15 +15,15 @@ namespace culet {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-constexpr auto number = json_number<OrderedJson>;
+constexpr auto study_number = json_number<OrderedJson>;
 
 OrderedJson errors(const PictureError& error) {
-    return {{"error", number(error.mean)},
-            {"rmse", number(error.rmse)},
-            {"psnr", number(error.psnr)},
-            {"deltaE00_mean", number(error.delta_e_mean)},
-            {"deltaE00_p95", number(error.delta_e_95)},
-            {"flip_mean", number(error.flip)}};
+    return {{"error", study_number(error.mean)},
+            {"rmse", study_number(error.rmse)},
+            {"psnr", study_number(error.psnr)},
+            {"deltaE00_mean", study_number(error.delta_e_mean)},
+            {"deltaE00_p95", study_number(error.delta_e_95)},
+            {"flip_mean", study_number(error.flip)}};
 }
 
 OrderedJson effects_of(const RenderStats& stats) {
@@ -32,7 +32,7 @@ OrderedJson effects_of(const RenderStats& stats) {
         effects.push_back({{"name", name_of(decision.effect)},
                            {"on", decision.on},
                            {"why", decision.why},
-                           {"error_bound", number(decision.error_bound)}});
+                           {"error_bound", study_number(decision.error_bound)}});
     }
     return effects;
 }
@@ -79,7 +79,7 @@ OrderedJson row_of(const StudiedRender& render) {
                                                                          : "split"}};
     row.update(errors(render.error));
     row.update(
-        OrderedJson{{"claimed_error", number(render.claimed_error)},
+        OrderedJson{{"claimed_error", study_number(render.claimed_error)},
                     {"at_noise", render.at_noise},
                     {"runs", render.runs},
                     {"cpu_seconds", render.cpu.median},
@@ -117,20 +117,20 @@ std::string scene_study_json(const SceneStudy& study) {
                            {"tolerance", reference.tolerance},
                            {"depth", reference.stats.depth},
                            {"wavelengths", reference.stats.wavelengths_nm.size()},
-                           {"error_bound", number(reference.stats.error_bound)},
+                           {"error_bound", study_number(reference.stats.error_bound)},
                            {"noise", errors(reference.noise)},
                            {"cpu_seconds", reference.cpu_seconds},
                            {"ended", reference.ended},
                            {"stone_pixels", reference.stone_pixels},
-                           {"mean_radiance", number(reference.mean_radiance)},
-                           {"white", number(reference.white)},
+                           {"mean_radiance", study_number(reference.mean_radiance)},
+                           {"white", study_number(reference.white)},
                            {"effects", effects_of(reference.stats)}};
     OrderedJson rows = OrderedJson::array();
     for (const StudiedRender& render : study.renders) {
         OrderedJson row = row_of(render);
         row["effects"] = effects_of(render.stats);
         row["error_bound"] =
-            render.automatic ? number(render.stats.error_bound) : OrderedJson(nullptr);
+            render.automatic ? study_number(render.stats.error_bound) : OrderedJson(nullptr);
         if (render.stats.plan) row["plan"] = OrderedJson::parse(plan_json(*render.stats.plan));
         rows.push_back(std::move(row));
     }
@@ -142,7 +142,7 @@ std::string scene_study_json(const SceneStudy& study) {
                           {"cheapest", id_or_null(one.cheapest)},
                           {"automatic", id_or_null(one.automatic)},
                           {"automatic_meets", one.automatic_meets},
-                          {"automatic_over_cheapest", number(one.ratio)},
+                          {"automatic_over_cheapest", study_number(one.ratio)},
                           {"words", one.words}});
     }
     object["recommendations"] = std::move(advice);

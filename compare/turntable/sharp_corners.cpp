@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "stone/solid/plan.h"
+
 namespace culet {
 
 namespace {
@@ -33,10 +35,6 @@ Line line_through(const std::vector<glm::dvec2>& points) {
     }
     const double angle = std::atan2(2 * xy, xx - yy) / 2;
     return {mean, {std::cos(angle), std::sin(angle)}};
-}
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-    return a.x * b.y - a.y * b.x;
 }
 
 std::optional<glm::dvec2> crossing_of(const Line& a, const Line& b) {

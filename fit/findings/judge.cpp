@@ -20,14 +20,14 @@ namespace {
 // Promise to the user: corners lie on their planes within this part of the diameter.
 constexpr double k_planarity = 1e-12;
 
-struct Verdict {
+struct Judgement {
     FitStatus status = FitStatus::converged;
     std::string message;
 };
-using MaybeVerdict = std::optional<Verdict>;
+using MaybeJudgement = std::optional<Judgement>;
 
-MaybeVerdict no_stone(std::string why) {
-    return Verdict{FitStatus::not_converged, std::move(why)};
+MaybeJudgement no_stone(std::string why) {
+    return Judgement{FitStatus::not_converged, std::move(why)};
 }
 
 struct Fit {
@@ -59,7 +59,7 @@ std::string suspect_words(const Fit& fit) {
     return text;
 }
 
-MaybeVerdict exact_contradiction(const Fit& fit) {
+MaybeJudgement exact_contradiction(const Fit& fit) {
     std::vector<std::string> broken;
     for (std::size_t r = 0; r < fit.model.readings().size(); ++r) {
         const Reading& reading = fit.model.readings()[r];
@@ -69,10 +69,11 @@ MaybeVerdict exact_contradiction(const Fit& fit) {
         }
     }
     if (broken.empty()) return {};
-    return Verdict{FitStatus::contradictory, "exact readings contradict each other: " +
-                                                 name_list(fit.result.findings.disagreeing.empty()
-                                                               ? broken
-                                                               : fit.result.findings.disagreeing)};
+    return Judgement{
+        FitStatus::contradictory,
+        "exact readings contradict each other: " +
+            name_list(fit.result.findings.disagreeing.empty() ? broken
+                                                              : fit.result.findings.disagreeing)};
 }
 
 // Names degenerate facets and edges.
@@ -92,7 +93,7 @@ std::string in_the_way(const Solid& solid) {
     return text;
 }
 
-MaybeVerdict denied_topology(const Fit& fit) {
+MaybeJudgement denied_topology(const Fit& fit) {
     if (!fit.result.checks.missing_facets.empty()) {
         return no_stone("the fitted planes leave no room for facet " +
                         name_list(fit.result.checks.missing_facets));
@@ -114,7 +115,7 @@ MaybeVerdict denied_topology(const Fit& fit) {
         name_list(fit.result.findings.vanishing_edges), fit.result.findings.vanishing_chi2));
 }
 
-MaybeVerdict unsound_solid(const Fit& fit) {
+MaybeJudgement unsound_solid(const Fit& fit) {
     const bool must_be_convex = fit.model.stone().convex;
     const SolidChecks& checks = fit.result.checks;
     const std::string unsound = !checks.closed                     ? "closed"
@@ -136,11 +137,11 @@ MaybeVerdict unsound_solid(const Fit& fit) {
     return {};
 }
 
-MaybeVerdict unsettled(const Fit& fit) {
+MaybeJudgement unsettled(const Fit& fit) {
     // Before convergence, because steps creep next to an edge without length.
     for (const ShapeFinding& f : fit.result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < fit.level) {
-            return Verdict{FitStatus::contradictory, f.what + "; use --allow-topology"};
+            return Judgement{FitStatus::contradictory, f.what + "; use --allow-topology"};
         }
     }
     if (fit.finished.converged) return {};
@@ -150,10 +151,10 @@ MaybeVerdict unsettled(const Fit& fit) {
                     fit.finished.iterations));
 }
 
-MaybeVerdict disagreement(const Fit& fit) {
+MaybeJudgement disagreement(const Fit& fit) {
     const FitStatistics& statistics = fit.result.statistics;
     if (statistics.dof > 0 && statistics.chi2_p < fit.level) {
-        return Verdict{
+        return Judgement{
             FitStatus::contradictory,
             fmt::format("the readings do not agree within their uncertainties (chi-square {:.1f}; "
                         "{:.1f} expected; above {:.1f} in {:g} of cases){}",
@@ -161,15 +162,15 @@ MaybeVerdict disagreement(const Fit& fit) {
                         suspect_words(fit))};
     }
     if (fit.result.findings.suspects.empty()) return {};
-    return Verdict{FitStatus::contradictory,
-                   "readings that disagree with the others" + suspect_words(fit)};
+    return Judgement{FitStatus::contradictory,
+                     "readings that disagree with the others" + suspect_words(fit)};
 }
 
-MaybeVerdict undetermined(const Fit& fit) {
+MaybeJudgement undetermined(const Fit& fit) {
     if (fit.result.statistics.rank_defect <= 0) return {};
     std::set<std::string> facets;
     for (const Undetermined& u : fit.result.findings.undetermined) facets.insert(u.facet);
-    return Verdict{
+    return Judgement{
         FitStatus::undetermined,
         fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
                     "the mesh{}; {}",
@@ -205,10 +206,10 @@ std::string too_good(const Fit& fit) {
 }
 
 // The most serious first: later ones mean nothing beside an earlier one.
-Verdict verdict_on(const Fit& fit) {
+Judgement verdict_on(const Fit& fit) {
     for (const auto& verdict : {exact_contradiction, denied_topology, unsound_solid, unsettled,
                                 disagreement, undetermined}) {
-        if (MaybeVerdict found = verdict(fit)) return *found;
+        if (MaybeJudgement found = verdict(fit)) return *found;
     }
     return {
         FitStatus::converged,
@@ -221,7 +222,7 @@ Verdict verdict_on(const Fit& fit) {
 void judge(const FitModel& model, const Finished& finished, const Diagnosis& diagnosis,
            FitResult& result) {
     const Fit fit{model, finished, diagnosis, result};
-    const Verdict verdict = verdict_on(fit);
+    const Judgement verdict = verdict_on(fit);
     const bool stands = verdict.status != FitStatus::not_converged;
     const std::string note = stands ? too_good(fit) : "";
     if (!note.empty()) result.log.notes.push_back(note);

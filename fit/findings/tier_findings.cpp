@@ -16,7 +16,7 @@ namespace culet {
 namespace {
 
 // Chance produces a finding once in a hundred tiers.
-constexpr double k_level = 0.01;
+constexpr double k_split_level = 0.01;
 constexpr std::size_t k_fewest = 3;
 
 struct Read {
@@ -144,7 +144,7 @@ void find_odd(const Stone& stone, std::vector<Read> reads, const NamedTier& tier
     std::size_t left = (reads.size() - 1) / 2;
     while (left > 0 && reads.size() >= k_fewest) {
         const Split split = best_split(reads, left);
-        if (!(split.p < k_level) || !were_meant_alike(reads, split, tier)) break;
+        if (!(split.p < k_split_level) || !were_meant_alike(reads, split, tier)) break;
         OddFacets odd;
         std::vector<int> facets;
         for (std::size_t i = split.from; i < split.to; ++i) facets.push_back(reads[i].facet);

@@ -22,7 +22,7 @@ constexpr int k_pbrt_depth = 100;
 constexpr int k_pbrt_samples = 256;
 // PBRT samples from 360 to 830 nm and uses 0 where a spectrum has no value; culet's wavelengths are
 // from 380 to 780.
-constexpr double k_first_nm = 360, k_last_nm = 830, k_step_nm = 10;
+constexpr double k_pbrt_first_nm = 360, k_pbrt_last_nm = 830, k_pbrt_step_nm = 10;
 constexpr double k_first_seen_nm = 380, k_last_seen_nm = 780;
 
 std::string numbers(const Vec3& v) {
@@ -35,7 +35,7 @@ std::string numbers(const Rgb& c) {
 template <class At>
 std::string spectrum(const char* name, const At& at) {
     std::string text = fmt::format("\"spectrum {}\" [", name);
-    for (double nm = k_first_nm; nm <= k_last_nm; nm += k_step_nm) {
+    for (double nm = k_pbrt_first_nm; nm <= k_pbrt_last_nm; nm += k_pbrt_step_nm) {
         const double known = std::clamp(nm, k_first_seen_nm, k_last_seen_nm);
         text += fmt::format(" {} {}", nm, at(known));
     }

@@ -7,15 +7,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "stone/solid/plan.h"
 #include "stone/text/errors.h"
 
 namespace culet {
 
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 // Intersection of the lines of two neighbouring mains.
 Vec2 crossing(const Vec2& p, const Vec2& u, const Vec2& q, const Vec2& v) {

@@ -11,8 +11,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
-
 // Outward normal of the way from a to b: angle from outward, counter-clockwise; -pi/2 is down.
 double normal_angle(const PlanPoint& a, const PlanPoint& b) {
     return std::atan2(-(b.x - a.x), b.y - a.y);
@@ -24,10 +22,10 @@ PlanPoint at_angle(double angle) {
 
 // Normal angles before the first corner, of every side, and after the last corner.
 std::vector<double> normal_angles(const std::vector<PlanPoint>& hull) {
-    std::vector<double> angles{-k_pi / 2};
+    std::vector<double> angles{-std::numbers::pi / 2};
     for (std::size_t i = 0; i + 1 < hull.size(); ++i)
         angles.push_back(normal_angle(hull[i], hull[i + 1]));
-    angles.push_back(k_pi / 2);
+    angles.push_back(std::numbers::pi / 2);
     return angles;
 }
 
@@ -93,7 +91,8 @@ std::vector<PlanPoint> curve_beside(const std::vector<PlanPoint>& hull, double d
     std::vector<PlanPoint> curve;
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const double turn = angles[i + 1] - angles[i];
-        const int chords = std::max(1, static_cast<int>(std::ceil(turn * steps / (2 * k_pi))));
+        const int chords =
+            std::max(1, static_cast<int>(std::ceil(turn * steps / (2 * std::numbers::pi))));
         for (int k = 0; k <= chords; ++k)
             curve.push_back(hull[i] + distance * at_angle(angles[i] + turn * k / chords));
     }
@@ -148,7 +147,7 @@ std::vector<PlanPoint> line_beside(const std::vector<PlanPoint>& hull, double di
     std::vector<Touching> lines;
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const double turn = angles[i + 1] - angles[i];
-        const int parts = std::max(1, static_cast<int>(std::ceil(turn / (k_pi / 4))));
+        const int parts = std::max(1, static_cast<int>(std::ceil(turn / (std::numbers::pi / 4))));
         for (int k = i == 0 ? 0 : 1; k <= parts; ++k)
             lines.push_back({hull[i], angles[i] + turn * k / parts});
     }

@@ -3,44 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <numbers>
-#include <numeric>
+
+#include "stone/solid/plan.h"
 
 namespace culet {
 
 namespace {
 
 constexpr double k_round = 1.05;
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
-
-// Andrew's monotone chain (1979), counter-clockwise; drops corners within rounding of an edge.
-std::vector<int> hull_of(const std::vector<Vec2>& points, double size) {
-    const auto at = [&](int p) -> const Vec2& { return points[std::size_t(p)]; };
-    std::vector<int> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-        return std::pair(at(a).x, at(a).y) < std::pair(at(b).x, at(b).y);
-    });
-    std::vector<int> hull;
-    for (int pass = 0; pass < 2; ++pass) {
-        const std::size_t begin = hull.size();
-        for (const int p : order) {
-            while (hull.size() >= begin + 2 &&
-                   cross(at(hull.back()) - at(hull[hull.size() - 2]), at(p) - at(hull.back())) <=
-                       1e-12 * size * size) {
-                hull.pop_back();
-            }
-            hull.push_back(p);
-        }
-        hull.pop_back();
-        std::reverse(order.begin(), order.end());
-    }
-    return hull;
-}
 
 double half_turn(const Vec2& direction) {
     const double angle =
@@ -70,7 +41,9 @@ CaliperWidths caliper_widths(const Solid& solid, const Vec3& up) {
         points.push_back({glm::dot(frame.x, v), glm::dot(frame.y, v)});
     }
     if (points.size() < 3) return widths;
-    widths.outline = hull_of(points, diameter(solid));
+    const double size = diameter(solid);
+    // Drops corners within rounding of an edge.
+    widths.outline = hull_corners(points, 1e-12 * size * size);
     if (widths.outline.size() < 3) return {};
     std::vector<Vec2> hull;
     for (const int p : widths.outline) hull.push_back(points[std::size_t(p)]);

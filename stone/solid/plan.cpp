@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "stone/text/errors.h"
 
@@ -26,21 +27,32 @@ PlanPoint corner_speed(const PlanPoint& a, const PlanPoint& b) {
 
 }  // namespace
 
-PlanOutline convex_hull(std::vector<PlanPoint> points) {
-    std::sort(points.begin(), points.end(), [](const PlanPoint& a, const PlanPoint& b) {
-        return a.x < b.x || (a.x == b.x && a.y < b.y);
+std::vector<int> hull_corners(const std::vector<PlanPoint>& points, double least_area) {
+    const auto at = [&](int p) -> const PlanPoint& { return points[std::size_t(p)]; };
+    std::vector<int> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+        return std::pair(at(a).x, at(a).y) < std::pair(at(b).x, at(b).y);
     });
+    std::vector<int> hull;
+    for (int pass = 0; pass < 2; ++pass) {
+        const std::size_t begin = hull.size();
+        for (const int p : order) {
+            while (hull.size() >= begin + 2 && cross(at(hull.back()) - at(hull[hull.size() - 2]),
+                                                     at(p) - at(hull.back())) <= least_area) {
+                hull.pop_back();
+            }
+            hull.push_back(p);
+        }
+        hull.pop_back();
+        std::reverse(order.begin(), order.end());
+    }
+    return hull;
+}
+
+PlanOutline convex_hull(const std::vector<PlanPoint>& points) {
     PlanOutline hull;
-    const auto add = [&hull](const PlanPoint& point, std::size_t least) {
-        while (hull.size() > least &&
-               cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-            hull.pop_back();
-        hull.push_back(point);
-    };
-    for (const PlanPoint& point : points) add(point, 1);
-    const std::size_t lower = hull.size();
-    for (std::size_t i = points.size(); i-- > 0;) add(points[i], lower);
-    hull.pop_back();
+    for (const int p : hull_corners(points, 0)) hull.push_back(points[std::size_t(p)]);
     return hull;
 }
 

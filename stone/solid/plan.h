@@ -1,7 +1,6 @@
 #pragma once
 // Outlines seen from above, and how to offset them.
 
-#include <glm/vec2.hpp>
 #include <vector>
 
 #include "stone/solid/solid.h"
@@ -9,7 +8,7 @@
 namespace culet {
 
 /// A point of a plan; or of an upright section, with x outward and y up.
-using PlanPoint = glm::dvec2;
+using PlanPoint = Vec2;
 
 inline double cross(const PlanPoint& a, const PlanPoint& b) {
     return a.x * b.y - a.y * b.x;
@@ -29,8 +28,11 @@ struct GirdleOutline {
 /// section.
 GirdleOutline girdle_outline(const Solid& solid);
 
-/// Convex hull (Andrew 1979), counter-clockwise, without points on straight edges.
-PlanOutline convex_hull(std::vector<PlanPoint> points);
+/// Convex hull (Andrew's monotone chain, 1979): indices of its corners, counter-clockwise, without
+/// those that make a parallelogram of at most `least_area` with their neighbours.
+std::vector<int> hull_corners(const std::vector<PlanPoint>& points, double least_area);
+/// Its points, without those on straight edges.
+PlanOutline convex_hull(const std::vector<PlanPoint>& points);
 
 /// Moves the edges outward by `distance` (inward where negative) and intersects them in sharp
 /// corners; point i is where corner i goes. Corners whose edges vanish go to one point (the edge
