@@ -3,6 +3,12 @@
 const window_id = crypto.getRandomValues(new Uint32Array(2)).join("-");
 const by_id = (id) => document.getElementById(id);
 
+/** "about N s left" of work begun at `began` (performance.now()); "" while too little is done to say so. */
+function time_left(began, fraction) {
+  const gone = (performance.now() - began) / 1000, left = gone * (1 - fraction) / fraction;
+  return fraction > 0.05 && gone > 2 && left < 3600 ? `about ${Math.max(1, Math.round(left))} s left` : "";
+}
+
 /** An element with attributes (`on...`: a listener) and children. */
 function made(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);

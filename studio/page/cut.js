@@ -66,14 +66,13 @@ class CutScreen {
   show_work(cut) {
     by_id("cut-work").hidden = !cut.runs;
     by_id("cut-progress").value = cut.fraction;
-    this.began = cut.runs ? this.began || Date.now() : 0;
+    this.began = cut.runs ? this.began || performance.now() : 0;
     for (const id of ["cut-optimise", "cut-grade"]) by_id(id).disabled = Boolean(cut.runs);
   }
 
   progress(fraction) {
     by_id("cut-progress").value = fraction;
-    const gone = (Date.now() - this.began) / 1000;
-    by_id("cut-left").textContent = fraction > 0.05 && gone > 2 ? `about ${Math.ceil(gone / fraction * (1 - fraction))} s left` : "";
+    by_id("cut-left").textContent = time_left(this.began, fraction);
   }
 
   build(cut) {

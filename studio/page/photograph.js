@@ -136,8 +136,8 @@ class PhotographScreen {
     this.phase = phase;
     const bar = by_id("photo-progress");
     if (fraction > 0) bar.value = fraction; else bar.removeAttribute("value");
-    const left = (performance.now() - this.began) / 1000 * (1 - fraction) / fraction;
-    by_id("photo-left").textContent = (words[phase] || "") + (fraction > 0.08 && left < 3600 ? `, about ${Math.max(1, Math.round(left))} s left` : "…");
+    const left = time_left(this.began, fraction);
+    by_id("photo-left").textContent = (words[phase] || "") + (left ? `, ${left}` : "…");
   }
 
   async look_at_report() {
