@@ -31,6 +31,7 @@ if(NOT TARGET tomlplusplus::tomlplusplus)
   add_library(tomlplusplus::tomlplusplus ALIAS PkgConfig::tomlplusplus)
 endif()
 # The one library that culet can be built without: it reads STEP files.
+set(CULET_WITH_OPEN_CASCADE OFF)
 if(NOT CULET_OPEN_CASCADE STREQUAL "OFF")
   find_package(OpenCASCADE QUIET CONFIG)
   if(OpenCASCADE_FOUND)

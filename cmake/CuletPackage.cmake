@@ -34,6 +34,9 @@ set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "${about}\nThese are its static libraries, 
 # What find_package(culet) looks for: what culet is built from, but for tools and what the program alone uses.
 file(STRINGS ${CMAKE_SOURCE_DIR}/.ci/packages.txt needed REGEX "^(lib|nlohmann|pkg-config|zlib)")
 list(FILTER needed EXCLUDE REGEX "^lib(cpp-httplib|egl|gles)-dev$")
+if(CULET_WITH_OPEN_CASCADE)
+  list(APPEND needed libocct-data-exchange-dev)
+endif()
 list(JOIN needed ", " CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS)
 
 # Debian's own files of both packages.
