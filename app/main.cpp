@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "app/program/options.h"
 #include "app/program/terminal.h"
@@ -106,7 +107,11 @@ int main(int argc, char** argv) {
     // killing the program.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
-        return run(argc, argv);
+        const int exit_code = run(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            return complain(culet::exit_impossible,
+                            "standard output could not be written: is the disk full?");
+        return exit_code;
     } catch (const culet::InputError& error) {
         return complain(culet::exit_impossible, error.what());
     } catch (const culet::Interrupted&) {
@@ -115,6 +120,9 @@ int main(int argc, char** argv) {
         return complain(
             culet::exit_internal,
             fmt::format("{} (an error in culet itself: please report it)", error.what()));
+    } catch (const std::system_error& error) {
+        return complain(culet::exit_impossible,
+                        fmt::format("the system refused: {}", error.what()));
     } catch (const std::bad_alloc&) {
         return complain(culet::exit_impossible, "not enough memory for this input");
     } catch (const std::exception& error) {

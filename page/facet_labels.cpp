@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "stone/solid/plan.h"
+
 namespace culet {
 
 namespace {
@@ -40,17 +42,8 @@ struct Fitted {
     double size = 0;
 };
 
-double signed_area(const std::vector<glm::dvec2>& corners) {
-    double twice = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
-        twice += a.x * b.y - a.y * b.x;
-    }
-    return 0.5 * twice;
-}
-
 glm::dvec2 centre_of(const std::vector<glm::dvec2>& corners) {
-    const double area = signed_area(corners);
+    const double area = area_of(corners);
     glm::dvec2 sum(0, 0), mean(0, 0);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -70,7 +63,7 @@ Fitted largest_box(const std::vector<glm::dvec2>& corners, double half_width, do
         double offset, reach;
     };
     std::vector<Side> sides;
-    const double turn = signed_area(corners) >= 0 ? 1 : -1;
+    const double turn = area_of(corners) >= 0 ? 1 : -1;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec2 a = corners[i], along = corners[(i + 1) % corners.size()] - a;
         const double length = glm::length(along);

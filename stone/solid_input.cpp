@@ -101,6 +101,7 @@ SolidInput solid_in(const std::filesystem::path& file, const std::string* held,
     if (held != nullptr && !format)
         throw InputError(file, "is not read here: .obj, .off, .ply, .stl, .asc and .gem are");
     if (!format && !is_gltf(file) && !is_step(file)) {
+        require_file(file);
         if (const std::string other = foreign_kind_of(file); !other.empty())
             throw InputError(file, other);
         throw InputError(file,

@@ -33,13 +33,6 @@ struct PlanCorner {
     double height = 0;
 };
 
-double area_of(const PlanOutline& outline) {
-    double twice = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i)
-        twice += cross(outline[i], outline[(i + 1) % outline.size()]);
-    return twice / 2;
-}
-
 class TableTest {
 public:
     TableTest(const Solid& solid, const std::vector<double>& areas)

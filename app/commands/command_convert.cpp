@@ -216,7 +216,7 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         "  culet convert --width 6.5mm design.asc stone.obj\n"
         "  culet convert design.gcs design.asc\n"
         "  culet convert scan.stl scan.ply\n"
-        "  culet convert fitted.obj recut.asc --material tourmaline\n"
+        "  culet convert fitted.obj recut.asc --material tourmaline_green\n"
         "  culet convert --width 6.5mm --material diamond design.asc stone.glb\n"
         "  culet convert --clearance 0.05mm fitted.obj seat.step\n"
         "  culet convert scene.toml scene.pov --set render.depth=9\n"

@@ -163,12 +163,14 @@ Description describe_file(const DescribeOptions& options) {
         default:
             break;
     }
+    require_file(options.file);
     if (const std::string other = foreign_kind_of(options.file); !other.empty())
         throw InputError(options.file, other);
-    throw InputError(options.file,
-                     "is of an unknown kind: info reads meshes and cuts (.obj .off .ply .stl .asc "
-                     ".gem .gcs), stones, scenes and materials (.toml), pictures (.exr .hdr .png "
-                     ".jpg), and ray tables (.rays)");
+    throw InputError(
+        options.file,
+        "is of an unknown kind: info reads meshes and cuts (.obj .off .ply .stl .glb "
+        ".step .asc .gem .gcs), stones, scenes and materials (.toml), pictures (.exr .hdr .png "
+        ".jpg), and ray tables (.rays)");
 }
 
 namespace {

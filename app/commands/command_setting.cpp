@@ -228,8 +228,9 @@ void add_command_setting(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand(
         "setting", "the metal that holds a stone: prongs or a bezel, and a ring, as a mesh");
     command
-        ->add_option("STONE", options->stone,
-                     "stone file (.toml), mesh (.obj .off .ply .stl) or cut (.asc .gem .gcs)")
+        ->add_option(
+            "STONE", options->stone,
+            "stone file (.toml), mesh (.obj .off .ply .stl .glb .step) or cut (.asc .gem .gcs)")
         ->required();
     command->add_option("-o,--output", options->out, "mesh of the metal: .obj .off .ply .stl")
         ->required()

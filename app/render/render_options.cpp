@@ -90,9 +90,10 @@ void add_film(CLI::App& command, RenderOptions& options) {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
     command
-        .add_option("scene", options.scene,
-                    "scene or stone file, or a mesh (.obj .off .ply .stl) or cut design (.asc "
-                    ".gem .gcs), which is shown face up")
+        .add_option(
+            "scene", options.scene,
+            "scene or stone file, or a mesh (.obj .off .ply .stl .glb .step) or cut design (.asc "
+            ".gem .gcs), which is shown face up")
         ->required()
         ->type_name("SCENE.toml|STONE");
     command

@@ -12,9 +12,10 @@ page() { # NAME SUMMARY WORDS...: the help of "culet WORDS"
     # help2man runs what it is given through the shell.
     help2man --no-info --no-discard-stderr --section=1 --source="$version" --manual="culet" \
         --version-string="$version" --name="$summary" --output="$folder/$name.1" "$program $*"
-    # It takes every page for that of the program.
+    # It takes every page for that of the program, and fills the lines of examples.
     title=$(echo "$name" | tr '[:lower:]' '[:upper:]')
-    sed -i "s/^\\.TH CULET /.TH $title /" "$folder/$name.1"
+    sed -i -e "s/^\\.TH CULET /.TH $title /" -e "s/^culet \\\\- /$name \\\\- /" \
+        -e 's/^Examples:$/.SH EXAMPLES/' -e '/^\.SH EXAMPLES/,$ { s/^\.IP$/.nf/; s/^\.PP$/.fi/ }' "$folder/$name.1"
     gzip -9nf "$folder/$name.1"
 }
 page culet "fit, render and compare models of cut gemstones"

@@ -35,7 +35,7 @@ constexpr double k_same_scale = 0.02;
 using Square = Eigen::Matrix<double, k_view_parameters, k_view_parameters>;
 
 // 0 if there are none.
-double median(std::vector<double> values) {
+double median_or_zero(std::vector<double> values) {
     return values.empty() ? 0 : upper_median(std::move(values));
 }
 
@@ -111,7 +111,7 @@ public:
         std::vector<double> sizes;
         for (std::ptrdiff_t i = 0; i < kept; ++i)
             sizes.push_back(by_structure[std::size_t(i)].second);
-        return std::max(1.4826 * median(std::move(sizes)), 1e-3);
+        return std::max(1.4826 * median_or_zero(std::move(sizes)), 1e-3);
     }
 
 private:
@@ -164,7 +164,7 @@ public:
         const double share = result.correspondences > 0
                                  ? std::min(1.0, result.correspondences / std::max(all, 1.0))
                                  : 1;
-        result.at[k_gain] -= median(std::move(known));
+        result.at[k_gain] -= median_or_zero(std::move(known));
         differences.PrepareForEvaluation(false, true);
         double scale = differences.scale();
         for (int round = 0; round < k_scale_rounds; ++round) {
@@ -177,7 +177,7 @@ public:
         set_sigma(differences, scale, share, all, result);
         std::vector<double> sizes = differences.known();
         for (double& size : sizes) size = std::abs(size);
-        result.residual = median(std::move(sizes));
+        result.residual = median_or_zero(std::move(sizes));
         return result;
     }
 

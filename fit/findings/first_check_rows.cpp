@@ -148,12 +148,6 @@ std::vector<CheckedRow> checked_rows(const Stone& stone, const std::vector<Readi
     return rows;
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 double robust_sigma(const std::vector<double>& values) {
     if (values.size() < 3) return 0;
     const double middle = median(values);

@@ -5,6 +5,7 @@
 
 #include "fit/findings/first_check.h"
 #include "fit/readings/named_tiers.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 
@@ -28,7 +29,6 @@ struct CheckedRow {
 std::vector<CheckedRow> checked_rows(const Stone& stone, const std::vector<Reading>& readings,
                                      const Vec3& up, const std::vector<NamedTier>& tiers);
 
-double median(std::vector<double> values);
 /// Median absolute deviation / 0.6745 (Rousseeuw & Croux 1993). 0 for fewer than three.
 double robust_sigma(const std::vector<double>& values);
 

@@ -13,6 +13,7 @@
 #include "stone/material/material_io.h"
 #include "stone/solid_input.h"
 #include "stone/text/errors.h"
+#include "stone/text/output_file.h"
 #include "stone/text/text_scan.h"
 #include "stone/text/toml_file.h"
 
@@ -31,9 +32,10 @@ InputKind input_kind_of(const std::filesystem::path& file) {
     if (extension == "asc" || extension == "gem") return InputKind::cut;
     if (is_solid_file(file)) return InputKind::mesh;
     if (extension != "toml") {
-        throw InputError(file,
-                         "is not a scene, stone (.toml), mesh (.obj .off .ply .stl .glb) or cut "
-                         "design (.asc .gem .gcs)");
+        throw InputError(
+            file,
+            "is not a scene, stone (.toml), mesh (.obj .off .ply .stl .glb .step) or cut "
+            "design (.asc .gem .gcs)");
     }
     const TomlTable root = read_toml(file);
     if (root.kind("stone") == TomlTable::Kind::table) return InputKind::stone;
@@ -58,6 +60,7 @@ std::string materials_of_index(double index) {
 }
 
 [[noreturn]] void ask_for_material(const std::filesystem::path& file, InputKind kind) {
+    require_file(file);
     std::string hint = "e.g. --material diamond";
     if (kind == InputKind::cut) {
         const auto index = read_solid(file).solid.design->refractive_index;

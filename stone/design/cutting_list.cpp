@@ -7,6 +7,7 @@
 
 #include "stone/design/cut_depth.h"
 #include "stone/numbers/units.h"
+#include "stone/numbers/upper_median.h"
 
 namespace culet {
 
@@ -16,13 +17,6 @@ namespace {
 constexpr double k_same_deg = 0.005;
 // Teeth: the rounding error between a design's own planes and its index settings.
 constexpr double k_exact_index = 1e-3;
-
-double median_of(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
 
 class Lister {
 public:
@@ -102,7 +96,7 @@ private:
                 most = std::max(most, std::abs(off.back()));
             }
         }
-        turn_ = most < k_exact_index ? 0 : median_of(std::move(off));
+        turn_ = most < k_exact_index ? 0 : median(std::move(off));
     }
 
     CuttingStep step_of(const DesignTier& tier) const {
@@ -122,7 +116,7 @@ private:
         const bool as_designed = std::all_of(angles.begin(), angles.end(), [&](double angle) {
             return std::abs(angle - tier.setting.angle_deg) < k_same_deg;
         });
-        step.angle_deg = as_designed ? tier.setting.angle_deg : median_of(angles);
+        step.angle_deg = as_designed ? tier.setting.angle_deg : median(angles);
         if (angles.empty()) angles.push_back(step.angle_deg);
         step.least_angle_deg = *std::min_element(angles.begin(), angles.end());
         step.most_angle_deg = *std::max_element(angles.begin(), angles.end());

@@ -56,6 +56,13 @@ PlanOutline convex_hull(const std::vector<PlanPoint>& points) {
     return hull;
 }
 
+double area_of(const PlanOutline& outline) {
+    double twice = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        twice += cross(outline[i], outline[(i + 1) % outline.size()]);
+    return twice / 2;
+}
+
 PlanOutline moved_outline(const PlanOutline& outline, double distance) {
     const std::size_t count = outline.size();
     const double sign = distance < 0 ? -1 : 1;

@@ -28,6 +28,9 @@ struct GirdleOutline {
 /// section.
 GirdleOutline girdle_outline(const Solid& solid);
 
+/// Negative for a clockwise outline.
+double area_of(const PlanOutline& outline);
+
 /// Convex hull (Andrew's monotone chain, 1979): indices of its corners, counter-clockwise, without
 /// those that make a parallelogram of at most `least_area` with their neighbours.
 std::vector<int> hull_corners(const std::vector<PlanPoint>& points, double least_area);

@@ -85,11 +85,16 @@ void write_text(const fs::path& target, std::string_view text) {
     file.commit();
 }
 
-std::string read_text(const fs::path& file, std::size_t limit_bytes) {
+void require_file(const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error)) throw InputError(file, "no such file");
     if (fs::is_directory(file, error)) throw InputError(file, "is a folder, not a file");
     if (!fs::is_regular_file(file, error)) throw InputError(file, "is not a regular file");
+}
+
+std::string read_text(const fs::path& file, std::size_t limit_bytes) {
+    require_file(file);
+    std::error_code error;
     const auto size = fs::file_size(file, error);
     if (error) throw InputError(file, fmt::format("cannot be read: {}", error.message()));
     if (size > limit_bytes) {

@@ -32,6 +32,10 @@ void require_writable(const std::filesystem::path& target);
 /// Writes completely or not at all; `-` is stdout.
 void write_text(const std::filesystem::path& target, std::string_view text);
 
+/// Throws InputError when the file is missing, or no regular file. Call it before complaining about
+/// what a name says.
+void require_file(const std::filesystem::path& file);
+
 /// Throws InputError when the file is missing, a folder, not readable, or larger than
 /// `limit_bytes`.
 std::string read_text(const std::filesystem::path& file, std::size_t limit_bytes = 256u << 20);

@@ -51,6 +51,8 @@ batch --merge batch
 study SAMPLES/cutters-evening/mended.toml --budget 2 --draws 2 -o study-1
 study SAMPLES/effects/garnet-depth.toml --budget 2 -o study-2
 compare SAMPLES/dravite-step/simulated-photo.png SAMPLES/dravite-step/simulated-photo.png -o report --json scores.json
+render SAMPLES/cutters-evening/scene.toml -o parallel.exr --size 120
+register parallel.exr SAMPLES/cutters-evening/scene.toml -o posed.toml --json pose-parallel.json
 outline FRAMES --step 30 --pixel 0.02 -o contours.json
 """
 FRAMES = " ".join(f"turn-{frame:02}.png" for frame in range(12))
