@@ -33,7 +33,6 @@ void take_material(const GradeChoices& choices, GradeInput& input) {
     input.notes.insert(input.notes.end(), said.begin(), said.end());
     if (choices.index) input.index = choices.index;
     if (!input.has_material && !input.index) {
-        require_file(input.file);
         throw InputError(input.file,
                          "names no material: say which with --material NAME (culet info "
                          "--materials lists them), or --index N");
