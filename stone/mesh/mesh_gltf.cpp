@@ -373,7 +373,8 @@ TriangleMesh read_gltf(const std::filesystem::path& file) {
     const auto size = static_cast<unsigned>(bytes.size());
     const bool binary = bytes.compare(0, 4, "glTF") == 0;
     if (bytes.empty()) throw InputError(file, "is empty");
-    if (!binary && bytes.find_first_not_of(" \t\r\n") != bytes.find('{'))
+    // A byte order mark may stand before the brace.
+    if (!binary && bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n") != bytes.find('{'))
         throw InputError(file, "is not glTF: it begins neither with glTF nor with {");
     const std::string folder = file.parent_path().string();
     require_known_extensions(json_of(bytes, binary), file);

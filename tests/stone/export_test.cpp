@@ -185,6 +185,15 @@ TEST(Gltf, ComesBackWithItsNames) {
     }
 }
 
+// JSON (RFC 8259, 8.1): who reads it may pass over a byte order mark.
+TEST(Gltf, IsReadBehindAByteOrderMark) {
+    const test::ScratchFolder folder;
+    Stone stone;
+    stone.solid = make_cut("emerald");
+    write_text(folder / "a.gltf", "\xEF\xBB\xBF" + gltf_bytes(stone, std::nullopt, GltfForm::text));
+    EXPECT_EQ(load_solid(folder / "a.gltf").solid.facets.size(), stone.solid.facets.size());
+}
+
 // Parts of a ZIP archive that is not compressed, found by its directory (PKWARE's APPNOTE).
 std::map<std::string, std::string> parts_of(const std::string& zip) {
     const auto number = [&](std::size_t at, int size) {
